@@ -1,7 +1,7 @@
 """Compare ``scaffold.ament`` with the real Jazzy linters, finding by finding.
 
     python benchmarks/style_parity.py --flake8 PATH/ament_flake8 --pep257 PATH/ament_pep257 \
-        [--keep DIRECTORY] [--show CODE] [--mutants N [--seed N]] DIRECTORY...
+        [--keep DIRECTORY] [--show CODE] [--mutants N [--seed N] | --own] DIRECTORY...
 
 Every DIRECTORY is checked as one tree by ``ament_flake8`` and ``ament_pep257`` (they are run
 inside it, as a package's own tests do) and by ``scaffold.ament``. A finding is (file, line, code);
@@ -12,6 +12,9 @@ with a package.xml, else the DIRECTORY) in which the linters find something and 
 ``--mutants`` compares N copies of files from below all DIRECTORY instead, each with one edit: a
 line or a word that is gone, twice there or in another place, or a blank, a bracket, a quote too
 many. Python has to be of the version that the linters run on.
+
+``--own`` compares package by package instead, each linted with the command lines that its own tests
+use, and without any where they run neither linter.
 
 ``--keep`` stores what the linters said, so that they run only once for each directory.
 The exit status is 1 when there is a false pass.
@@ -37,6 +40,9 @@ from xml.etree import ElementTree as ET
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scaffold.ament import StyleCheck, backend
+from scaffold.ament.calls import linter_calls
+from scaffold.ament.finding import UNFOLLOWED
+from scaffold.check.adjustments import runs_linter
 from scaffold.files.tree import DiskTree
 from scaffold.model.package import Package
 
@@ -48,10 +54,15 @@ LINES_OF_EDITS = 0.5
 PEP257_CASE = re.compile(r"^(.+) \((.+):(\d+|-)\)$")
 
 
-def ament_flake8(executable: str, directory: Path) -> set[Finding]:
+def ament_flake8(executable: str, directory: Path, *arguments: str) -> set[Finding]:
     """Return what ament_flake8 reports for a directory; the findings of a crash are none."""
     done = subprocess.run(
-        [executable], cwd=directory, capture_output=True, text=True, check=False, errors="replace"
+        [executable, *arguments],
+        cwd=directory,
+        capture_output=True,
+        text=True,
+        check=False,
+        errors="replace",
     )
     if done.returncode not in (0, 1) or "files checked" not in done.stdout:
         raise SystemExit(f"{executable} failed in {directory}:\n{done.stderr[-2000:]}")
@@ -61,12 +72,12 @@ def ament_flake8(executable: str, directory: Path) -> set[Finding]:
     }
 
 
-def ament_pep257(executable: str, directory: Path) -> set[Finding]:
+def ament_pep257(executable: str, directory: Path, *arguments: str) -> set[Finding]:
     """Return what ament_pep257 reports for a directory; an unreadable file counts as E999."""
     with tempfile.TemporaryDirectory() as scratch:
         report = Path(scratch) / "pep257.xunit.xml"
         subprocess.run(
-            [executable, "--xunit-file", str(report)],
+            [executable, "--xunit-file", str(report), *arguments],
             cwd=directory,
             capture_output=True,
             check=False,
@@ -146,6 +157,43 @@ def ours(directory: Path) -> set[Finding]:
     package = Package(WholeTree(directory))
     found = StyleCheck([package]).diagnostics(package)
     return {(one.location.path, one.location.line, one.code) for one in found}
+
+
+def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
+    """Compare packages with the command lines of their own tests; return the exit status."""
+    tally = Tally()
+    for directory in (path.parent for top in directories for path in top.rglob("package.xml")):
+        package = Package.at(directory)
+        theirs = union(*(own_findings(args, package, linter) for linter in ("flake8", "pep257")))
+        nested = tuple(f"{path}/" for path in package.tree.nested)
+        theirs = {item for item in theirs if not item[0].startswith(nested)}
+        # The findings of a linter that is not run are ours alone.
+        mine = {
+            (one.location.path, one.location.line, one.code)
+            for one in StyleCheck([package]).diagnostics(package)
+            if one.code != UNFOLLOWED and runs_linter(package, one)
+        }
+        mine = without_lines(mine, theirs)
+        tally.add(directory, theirs, mine)
+        show(args, directory, theirs, mine)
+    tally.show()
+    return 1 if tally.passes["files"] else 0
+
+
+def own_findings(args: argparse.Namespace, package: Package, linter: str) -> set[Finding]:
+    """Return what the runs of a linter by the tests of a package report."""
+    run = {"flake8": ament_flake8, "pep257": ament_pep257}[linter]
+    found: set[Finding] = set()
+    for call in linter_calls(package, linter):
+        words = [word for word in call.arguments if word is not None]
+        if len(words) == len(call.arguments):
+            found |= run(getattr(args, linter), Path(package.directory), *words)
+    return {(relative(path, package), line, code) for path, line, code in found}
+
+
+def relative(path: str, package: Package) -> str:
+    """Return a path relative to a package."""
+    return os.path.relpath(os.path.join(package.directory, path), package.directory)
 
 
 def write_mutants(directories: Iterable[Path], count: int, seed: int, top: Path) -> None:
@@ -255,11 +303,14 @@ def main() -> int:
     parser.add_argument("--keep")
     parser.add_argument("--show", action="append", default=[], help="list differences of a code")
     parser.add_argument("--oracle-only", action="store_true")
+    parser.add_argument("--own", action="store_true", help="by the packages' own command lines")
     parser.add_argument("--mutants", type=int, metavar="N")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     # The bound on findings is for one package, and here a tree of many stands for one.
     vars(backend)["MOST_FINDINGS"] = sys.maxsize
+    if args.own:
+        return own(args, args.directories)
     if not args.mutants:
         return compare(args, args.directories)
     with tempfile.TemporaryDirectory() as scratch:
@@ -279,14 +330,21 @@ def compare(args: argparse.Namespace, directories: Iterable[Path]) -> int:
             continue
         mine = without_lines(ours(directory), theirs)
         tally.add(directory, theirs, mine)
-        for sign, difference in (("-", theirs - mine), ("+", mine - theirs)):
-            for path, line, code in sorted(difference):
-                if code in args.show or "all" in args.show:
-                    print(f"{sign} {directory / path}:{line}: {code}")
+        show(args, directory, theirs, mine)
     if args.oracle_only:
         return 0
     tally.show()
     return 1 if tally.passes["files"] else 0
+
+
+def show(
+    args: argparse.Namespace, directory: Path, theirs: set[Finding], mine: set[Finding]
+) -> None:
+    """Print the differences that are asked for."""
+    for sign, difference in (("-", theirs - mine), ("+", mine - theirs)):
+        for path, line, code in sorted(difference):
+            if code in args.show or "all" in args.show:
+                print(f"{sign} {directory / path}:{line}: {code}")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -43,14 +43,16 @@ class Finding(NamedTuple):
     code: str
 
 
-def ament_flake8(directory: Path, *options: str) -> set[Finding]:
-    """Return what ament_flake8 of the test environment finds, with Jazzy's configuration."""
-    return _run(_from_environment("ament_flake8"), directory, options, dict(os.environ))
+def ament_flake8(directory: Path, *options: str, paths: Sequence[str] = (".",)) -> set[Finding]:
+    """Return what ament_flake8 of the test environment finds, by default with Jazzy's options."""
+    program = _from_environment("ament_flake8")
+    return _run(program, directory, options, dict(os.environ), paths)
 
 
-def ament_pep257(directory: Path, *options: str) -> set[Finding]:
-    """Return what ament_pep257 of the test environment finds, with Jazzy's configuration."""
-    return _run(_from_environment("ament_pep257"), directory, options, dict(os.environ))
+def ament_pep257(directory: Path, *options: str, paths: Sequence[str] = (".",)) -> set[Finding]:
+    """Return what ament_pep257 of the test environment finds, by default with Jazzy's options."""
+    program = _from_environment("ament_pep257")
+    return _run(program, directory, options, dict(os.environ), paths)
 
 
 def ament_copyright(directory: Path, *options: str) -> set[Finding]:
@@ -147,12 +149,16 @@ def _from_system(name: str) -> str:
 
 
 def _run(
-    program: str, directory: Path, options: tuple[str, ...], environment: dict[str, str]
+    program: str,
+    directory: Path,
+    options: tuple[str, ...],
+    environment: dict[str, str],
+    paths: Sequence[str] = (".",),
 ) -> set[Finding]:
     """Run a linter where CMake and pytest run it: in the directory."""
     with tempfile.TemporaryDirectory() as scratch:
         report = Path(scratch, "report.xml")
-        command = [program, *options, "--xunit-file", str(report), "."]
+        command = [program, *options, "--xunit-file", str(report), *paths]
         done = subprocess.run(
             command,
             cwd=directory,

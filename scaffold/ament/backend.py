@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING
 
 from scaffold import time_limit
 from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
-from scaffold.ament.finding import CRASHED, UNPARSABLE, Finding
+from scaffold.ament.finding import CRASHED, UNFOLLOWED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
+from scaffold.ament.settings import Note, PackageSettings, Settings, settings_of
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.errors import EXHAUSTED, OutOfTimeError, ScaffoldError, exhausted
@@ -25,7 +28,11 @@ if TYPE_CHECKING:
     from scaffold.ament.ruff import RuffDiagnostic
 
 
-_OWN_CODES = {UNPARSABLE: "unparsable-file", CRASHED: "rule-crashed"}
+_OWN_CODES = {
+    UNPARSABLE: "unparsable-file",
+    CRASHED: "rule-crashed",
+    UNFOLLOWED: "style-not-judged",
+}
 """The codes of the engine that come from here, and their names."""
 
 
@@ -46,31 +53,48 @@ def _identity() -> str:
 class _File:
     """A file to check: read once, answered from the cache or by ruff and the own rules."""
 
-    def __init__(self, path: str, on_disk: str, data: bytes, linters: int) -> None:
+    def __init__(self, path: str, data: bytes, settings: Sequence[Settings]) -> None:
         self.path = path
-        self.on_disk = on_disk
+        self.on_disk = ""
         self.data = data
-        self.linters = linters
+        self.settings = settings
         self.key = ""
         self.findings: list[Finding] | None = None
         self.ran_out_of_time = False
 
+    @property
+    def linters(self) -> int:
+        """Those that look at it."""
+        return reduce(or_, (item.linters for item in self.settings), 0)
 
-def _unread(path: str, linters: int, why: str) -> _File:
-    file = _File(path, "", b"", linters)
-    file.findings = [Finding("E902", 1, 1, why, linters=linters)]
+
+def _unread(path: str, settings: Sequence[Settings], why: str) -> _File:
+    file = _File(path, b"", settings)
+    finding = Finding("E902", 1, 1, why, linters=file.linters)
+    linters = reduce(or_, (item.linters_of(finding) for item in settings), 0)
+    file.findings = [finding._replace(linters=linters)] if linters else []
     return file
 
 
 class StyleCheck:
-    """Checks the Python files of packages; ruff runs in the background from the start."""
+    """Checks the Python files of packages; ruff runs in the background from the start.
+
+    Args:
+        packages: The packages.
+        is_wanted: Tells whether a file of a package is to be checked.
+        is_reference: Whether the configuration of ament counts instead of a package's own.
+    """
 
     def __init__(
         self,
         packages: Sequence[Package],
         is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
+        *,
+        is_reference: bool = False,
     ) -> None:
         self._scratch = ""
+        self._is_reference = is_reference
+        self._notes: dict[int, list[Diagnostic]] = {}
         self._is_wanted = is_wanted
         self._run: ruff.Run | None = None
         self._cache = Cache.of_user(_identity)
@@ -90,8 +114,12 @@ class StyleCheck:
         return [item for found in self.by_file(package).values() for item in found]
 
     def by_file(self, package: Package) -> dict[str, list[Diagnostic]]:
-        """Return the same by path; raises like `diagnostics`."""
-        by_file: dict[str, list[Diagnostic]] = {}
+        """Return the same by path; raises like `diagnostics`.
+
+        What concerns the configuration of the package has no path.
+        """
+        notes = self._notes.pop(id(package), [])
+        by_file: dict[str, list[Diagnostic]] = {"": notes} if notes else {}
         for file in self._files.pop(id(package), ()):
             findings = self._findings(file, package)
             package.is_repeatable &= not file.ran_out_of_time
@@ -115,7 +143,7 @@ class StyleCheck:
         try:
             with time_limit.limited():
                 parsed = package.parsed_module(file.path)
-                findings = check(name, file.data, said, file.linters, parsed)
+                findings = check(name, file.data, said, file.settings, parsed)
         except ScaffoldError:
             raise
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
@@ -149,25 +177,31 @@ class StyleCheck:
 
     def _read(self, package: Package) -> list[_File]:
         files: list[_File] = []
+        own = PackageSettings(package, is_reference=True)
+        if not self._is_reference:
+            own = settings_of(package)
+            self._notes[id(package)] = [_noted(note) for note in own.notes]
         links = getattr(package.tree, "broken_links", ())
-        for path, linters in select((*package.tree.files, *links)).items():
-            if not self._is_wanted(package, path):
+        for path, linters in select((*package.tree.files, *links), own.named).items():
+            settings = own.of(path, linters) if self._is_wanted(package, path) else []
+            if not settings:
                 continue
             try:
                 data = package.tree.read(path, most_bytes(path))
             except LargeFileError:
-                files.append(_unread(path, linters, "the file is too large to be checked"))
+                files.append(_unread(path, settings, "the file is too large to be checked"))
                 continue
             except OSError as error:
                 why = "it links to nothing" if path in links else error.strerror or "it is no file"
-                files.append(_unread(path, linters, f"the file cannot be read: {why}"))
+                files.append(_unread(path, settings, f"the file cannot be read: {why}"))
                 continue
             if why_unread(path, data):
-                files.append(_unread(path, linters, "the file is too large to be checked"))
+                files.append(_unread(path, settings, "the file is too large to be checked"))
                 continue
-            file = _File(path, "", data, linters)
+            file = _File(path, data, settings)
             if self._cache is not None:
-                file.key = self._cache.key(path.rpartition("/")[2], linters, data)
+                key = [(item.linters, item.key) for item in settings]
+                file.key = self._cache.key(path.rpartition("/")[2], key, data)
                 file.findings = self._cache.get(file.key)
             if file.findings is None:
                 file.on_disk = self._place(package, file, len(files))
@@ -204,6 +238,10 @@ def _failure(error: Exception, linters: int) -> Finding:
     if isinstance(error, EXHAUSTED):
         return Finding(UNPARSABLE, 1, 1, exhausted(error), linters=linters)
     return Finding(CRASHED, 1, 1, crash_message("the check of its style", error), linters=linters)
+
+
+def _noted(note: Note) -> Diagnostic:
+    return Diagnostic(UNFOLLOWED, _OWN_CODES[UNFOLLOWED], Severity.INFO, *note)
 
 
 def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:

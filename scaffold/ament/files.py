@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from scaffold.ament.finding import FLAKE8, PEP257
 from scaffold.model.package import Package
@@ -40,8 +40,12 @@ def _visited(package: Package, paths: Iterable[str]) -> list[str]:
     ]
 
 
-def select(files: Iterable[str]) -> dict[str, int]:
+def select(files: Iterable[str], named: Collection[str] = ()) -> dict[str, int]:
     """Return the linters (FLAKE8, PEP257, both) of each file that one of them checks.
+
+    Args:
+        files: All files.
+        named: Files that ament_flake8 is given by name.
 
     Both take ``*.py``. ament_flake8 skips directories with an AMENT_IGNORE file and all
     directories whose name starts with a dot or an underscore; ament_pep257 knows only the second.
@@ -53,6 +57,8 @@ def select(files: Iterable[str]) -> dict[str, int]:
     result: dict[str, int] = {}
     for path in listed:
         if not path.endswith(".py"):
+            if path in named:
+                result[path] = FLAKE8
             continue
         parents = path.split("/")[:-1]
         if any(parent.startswith((".", "_")) for parent in parents):

@@ -13,6 +13,8 @@ UNPARSABLE = "SC001"
 """The engine's own code for a file that only this tool cannot read."""
 CRASHED = "SC002"
 """The engine's own code for a defect of this tool."""
+UNFOLLOWED = "SC006"
+"""The engine's own code for a configuration of style that is not followed."""
 
 Replacement = tuple[int, int, int, int, str]
 """Line and column of the start, of the end (both from 1, the end exclusive), and the new text."""

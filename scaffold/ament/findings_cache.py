@@ -32,10 +32,18 @@ class Cache:
         kept = cache.directory("style")
         return None if kept is None else cls(kept, depends_on())
 
-    def key(self, name: str, linters: int, data: bytes) -> str:
-        """Return the key of a file: of its bytes and of what else rules look at."""
-        kind = "init" if name == "__init__.py" else "module"
-        return digest(b"%s\0%s %d\0%s" % (self._salt, kind.encode(), linters, data))
+    def key(self, name: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
+        """Return the key of a file: of its bytes and of what else rules look at.
+
+        Args:
+            name: Its name.
+            settings: The linters that look at it, with what they are asked for.
+            data: Its bytes.
+        """
+        is_private = name.startswith("_") and any(asked for _, asked in settings)
+        kind = name if is_private else "init" if name == "__init__.py" else "module"
+        facts = f"{kind} {settings}".encode("utf-8", "surrogateescape")
+        return digest(b"%s\0%s\0%s" % (self._salt, facts, data))
 
     def get(self, key: str) -> list[Finding] | None:
         """Return the findings stored under a key."""

@@ -1,10 +1,13 @@
-"""Whether a package runs a linter of ament in its own tests, and over which files."""
+"""Whether a package runs a linter of ament in its own tests, and over which files.
+
+The arguments of those of Python style, which have configurations, are in `calls`.
+"""
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
@@ -13,10 +16,12 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.cmake.lists import CMakeLists
+    from scaffold.model.cmake.parser import Command
     from scaffold.model.package import Package
     from scaffold.model.python.module import PythonModule
 
 _COLLECTION = "ament_lint_common"
+_FINDING = ("ament_lint_auto_find_test_dependencies", "ament_auto_find_test_dependencies")
 
 
 class Use(NamedTuple):
@@ -58,30 +63,44 @@ def _use(package: Package, linter: str) -> Use:
 def _by_cmake(package: Package, linter: str) -> Use | None:
     try:
         cmake = package.cmake
-        declared = package.manifest.declared_names
+        calls = cmake.find(f"ament_{linter}")
+        if calls:
+            arguments = [a for call in calls for a in call.arguments if a.text != "EXCLUDE"]
+            return _excluding(cmake, cmake.expand_list(arguments))
+        if hook(package, linter) is None:
+            return None
     except ViewError:
         return None
-    calls = cmake.find(f"ament_{linter}")
-    if calls:
-        arguments = [a for call in calls for a in call.arguments if a.text != "EXCLUDE"]
-        return _excluding(cmake, cmake.expand_list(arguments))
-    finds = cmake.find("ament_lint_auto_find_test_dependencies")
-    finds = finds or cmake.find("ament_auto_find_test_dependencies")
+    reason = _switched_off(cmake, linter)
+    if reason:
+        return Use(runs=False, why_not=reason, is_excluded=True)
+    return _excluding(cmake, file_excludes(cmake))
+
+
+def hook(package: Package, linter: str) -> Command | None:
+    """Return the command that runs a linter because the manifest names it; raises ViewError."""
+    finds = package.cmake.find(*_FINDING)
+    declared = package.manifest.declared_names
     wrapper = f"ament_cmake_{linter}"
-    if not finds or not any(_brings(package, name, wrapper) for name in declared):
-        return None
+    is_declared = finds and any(_brings(package, name, wrapper) for name in declared)
+    return finds[0] if is_declared else None
+
+
+def is_switched_off(cmake: CMakeLists, linter: str) -> bool:
+    """Tell whether a CMakeLists.txt keeps ament_lint_auto from running a linter."""
+    return bool(_switched_off(cmake, linter))
+
+
+def _switched_off(cmake: CMakeLists, linter: str) -> str:
+    wrapper = f"ament_cmake_{linter}"
     for command in cmake.find("set", "list"):
         words = [argument.text for argument in command.arguments]
         line = command.location.line
         if words[:1] == [f"{wrapper}_FOUND"] and words[1:2] not in ([], ["FALSE"], ["OFF"], ["0"]):
-            return Use(
-                runs=False, why_not=f"CMakeLists.txt line {line} switches it off", is_excluded=True
-            )
+            return f"CMakeLists.txt line {line} switches it off"
         if "AMENT_LINT_AUTO_EXCLUDE" in words[:2] and wrapper in words:
-            return Use(
-                runs=False, why_not=f"CMakeLists.txt line {line} excludes it", is_excluded=True
-            )
-    return _excluding(cmake, _file_excludes(cmake))
+            return f"CMakeLists.txt line {line} excludes it"
+    return ""
 
 
 def _brings(package: Package, name: str, wrapper: str) -> bool:
@@ -96,7 +115,8 @@ def _brings(package: Package, name: str, wrapper: str) -> bool:
         return False
 
 
-def _file_excludes(cmake: CMakeLists) -> list[str] | None:
+def file_excludes(cmake: CMakeLists) -> list[str] | None:
+    """Return what ament_lint_auto tells linters to skip; ``None`` if that cannot be told."""
     result: list[str] = []
     for command in cmake.find("set", "list"):
         words = [argument.text for argument in command.arguments]
@@ -117,22 +137,35 @@ def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
 
 def _by_pytest(package: Package, linter: str) -> Use | None:
     result: Use | None = None
+    for module, why_not in linter_tests(package, linter):
+        if not why_not:
+            return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
+        result = Use(runs=False, why_not=why_not)
+    return result
+
+
+def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, str]]:
+    """Yield the tests in Python that import a linter, each with why it cannot fail, if so.
+
+    Args:
+        package: The package.
+        linter: The name of its module, ``ament_flake8``.
+    """
     for path in package.python_files:
         if "test" not in path:
             continue
         try:
+            if linter.encode() not in package.data(path):
+                continue
             module = package.module(path)
         except ViewError:
             continue
-        if linter not in module.source.text or linter not in module.imports_by_root:
+        if linter not in module.imports_by_root:
             continue
         if re.search(r"pytest\.mark\.(?:skip|xfail)|pytest\.skip\(", module.source.text):
-            result = Use(runs=False, why_not=f"{path} is skipped")
-        elif not _asserts(module):
-            result = Use(runs=False, why_not=f"{path} asserts nothing")
+            yield module, f"{path} is skipped"
         else:
-            return Use(runs=True, excluded=_arguments(module.walk(ast.List)))
-    return result
+            yield module, "" if _asserts(module) else f"{path} asserts nothing"
 
 
 def _asserts(module: PythonModule) -> bool:

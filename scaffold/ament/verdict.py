@@ -5,28 +5,32 @@ from __future__ import annotations
 import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 from scaffold.ament.codes import CODES
 from scaffold.ament.finding import FLAKE8, PEP257, UNPARSABLE, Finding, Replacement
 from scaffold.ament.flake8 import builtins as shadowing
-from scaffold.ament.flake8 import comprehensions, noqa, quotes
+from scaffold.ament.flake8 import complexity, comprehensions, noqa, quotes
 from scaffold.ament.flake8.import_order import check as import_order
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.flake8.pycodestyle import (
     blank_lines,
     continuation,
     indentation,
     keyword_spacing,
     operators,
+    optional,
     physical,
     statements,
 )
 from scaffold.ament.flake8.pyflakes import flakes, literals, redefinitions
+from scaffold.ament.pep257 import complete
 from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import BOM, PythonText, decode
 from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic
+from scaffold.ament.settings import Settings
 from scaffold.errors import exhausted
 
 if TYPE_CHECKING:
@@ -39,27 +43,24 @@ _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
 """Codes on which ruff's verdict is pycodestyle's."""
 
-_OWN = (
-    physical,
-    blank_lines,
+_OWN = (blank_lines, statements, redefinitions, comprehensions, literals)
+_CONFIGURED = (
     indentation,
     continuation,
-    statements,
     quotes,
-    redefinitions,
     import_order,
     shadowing,
-    comprehensions,
-    literals,
-    docstrings,
+    optional,
+    complexity,
 )
+"""Those that the options of flake8 change."""
 
 
 def check(
     name: str,
     data: bytes,
     ask_ruff: Callable[[], Sequence[RuffDiagnostic]],
-    linters: int,
+    settings: Sequence[Settings],
     parsed: PythonModule | None = None,
 ) -> list[Finding]:
     """Return the findings of one file.
@@ -69,39 +70,69 @@ def check(
         data: Its bytes.
         ask_ruff: Waits for ruff and returns what it says about the file; asked after the own
             rules, which run at the same time as ruff.
-        linters: Which of the two linters look at the file.
+        settings: Which linters look at the file, and what they are asked for.
         parsed: The file, where it has been parsed before.
     """
     decoded = decode(data)
     is_same = parsed is not None and parsed.source.text.removeprefix(BOM) == decoded.text
     text = PythonText(name, decoded.text, parsed.index if parsed and is_same else None)
-    own = list(_own(text))
+    own = [list(_own(text, item)) for item in settings]
     said = ask_ruff()
     broken = _broken(text, said, is_clean=decoded.is_clean)
     if broken is not None:
-        return [broken._replace(linters=linters)]
-    findings = [*_from_ruff(text, said), *own]
-    findings = _with_fixes(findings, said)
-    kept = [
-        finding._replace(linters=finding.linters & linters)
-        for finding in findings
-        if finding.linters & linters
-    ]
-    judged = [*map(_Alignment(text).kept, _once(noqa.apply(text, kept)))]
+        return _once(_reported([broken], settings))
+    results = [_judged(text, *item, said) for item in zip(settings, own, strict=True)]
+    judged = results[0] if len(results) == 1 else _once(chain.from_iterable(results))
     if text.is_too_deep:
+        linters = settings[0].linters
         judged.insert(0, Finding(UNPARSABLE, 1, 1, exhausted(RecursionError()), linters=linters))
     return judged
 
 
-def _own(text: PythonText) -> Iterator[Finding]:
+def _judged(
+    text: PythonText,
+    settings: Settings,
+    own: Sequence[Finding],
+    said: Sequence[RuffDiagnostic],
+) -> list[Finding]:
+    """Return the findings with some settings, given those of the own rules."""
+    options = settings.flake8
+    of_ruff = _from_ruff(text, said, options)
+    if options.inline_quotes != AMENT.inline_quotes:
+        said = [item for item in said if not item.code.startswith("Q")]
+    findings = _reported(_with_fixes([*of_ruff, *own], said), [settings])
+    silence = noqa.apply_of_plugins if options.disable_noqa else noqa.apply
+    return [*map(_Alignment(text).kept, _once(silence(text, findings)))]
+
+
+def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list[Finding]:
+    """Return what a linter is asked for."""
+    pairs = ((item, one.linters_of(item)) for one in settings for item in findings)
+    return [item._replace(linters=linters) for item, linters in pairs if linters]
+
+
+def _own(text: PythonText, settings: Settings) -> Iterator[Finding]:
     # Without a tree a newer Python may still parse the file: ruff speaks for the other rules.
     counts: dict[tuple[str, int], int] = {}
-    for module in _OWN if text.tree is not None else (physical,):
-        for finding in module.check(text):
-            key = finding.code, finding.line
-            counts[key] = count = counts.get(key, 0) + 1
-            if count <= MOST_OF_A_LINE:
-                yield finding
+    for finding in _all_own(text, settings):
+        key = finding.code, finding.line
+        counts[key] = count = counts.get(key, 0) + 1
+        if count <= MOST_OF_A_LINE:
+            yield finding
+
+
+def _all_own(text: PythonText, settings: Settings) -> Iterator[Finding]:
+    options = settings.flake8
+    yield from physical.check(text, options.max_line_length)
+    if text.tree is None:
+        return
+    for module in _OWN:
+        yield from module.check(text)
+    for configured in _CONFIGURED:
+        yield from configured.check(text, options)
+    yield from (
+        complete.check(text, settings) if complete.is_needed(settings) else (docstrings.check(text))
+    )
 
 
 def _broken(
@@ -146,19 +177,31 @@ def _syntax_error(text: PythonText) -> SyntaxError | None:
     return None
 
 
-def _from_ruff(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
+def _from_ruff(
+    text: PythonText, diagnostics: Sequence[RuffDiagnostic], options: Options
+) -> Iterator[Finding]:
     if text.tree is None:
         yield from (flakes.plain(item) for item in diagnostics if item.code in CODES)
         return
-    yield from flakes.translate(text, [item for item in diagnostics if item.code.startswith("F")])
+    named = tuple(f"`{name}`" for name in options.builtins)
+    yield from flakes.translate(
+        text,
+        [
+            item
+            for item in diagnostics
+            if item.code.startswith("F")
+            and not (item.code == "F821" and item.message.endswith(named))
+        ],
+    )
     lines: dict[str, set[int]] = {}
     for one in diagnostics:
         lines.setdefault(one.code, set()).add(one.line)
-    for module in (operators, keyword_spacing):
+    is_optional = options.reports("E226")
+    spaced = operators.CANDIDATES + (operators.ARITHMETIC_CANDIDATES if is_optional else "")
+    for module, candidates in ((operators, spaced), (keyword_spacing, keyword_spacing.CANDIDATES)):
         rows = {row for code in module.CODES for row in lines.get(code, ())}
         rows |= {
-            text.line_of(item.start())
-            for item in re.finditer(module.CANDIDATES, text.text, re.MULTILINE)
+            text.line_of(item.start()) for item in re.finditer(candidates, text.text, re.MULTILINE)
         }
         logical_lines = {row: text.logical_line_at(row) for row in sorted(rows)}
         for logical in dict.fromkeys(line for line in logical_lines.values() if line):

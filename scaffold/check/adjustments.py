@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
-from scaffold.ament.use import linter_use
+from scaffold.ament.settings import settings_of
 from scaffold.check.engine_rules import RuleCrashed
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
@@ -51,5 +51,4 @@ class Adjustments(NamedTuple):
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:
     """Tell whether a test of the package itself would report a style finding."""
-    linter = "pep257" if style.code.startswith("D") else "flake8"
-    return linter_use(package, linter).covers(style.location.path)
+    return settings_of(package).is_tested(style.location.path, style.code)

@@ -68,7 +68,10 @@ def style_page(style: AmentCode) -> str:
 def style_text(style: AmentCode) -> str:
     """Return what a code of flake8 or pydocstyle is about and who defines it, as Markdown."""
     text = style.summary[0].upper() + style.summary[1:]
-    return f"{text}.\n\n**Source.** {_PLUGINS[style.code[0]]}, as {linters(style)[0]} runs it."
+    source = f"{_PLUGINS[style.code[0]]}, as {linters(style)[0]} runs it"
+    if style.is_optional:
+        source += " where the configuration that a package hands to it asks for this"
+    return f"{text}.\n\n**Source.** {source}."
 
 
 def linters(row: AmentCode) -> tuple[str, ...]:

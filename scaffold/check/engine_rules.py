@@ -91,10 +91,26 @@ class TooManyFindings(_Internal):
     severity = Severity.WARNING
 
 
+class StyleNotJudged(_Internal):
+    """The configuration that a package hands to a linter of ament is not followed.
+
+    **Why.** Style is judged by what the tests of the package run. Here the linter stops at its
+    configuration, or what it gets is only known while the tests run; so ament's own configuration
+    counts, or what is named is not judged.
+
+    **Fix.** Correct the configuration, or hand it over as a plain path.
+    """
+
+    code = "SC006"
+    name = "style-not-judged"
+    severity = Severity.INFO
+
+
 INTERNAL_RULES: tuple[type[Rule], ...] = (
     UnparsableFile,
     RuleCrashed,
     UnusedSuppression,
     FileTooLarge,
     TooManyFindings,
+    StyleNotJudged,
 )

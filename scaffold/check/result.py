@@ -38,6 +38,8 @@ class Verdict(NamedTuple):
     """The files that could not be read, each with the reason."""
     imports: Mapping[str, frozenset[str]]
     """The top-level packages that files import, by path."""
+    configuring: frozenset[str] = frozenset()
+    """The files that say by what style is judged, by ``Package.full_path``."""
 
 
 class Earlier(NamedTuple):

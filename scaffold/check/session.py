@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.ament.settings import settings_of
 from scaffold.check import runner, suppression, type_rules
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
@@ -58,6 +59,7 @@ class Session:
         selection: Which of them, and of their findings, count.
         adjustments: What the configuration changes about findings.
         has_types: Whether the type checker runs.
+        is_reference: Whether style is judged with the configuration that ament brings along.
     """
 
     def __init__(
@@ -67,7 +69,9 @@ class Session:
         adjustments: Adjustments | None = None,
         *,
         has_types: bool = False,
+        is_reference: bool = False,
     ) -> None:
+        self._is_reference = is_reference
         self.selection = selection
         self.adjustments = adjustments or Adjustments()
         self._areas = {rule.code[:2] for rule in all_rules(rules)}
@@ -205,7 +209,7 @@ class Session:
                 return False
             return paths is None or path in paths
 
-        return StyleCheck(packages, is_wanted)
+        return StyleCheck(packages, is_wanted, is_reference=self._is_reference)
 
     def _start_types(self, targets: Sequence[Target]) -> TypeCheck | None:
         """Start the type checker, unless nobody asks for types."""
@@ -255,6 +259,9 @@ class Session:
         verdict = None
         if len(package.python_files) >= WORTH_PARTS:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
+        if verdict is not None:
+            tests = settings_of(package).tests
+            verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
         count = sum(not self.adjustments.excludes(package, path) for path in package.files)
         return Ruled(count, said, verdict)
 

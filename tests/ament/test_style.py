@@ -20,6 +20,7 @@ from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.pep257 import reference
 from scaffold.ament.python_text import fstrings
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START
+from scaffold.ament.settings import Settings
 from scaffold.check.fixes import fixer
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.errors import EnvironmentMissingError
@@ -390,13 +391,13 @@ def test_f_strings_are_cut_like_the_tokenizer(text: str) -> None:
 @settings(max_examples=200)
 @given(st.text(alphabet="abl=(){}[]:,;.'\"\\#@%*+-<>! \t\n\r\x0cfdé0", max_size=80))
 def test_never_fails_on_text(text: str) -> None:
-    verdict.check("a.py", text.encode(), list, FLAKE8 | PEP257)
+    verdict.check("a.py", text.encode(), list, [Settings()])
 
 
 @settings(max_examples=100)
 @given(st.binary(max_size=60))
 def test_never_fails_on_bytes(data: bytes) -> None:
-    verdict.check("a.py", data, list, FLAKE8 | PEP257)
+    verdict.check("a.py", data, list, [Settings()])
 
 
 @settings(max_examples=100)
@@ -414,7 +415,7 @@ def test_never_fails_on_bytes(data: bytes) -> None:
     )
 )
 def test_never_fails_on_code(parts: list[str]) -> None:
-    verdict.check("a.py", "".join(parts).encode(), list, FLAKE8 | PEP257)
+    verdict.check("a.py", "".join(parts).encode(), list, [Settings()])
 
 
 def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,6 +18,7 @@ import pytest
 
 from scaffold.ament import verdict as style
 from scaffold.ament.finding import FLAKE8
+from scaffold.ament.settings import Settings
 from scaffold.check import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
@@ -461,7 +462,7 @@ def test_steps_grow_with_a_line(line: str) -> None:
         before = sys.gettrace()
         sys.settrace(note)
         try:
-            found = style.check("node.py", data, list, FLAKE8)
+            found = style.check("node.py", data, list, [Settings(FLAKE8)])
         finally:
             sys.settrace(before)
         assert {one.line for one in found} == {1}

@@ -2,8 +2,8 @@
 
 Those of ament_flake8 and ament_pep257 are the codes that people know from flake8 and pydocstyle,
 a line each in ``scaffold/data/style_codes.txt``; what the ini file of the one and the convention
-``ament`` of the other leave out is not there. The other linters of ament have no codes of their
-own: ours are in a module for each linter.
+``ament`` of the other leave out is optional. The other linters of ament have no codes of their own:
+ours are in a module for each linter.
 """
 
 from __future__ import annotations
@@ -48,8 +48,9 @@ def _style_codes() -> Iterator[AmentCode]:
         for line in file:
             code, name, linters, severity, fix, summary = line.rstrip("\n").split(None, 5)
             safety = None if fix == "-" else Safety(fix)
-            who = _STYLE_LINTERS[linters]
-            yield AmentCode(code, name, summary, who, Severity(severity), safety)
+            who = _STYLE_LINTERS[linters.rstrip("*")]
+            row = AmentCode(code, name, summary, who, Severity(severity), safety)
+            yield row._replace(is_optional=linters.endswith("*"))
 
 
 STYLE: Mapping[str, AmentCode] = {row.code: row for row in _style_codes()}

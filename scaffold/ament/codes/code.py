@@ -40,3 +40,5 @@ class AmentCode(NamedTuple):
     """**Why.**, **Fix.** and **Source.**, where there is more to say than the summary."""
     other_severities: Mapping[Severity, str] | None = None
     """Severities that a diagnostic may have instead, each with the condition for it."""
+    is_optional: bool = False
+    """Whether only a configuration of a package's own asks for it."""

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.text import PythonText
 
 _NAMES = """
@@ -54,8 +55,11 @@ Named = Iterator[tuple[str, int, int]]
 """A name with its line, and its column from 0 in bytes."""
 
 
-def check(text: PythonText) -> Iterator[Finding]:
+def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the names that hide a builtin."""
+    builtins = BUILTINS
+    if options.builtins or options.builtins_ignorelist:
+        builtins = builtins.difference(options.builtins_ignorelist).union(options.builtins)
     in_class = {
         id(child)
         for node in text.nodes(ast.ClassDef)
@@ -65,12 +69,12 @@ def check(text: PythonText) -> Iterator[Finding]:
     for node in text.nodes(*_BINDING):
         code = "A003" if id(node) in in_class else "A001"
         for name, line, column in _bound(node):
-            if name in BUILTINS:
+            if name in builtins:
                 kind = "attribute of a class" if code == "A003" else "variable"
                 yield _finding(text, code, kind, name, line, column)
         if isinstance(node, _Function):
             for argument in _arguments(node):
-                if argument.arg in BUILTINS:
+                if argument.arg in builtins:
                     line, column = argument.lineno, argument.col_offset
                     yield _finding(text, "A002", "argument", argument.arg, line, column)
 

@@ -10,6 +10,7 @@ from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import COMMENT, DEDENT, ENDMARKER, NEWLINES
 
 _INLINE = r"# noqa(?::[\s]?(?P<codes>([A-Z]+[0-9]+(?:[,\s]+)?)+))?"
+_OF_IMPORTS = r"# noqa(?:: (?P<codes>([A-Z][0-9]+(?:[,\s]+)?)+))?"
 _FILE = r"^\s*# flake8[:=]\s*noqa"
 _ALL = ("",)
 
@@ -30,6 +31,12 @@ def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
         return list(findings)
     silenced = _Silenced(text)
     return _without(findings, silenced.covers)
+
+
+def apply_of_plugins(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
+    """Do the same where flake8 is told to read no comments: some plugins read them all the same."""
+    silenced = _Silenced(text)
+    return _without(findings, silenced.covers_by_plugin)
 
 
 def _without(findings: Iterable[Finding], covers: Callable[[Finding], bool]) -> list[Finding]:
@@ -66,6 +73,14 @@ class _Silenced:
         if line not in self._codes:
             self._codes[line] = self._read(line)
         return finding.code.startswith(self._codes[line])
+
+    def covers_by_plugin(self, finding: Finding) -> bool:
+        """Tell whether the plugin for quotes or for imports keeps quiet about a finding."""
+        if not finding.code.startswith("I"):
+            return finding.code.startswith("Q") and finding.line in self._quotes
+        matched = re.search(_OF_IMPORTS, self._text.lines[finding.line - 1], re.IGNORECASE)
+        codes = matched and matched["codes"]
+        return bool(matched) and (not codes or finding.code in re.split(r"[,\s]", codes))
 
     def _read(self, line: int) -> tuple[str, ...]:
         first, last = self._groups.get(line, (line, line))

@@ -1,4 +1,7 @@
-"""Q000 to Q003: single quotes for strings, double quotes for docstrings and long strings."""
+"""Q000 to Q003: single quotes for strings, double quotes for docstrings and long strings.
+
+That is what ament wants; the options of a package may want others.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.ament.finding import Finding, Replacement
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import (
     COMMENT,
@@ -21,30 +25,64 @@ from scaffold.ament.python_text.tokens import (
     Position,
     Token,
 )
+from scaffold.record import NamedTuple
 
 _TRANSPARENT = (NEWLINE, INDENT, DEDENT, NL, COMMENT)
 
-_MESSAGES = {
-    "Q000": "double quotes around a string that single quotes would do for",
-    "Q001": "single quotes around a multi-line string",
-    "Q002": "single quotes around a docstring",
-    "Q003": "escaped quotes that other quotes around the string would save",
-}
+_NAMES = {"'": "single", '"': "double"}
+_OTHER = {"'": '"', '"': "'"}
 
 
-def check(text: PythonText) -> Iterator[Finding]:
+class _Quotes(NamedTuple):
+    """The quotes that are wanted."""
+
+    inline: str
+    multiline: str
+    docstring: str
+    avoid_escape: bool
+
+    def message(self, code: str) -> str:
+        """Return what is wrong."""
+        if code == "Q000":
+            wanted, bad = _NAMES[self.inline], _NAMES[_OTHER[self.inline]]
+            return f"{bad} quotes around a string that {wanted} quotes would do for"
+        if code == "Q003":
+            return "escaped quotes that other quotes around the string would save"
+        of_docstring = code == "Q002"
+        bad = _NAMES[_OTHER[self.docstring if of_docstring else self.multiline]]
+        return f"{bad} quotes around a {'docstring' if of_docstring else 'multi-line string'}"
+
+
+def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the strings with the wrong quotes."""
-    if not _may_fail(text.text):
+    quotes = _Quotes(
+        options.inline_quotes,
+        options.multiline_quotes,
+        options.docstring_quotes,
+        options.avoid_escape,
+    )
+    if quotes == _AMENT and not _may_fail(text.text):
         return
     docstrings = _docstrings(text.tokens)
-    for literal, start, end, token in _literals(text.tokens):
-        code = _judge(literal, is_docstring=start in docstrings)
+    is_inside = options.check_inside_f_strings
+    for literal, start, end, token in _literals(text.tokens, opened=is_inside):
+        code = _judge(literal, quotes, is_docstring=start in docstrings)
         if code:
             fix = _fix(code, literal, start, end, is_plain=token.type == STRING)
             row, column = start
             yield Finding(
-                code, row, column + 1, _MESSAGES[code], end[0], end[1] + 1, fix, "change the quotes"
+                code,
+                row,
+                column + 1,
+                quotes.message(code),
+                end[0],
+                end[1] + 1,
+                fix,
+                "change the quotes",
             )
+
+
+_AMENT = _Quotes("'", '"', '"', avoid_escape=True)
 
 
 def _may_fail(text: str) -> bool:
@@ -58,12 +96,18 @@ def _may_fail(text: str) -> bool:
     return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None
 
 
-def _literals(tokens: list[Token]) -> Iterator[tuple[str, Position, Position, Token]]:
-    """Yield string literals; an f-string with all that is in it counts as one."""
+def _literals(
+    tokens: list[Token], *, opened: bool
+) -> Iterator[tuple[str, Position, Position, Token]]:
+    """Yield string literals; an f-string with all that is in it counts as one, unless opened."""
     depth = 0
     parts: list[str] = []
     start = (0, 0)
     for token in tokens:
+        if opened:
+            if token.type in (STRING, FSTRING_START):
+                yield token.string, token.start, token.end, token
+            continue
         if token.type == FSTRING_START:
             if not depth:
                 start = token.start
@@ -79,19 +123,22 @@ def _literals(tokens: list[Token]) -> Iterator[tuple[str, Position, Position, To
             yield token.string, token.start, token.end, token
 
 
-def _judge(literal: str, *, is_docstring: bool) -> str:
+def _judge(literal: str, quotes: _Quotes, *, is_docstring: bool) -> str:
     quote = literal[-1]
     prefix, _, _ = literal.partition(quote)
     body = literal[len(prefix) :]
     if is_docstring:
-        return "" if '"""' in body else "Q002"
+        return "" if quotes.docstring * 3 in body else "Q002"
     if body[:3] == quote * 3:
-        return "" if '"""' in body or body.endswith("\"'''") else "Q001"
+        good = quotes.multiline
+        ending = good + _OTHER[good] * 3
+        return "" if good * 3 in body or body.endswith(ending) else "Q001"
     inside = body[1:-1]
-    if quote == "'":
-        escapes = "'" in inside and '"' not in inside
+    good = quotes.inline
+    if quote == good:
+        escapes = good in inside and _OTHER[good] not in inside and quotes.avoid_escape
         return "Q003" if escapes and "r" not in prefix.lower() else ""
-    return "Q000" if "'" not in inside else ""
+    return "Q000" if good not in inside else ""
 
 
 def _fix(
@@ -100,11 +147,12 @@ def _fix(
     """Swap the quotes where nothing else has to change."""
     if code != "Q000" or not is_plain or "\\" in literal or "\n" in literal:
         return ()
-    opening = start[1] + literal.index('"')
-    row = start[0]
+    quote = literal[-1]
+    opening = start[1] + literal.index(quote)
+    row, other = start[0], _OTHER[quote]
     return (
-        (row, opening + 1, row, opening + 2, "'"),
-        (row, end[1], row, end[1] + 1, "'"),
+        (row, opening + 1, row, opening + 2, other),
+        (row, end[1], row, end[1] + 1, other),
     )
 
 

@@ -13,18 +13,15 @@ import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from typing import Any
 
 from scaffold.ament.files import select
 from scaffold.ament.finding import PEP257
 from scaffold.ament.pep257 import form as docstrings
+from scaffold.ament.pep257.codes import AMENT
 from scaffold.ament.python_text.text import PythonText, decode
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
-
-IGNORED = frozenset(
-    ["D100", "D101", "D102", "D103", "D104", "D105", "D106", "D107", "D203", "D212", "D404"]
-)
-"""The codes that the convention ``ament`` of ament_pep257 skips."""
 
 
 class Difference(NamedTuple):
@@ -71,14 +68,18 @@ def _literal(text: str, _: object) -> object:
     return ast.literal_eval(text)
 
 
-def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
-    """Return line and code of what pydocstyle says; ``None`` when it fails on the file."""
+def load() -> Any:  # noqa: ANN401  it has no types
+    """Return the module pydocstyle, made safe and silent."""
     pydocstyle = import_module("pydocstyle")
-    registry = import_module("pydocstyle.violations").ErrorRegistry
     # It evaluates what `__all__` is set to, and an f-string there may call anything.
     vars(import_module("pydocstyle.parser"))["eval"] = _literal
-    codes = set(registry.get_error_codes()) - IGNORED
     logging.getLogger("pydocstyle").setLevel(logging.CRITICAL)
+    return pydocstyle
+
+
+def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
+    """Return line and code of what pydocstyle says; ``None`` when it fails on the file."""
+    pydocstyle = load()
     with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as scratch:
         file = os.path.join(scratch, name)
         with open(file, "wb") as out:
@@ -86,7 +87,7 @@ def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                said = list(pydocstyle.check([file], select=codes))
+                said = list(pydocstyle.check([file], select=AMENT))
             except Exception:  # noqa: BLE001  whatever pydocstyle stumbles over
                 return None
     if not all(isinstance(item, pydocstyle.Error) for item in said):

@@ -17,7 +17,7 @@ from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
 from scaffold.model.reads import is_followed
 from scaffold.record import NamedTuple
-from scaffold.source import Location
+from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.check.cache.runs import Seen
@@ -98,7 +98,7 @@ class ResultCache:
         if not edited or _is_beside(package, known, edited):
             self._known[at] = known
             self._trees[at] = run.trees[at] or {}
-        elif known.verdict is not None:
+        elif known.verdict is not None and not _configures(package, known.verdict, edited):
             self._needed[at] = known.needs
             self._earlier[package.directory] = Earlier.of(
                 package, _decode_verdict(known.verdict), edited
@@ -184,6 +184,19 @@ def _is_beside(package: Package, known: _Known, edited: frozenset[str]) -> bool:
     )
 
 
+def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[str]) -> bool:
+    """Tell whether an edited file said, or says now, by what the style of others is judged."""
+    paths, *_, configuring = verdict
+    if any(paths[at] in edited for at in configuring):
+        return True
+    start = package.full_path("")
+    tests = [path for path in edited if path.startswith(start) and "test" in path]
+    try:
+        return any(b"ament_" in package.data(path[len(start) :]) for path in tests)
+    except ViewError:
+        return True
+
+
 def _asked(target: Target) -> tuple[str, tuple[str, ...] | None]:
     only = None if target.only is None else tuple(sorted(target.only))
     return target.package.directory, only
@@ -257,11 +270,13 @@ def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
     ]
     style = [(path, tuple(map(encode, item))) for path, item in verdict.style.items()]
     imports = [(path, tuple(sorted(names))) for path, names in verdict.imports.items()]
-    return tuple(paths), parts, style, tuple(map(encode, verdict.unparsable)), imports
+    unparsable = tuple(map(encode, verdict.unparsable))
+    configuring = places(sorted(verdict.configuring))
+    return tuple(paths), parts, style, unparsable, imports, configuring
 
 
 def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
-    paths, parts, style, unparsable, imports = stored
+    paths, parts, style, unparsable, imports, configuring = stored
 
     def files(places: Iterable[int]) -> frozenset[str]:
         return frozenset(paths[at] for at in places)
@@ -274,6 +289,7 @@ def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
         {path: list(map(_decode, item)) for path, item in style},
         list(map(_decode, unparsable)),
         {path: frozenset(names) for path, names in imports},
+        files(configuring),
     )
 
 

@@ -98,6 +98,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="instead, run pydocstyle, too, and show where the docstring rules disagree with it",
     )
     parser.add_argument(
+        "--reference-config",
+        action="store_true",
+        help="judge style with the configuration that ament brings along, not with that which the "
+        "tests of a package hand to it",
+    )
+    parser.add_argument(
         "--content",
         action="append",
         default=[],
@@ -208,14 +214,20 @@ def _exit_code(options: argparse.Namespace, session: Session, results: list[Resu
 
 def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choices) -> Session:
     selection = choices.selection(options.select, options.ignore)
+    from scaffold.check.session import Session
+
+    kind = Session
     if options.add_noqa:
         from scaffold.check.fixes.noqa import SuppressingSession
 
-        has_types = not options.no_types
-        return SuppressingSession(rules, selection, choices.adjustments(), has_types=has_types)
-    from scaffold.check.session import Session
-
-    return Session(rules, selection, choices.adjustments(), has_types=not options.no_types)
+        kind = SuppressingSession
+    return kind(
+        rules,
+        selection,
+        choices.adjustments(),
+        has_types=not options.no_types,
+        is_reference=options.reference_config,
+    )
 
 
 def _validate_noqa(options: argparse.Namespace) -> None:

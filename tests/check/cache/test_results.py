@@ -692,3 +692,37 @@ def test_an_edit_in_one_file_costs_that_file(
     after = runs("--select", "ND008", ".")
     assert parsed == ["talker/node_3.py"]
     assert after == before.replace("node_3.py:6", "node_3.py:7") != before
+
+
+# -- the configuration of style
+
+STYLE_TEST = """from ament_flake8.main import main_with_errors
+
+
+def test_flake8():
+    rc, errors = main_with_errors(argv=['--linelength', '{}'])
+    assert rc == 0
+"""
+
+
+def test_another_configuration_of_style_is_seen(runs: Runs, package: Path, source: Path) -> None:
+    """By an edit of the test in Python, which is no reason to check the style of other files."""
+    for number in range(12):
+        (package / "talker" / f"part{number}.py").write_text(f"x = '{'x' * 110}'\n")
+    test = package / "test" / "test_flake8.py"
+    write(package, {"test/test_flake8.py": STYLE_TEST.format(120)})
+    assert "E501" not in runs.settle(".")
+    test.write_text(STYLE_TEST.format(100))
+    assert runs(".").count("E501") == 12
+    test.write_text("")
+    assert runs(".").count("E501") == 12
+    test.write_text(STYLE_TEST.format(120))
+    assert "E501" not in runs(".")
+    text = STYLE_TEST.replace("'--linelength', '{}'", "'--config', '../own.cfg'")
+    test.write_text(text)
+    assert "SC006" in runs(".")
+    (source / "own.cfg").write_text("[flake8]\nextend-ignore = Q,D,I,E501\n")
+    assert "SC006" not in runs(".")
+    (source / "own.cfg").write_text("[flake8]\nextend-ignore = Q,D,I\n")
+    assert runs(".").count("E501") == 12
+    assert runs.checked == ["talker"]

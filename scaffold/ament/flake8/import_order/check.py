@@ -1,22 +1,36 @@
-"""I100, I101, I201, I666: the order of imports, in the style called ``google``.
+"""I100, I101, I201, I202, I666: the order of imports, in the style that is asked for.
 
-Only statements that start in the first column count. Each is compared with the one before it:
-first by group (``__future__``, standard library, third party, relative), then by the modules and
-at last by the imported names, both without regard to case.
+That of ament is called ``google``. Only statements that start in the first column count. Each is
+compared with the one before it: first by group (``__future__``, standard library, third party,
+own, relative), then by the modules and at last by the imported names; the styles differ in what
+comes between these, and in whether the case of letters counts.
 """
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.import_order.stdlib import STDLIB
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.text import PythonText
 from scaffold.record import NamedTuple
 
-MIXED, FUTURE, STANDARD, THIRD_PARTY, RELATIVE = range(5)
-GROUPS = ("mixed", "__future__", "standard library", "third-party", "relative")
+if TYPE_CHECKING:
+    from typing import Any
+
+MIXED, FUTURE, STANDARD, THIRD_PARTY, OF_COMPANY, OWN, RELATIVE = range(7)
+GROUPS = (
+    "mixed",
+    "__future__",
+    "standard library",
+    "third-party",
+    "application package",
+    "application",
+    "relative",
+)
 
 SHOWN = 60
 """Characters of a statement in a message."""
@@ -35,24 +49,77 @@ class Statement(NamedTuple):
     modules: tuple[Folded, ...]
     names: tuple[Folded, ...]
     shown: str
+    is_from: bool
 
     @property
     def key(self) -> tuple[int, int, tuple[Folded, ...], tuple[Folded, ...]]:
-        """What statements are ordered by."""
+        """What statements are ordered by in the style of Google."""
         return self.group, self.level, self.modules, self.names
 
+    @property
+    def root(self) -> str:
+        """The top-level package of the first module."""
+        return self.modules[0][1].partition(".")[0]
 
-def check(text: PythonText) -> Iterator[Finding]:
+
+class _Style:
+    """What a style of flake8-import-order asks for."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def key(self, statement: Statement) -> tuple[Any, ...]:
+        """Return what statements are ordered by."""
+        group, is_from, level = statement.group, statement.is_from, statement.level
+        modules = [name for _, name in statement.modules]
+        names = [name for _, name in statement.names]
+        match self.name:
+            case "pep8":
+                return (group,)
+            case "smarkets" | "edited":
+                return group, is_from, level, statement.modules, statement.names
+            case "pycharm":
+                return group, is_from, level, modules, names
+            case "cryptography":
+                package = statement.root if group in {THIRD_PARTY, OWN} else ""
+                return group, package, is_from, level, modules, names
+            case _:
+                return statement.key
+
+    def sorted_names(self, statement: Statement) -> list[str]:
+        """Return the imported names in their order."""
+        names = [name for _, name in statement.names]
+        if self.name == "pep8":
+            return names
+        return sorted(names, key=None if self.name in {"pycharm", "cryptography"} else fold)
+
+    def is_same_section(self, before: Statement, statement: Statement) -> bool:
+        """Tell whether no blank line belongs between two statements."""
+        groups = {before.group, statement.group}
+        if self.name == "cryptography" and statement.group in {THIRD_PARTY, OWN}:
+            return before.root == statement.root
+        if self.name in {"edited", "cryptography"}:
+            return len(groups) == 1
+        return len(groups) == 1 or groups == {OWN, RELATIVE}
+
+    def may_be_split(self, before: Statement, statement: Statement) -> bool:
+        """Tell whether a blank line may be there although both are in one section."""
+        return self.name == "edited" and statement.is_from and not before.is_from
+
+
+def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the import statements that are in the wrong place."""
+    style = _Style(options.import_order_style)
     found: list[Finding] = []
     before: Statement | None = None
     for node in _nodes(text.tree):
-        statement = describe(node)
-        found.extend(_judge(statement))
+        statement = describe(node, options)
+        found.extend(_judge(statement, style))
         if before is not None:
-            found.extend(_compare(before, statement, text.lines))
+            found.extend(_compare(before, statement, text.lines, style))
         before = statement
-    if found and text.tree is not None:
+    is_known = style.name == AMENT.import_order_style and not options.application_import_names
+    if found and text.tree is not None and is_known:
         from scaffold.ament.flake8.import_order.fix import attach
 
         found = attach(text, text.tree, found)
@@ -65,18 +132,19 @@ def _nodes(tree: ast.Module | None) -> Iterator[ast.Import | ast.ImportFrom]:
             yield node
 
 
-def describe(node: ast.Import | ast.ImportFrom) -> Statement:
+def describe(node: ast.Import | ast.ImportFrom, options: Options = AMENT) -> Statement:
     """Return what an import statement is judged by."""
     names = [alias.name for alias in node.names]
+    is_from = isinstance(node, ast.ImportFrom)
     if isinstance(node, ast.Import):
-        groups = {_group(name) for name in names}
+        groups = {_group(name, options) for name in names}
         group = groups.pop() if len(groups) == 1 else MIXED
         modules, imported, level = names, [], 0
         shown = f"import {', '.join(names)}"
     else:
         level = node.level
         module = node.module or ""
-        group = RELATIVE if level else _group(module)
+        group = RELATIVE if level else _group(module, options)
         modules, imported = [module], names
         shown = f"from {'.' * level}{module} import {', '.join(names)}"
     return Statement(
@@ -88,14 +156,28 @@ def describe(node: ast.Import | ast.ImportFrom) -> Statement:
         tuple(map(fold, modules)),
         tuple(map(fold, imported)),
         shown if len(shown) <= SHOWN else f"{shown[: SHOWN - 3]}...",
+        is_from,
     )
 
 
-def _group(module: str) -> int:
-    root = module.partition(".")[0]
-    if root == "__future__":
-        return FUTURE
-    return STANDARD if root in STDLIB else THIRD_PARTY
+def _group(module: str, options: Options) -> int:
+    while True:
+        if module == "__future__":
+            return FUTURE
+        if module in options.application_import_names:
+            return OWN
+        if module in _company_names(options):
+            return OF_COMPANY
+        if module in STDLIB:
+            return STANDARD
+        module, is_deeper, _ = module.rpartition(".")
+        if not is_deeper:
+            return THIRD_PARTY
+
+
+def _company_names(options: Options) -> tuple[str, ...]:
+    has_them = options.import_order_style in {"appnexus", "edited"}
+    return options.application_package_names if has_them else ()
 
 
 def fold(name: str) -> Folded:
@@ -103,28 +185,32 @@ def fold(name: str) -> Folded:
     return name.lower(), name
 
 
-def _judge(statement: Statement) -> Iterator[Finding]:
+def _judge(statement: Statement, style: _Style) -> Iterator[Finding]:
     at = (statement.line, statement.column)
-    names = statement.names
-    if list(names) != sorted(names):
-        wanted = ", ".join(name for _, name in sorted(names))
-        yield Finding("I101", *at, f"imported names are not sorted; wanted: {wanted}")
+    wanted = style.sorted_names(statement)
+    if [name for _, name in statement.names] != wanted:
+        yield Finding("I101", *at, f"imported names are not sorted; wanted: {', '.join(wanted)}")
     if statement.group == MIXED:
         yield Finding("I666", *at, "one import statement for modules of different groups")
 
 
-def _compare(before: Statement, statement: Statement, lines: list[str]) -> Iterator[Finding]:
+def _compare(
+    before: Statement, statement: Statement, lines: list[str], style: _Style
+) -> Iterator[Finding]:
     at = (statement.line, statement.column)
-    if statement.key < before.key:
+    is_same = style.is_same_section(before, statement)
+    if style.key(statement) < style.key(before):
         said = f"'{statement.shown}' belongs before '{before.shown}' of line {before.line}"
         if statement.group != before.group:
             said += f": {GROUPS[statement.group]} before {GROUPS[before.group]}"
         yield Finding("I100", *at, said)
-    if statement.group != before.group:
-        between = lines[before.line - 1 : statement.line - 1]
-        if not any(not line.strip() for line in between):
-            said = (
-                f"no blank line between {GROUPS[before.group]} and {GROUPS[statement.group]} "
-                "imports"
-            )
-            yield Finding("I201", *at, said)
+    between = lines[before.line - 1 : statement.line - 1]
+    is_split = any(not line.strip() for line in between)
+    if not is_same and not is_split:
+        groups = f"{GROUPS[before.group]} and {GROUPS[statement.group]} imports"
+        if statement.group == before.group:
+            groups = f"imports of '{before.root}' and '{statement.root}'"
+        yield Finding("I201", *at, f"no blank line between {groups}")
+    elif is_same and is_split and not style.may_be_split(before, statement):
+        said = f"a blank line within the {GROUPS[statement.group]} imports"
+        yield Finding("I202", *at, said)

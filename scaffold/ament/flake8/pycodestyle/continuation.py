@@ -1,7 +1,7 @@
-"""E122 to E131: where the continuation lines of a statement may start.
+"""E121 to E133: where the continuation lines of a statement may start.
 
-The rules are those of PEP 8 as pycodestyle reads them. E121, E123 and E126 are off in ament's
-configuration and are followed here without being reported.
+The rules are those of PEP 8 as pycodestyle reads them. E121, E123, E126 and E133 are reported by
+configurations other than ament's.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from bisect import bisect_left, insort
 from collections.abc import Iterator
 
 from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.logical import LogicalLine, expand_indent
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import (
@@ -23,11 +24,14 @@ from scaffold.ament.python_text.tokens import (
     Token,
 )
 
-INDENT = 4
 MOST_ROWS = 100
 """Earlier lines of a bracket that a line may be indented against."""
 
 _MESSAGES = {
+    "E121": "continuation line is indented less than a hanging indentation asks for",
+    "E123": "closing bracket is indented, not aligned with the line of the opening bracket",
+    "E126": "continuation line is indented more than a hanging indentation asks for",
+    "E133": "closing bracket is not indented",
     "E122": "continuation line is not indented",
     "E124": "closing bracket does not match the visual indentation",
     "E127": "continuation line is indented more than the opening bracket asks for",
@@ -40,12 +44,12 @@ _MESSAGES = {
 Fault = tuple[Position, str]
 
 
-def check(text: PythonText) -> Iterator[Finding]:
+def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the continuation lines that start in the wrong column."""
-    hangs = (INDENT, 2 * INDENT) if text.indent_char == "\t" else (INDENT,)
+    is_tabbed = text.indent_char == "\t"
     for logical in text.logical_lines:
         if logical.tokens[0].start[0] != logical.end_row:
-            for (row, column), code in _Walk(logical, hangs).faults():
+            for (row, column), code in _Walk(logical, options, is_tabbed=is_tabbed).faults():
                 yield Finding(code, row, column + 1, _MESSAGES[code])
 
 
@@ -64,10 +68,12 @@ class _Bracket:
 class _Walk:
     """One pass over the tokens of a statement; rows count from its first one."""
 
-    def __init__(self, logical: LogicalLine, valid_hangs: tuple[int, ...]) -> None:
+    def __init__(self, logical: LogicalLine, options: Options, *, is_tabbed: bool) -> None:
         self.logical = logical
         self.tokens = logical.tokens
-        self.valid_hangs = valid_hangs
+        self.step = step = options.indent_size
+        self.valid_hangs = (step, 2 * step) if is_tabbed else (step,)
+        self.hang_closing = options.hang_closing
         self.first_row = self.tokens[0].start[0]
         count = 1 + self.tokens[-1].start[0] - self.first_row
         self.level = logical.indent
@@ -106,7 +112,7 @@ class _Walk:
             last = token
         yield from self._block_start(last)
 
-    def _line_start(self, token: Token) -> Iterator[Fault]:  # noqa: C901  PEP 8's cases in order
+    def _line_start(self, token: Token) -> Iterator[Fault]:  # noqa: C901, PLR0912  PEP 8's cases
         """Judge the first token of a continuation line."""
         bracket = self.stack[-1]
         column = token.start[1]
@@ -121,11 +127,14 @@ class _Walk:
             if column != bracket.indent:
                 yield token.start, "E124"
         elif closes and not hang:
-            pass
+            if self.hang_closing:
+                yield token.start, "E133"
         elif bracket.indent and column < bracket.indent:
             if self.visual is not True:
                 yield token.start, "E128"
-        elif hanging or (self.opens_block and self.relative[self.row] == 2 * INDENT):
+        elif hanging or (self.opens_block and self.relative[self.row] == 2 * self.step):
+            if closes and not self.hang_closing:
+                yield token.start, "E123"
             bracket.hang = hang
         elif self.visual is True:
             bracket.indent = column
@@ -139,6 +148,7 @@ class _Walk:
             yield token.start, "E131"
         else:
             bracket.hang = hang
+            yield token.start, "E126" if hang > self.step else "E121"
 
     def _hang(self, bracket: _Bracket) -> tuple[int, bool]:
         """Return the indentation against the opening line, and whether that is a good one."""
@@ -216,6 +226,6 @@ class _Walk:
     def _block_start(self, last: Token) -> Iterator[Fault]:
         """Judge the last line of a statement that a block follows."""
         line = self.logical.lines[last.start[0] - 1]
-        if self.opens_block and expand_indent(line) == self.level + INDENT:
-            at = (last.start[0], self.stack[0].indent + INDENT)
+        if self.opens_block and expand_indent(line) == self.level + self.step:
+            at = (last.start[0], self.stack[0].indent + self.step)
             yield at, "E129" if self.visual else "E125"

@@ -5,28 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import PythonText
 
-STEP = 4
+FOUR = 4
+"""Columns that a block may be indented, whatever step is asked for."""
 TAB = 8
 
 
-def check(text: PythonText) -> Iterator[Finding]:
+def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the logical lines that are indented wrongly."""
     before: LogicalLine | None = None
     for logical in text.logical_lines:
-        for code in _judge(logical, before, text.indent_char):
+        for code in _judge(logical, before, text.indent_char, options.indent_size):
             row, column = logical.position(0)
             yield Finding(code, row, column + 1)
         if not logical.is_comment:
             before = logical
 
 
-def _judge(logical: LogicalLine, before: LogicalLine | None, indent_char: str) -> Iterator[str]:
+def _judge(
+    logical: LogicalLine, before: LogicalLine | None, indent_char: str, step: int
+) -> Iterator[str]:
     indent = logical.indent
     above = before.indent if before else 0
-    if indent % STEP:
+    if indent % step:
         yield "E114" if logical.is_comment else "E111"
     if indent == above and not logical.is_comment:
         return
@@ -35,5 +39,5 @@ def _judge(logical: LogicalLine, before: LogicalLine | None, indent_char: str) -
         yield "E115" if logical.is_comment else "E112"
     elif not opens and indent > above:
         yield "E116" if logical.is_comment else "E113"
-    if opens and indent > above + (TAB if indent_char == "\t" else STEP):
+    if opens and indent > above + (TAB if indent_char == "\t" else FOUR):
         yield "E117"

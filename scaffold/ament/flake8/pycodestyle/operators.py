@@ -46,6 +46,9 @@ CANDIDATES = (
 )
 """What ruff passes over: a comma before a backslash, a format within a format, spaces at ``->``."""
 
+ARITHMETIC_CANDIDATES = r"|[-+*/@]"
+"""Likewise for E226, which the configuration of ament leaves out."""
+
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
 
@@ -140,8 +143,9 @@ class _Scan:
             yield before.end, "E225", _ONE_SIDED
         elif before.string == "%":
             yield wanted[0], "E228", "whitespace is missing around '%'"
-        elif before.string not in _ARITHMETIC:
-            yield wanted[0], "E227", f"whitespace is missing around '{before.string}'"
+        elif before.string != "**":
+            code = "E226" if before.string in _ARITHMETIC else "E227"
+            yield wanted[0], code, f"whitespace is missing around '{before.string}'"
         self.wanted = False
 
     def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:

@@ -9,10 +9,16 @@ from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
 
 MAX_LENGTH = 99
+"""Characters of a line that ament allows."""
 
 
-def check(text: PythonText) -> Iterator[Finding]:
-    """Yield what is wrong with single lines."""
+def check(text: PythonText, max_length: int = MAX_LENGTH) -> Iterator[Finding]:
+    """Yield what is wrong with single lines.
+
+    Args:
+        text: The file.
+        max_length: How many characters a line may have.
+    """
     if not text.lines:
         return
     if "\t" in text.text:
@@ -20,7 +26,7 @@ def check(text: PythonText) -> Iterator[Finding]:
     if re.search(r"[ \t\v]\f*$", text.text, re.MULTILINE):
         yield from _trailing(text)
     yield from _end(text)
-    yield from _too_long(text)
+    yield from _too_long(text, max_length)
 
 
 def _tabs(text: PythonText) -> Iterator[Finding]:
@@ -83,23 +89,23 @@ def _end(text: PythonText) -> Iterator[Finding]:
         )
 
 
-def _too_long(text: PythonText) -> Iterator[Finding]:
+def _too_long(text: PythonText, most: int) -> Iterator[Finding]:
     for number, line in enumerate(text.lines, 1):
-        if len(line) <= MAX_LENGTH:
+        if len(line) <= most:
             continue
         shown = line.rstrip()
         length = len(shown)
-        if length <= MAX_LENGTH or (number == 1 and shown.startswith("#!")):
+        if length <= most or (number == 1 and shown.startswith("#!")):
             continue
-        if not _is_excused(text, number, shown):
-            said = f"the line has {length} characters, {MAX_LENGTH} are allowed"
-            yield Finding("E501", number, MAX_LENGTH + 1, said, number, length + 1)
+        if not _is_excused(text, number, shown, most):
+            said = f"the line has {length} characters, {most} are allowed"
+            yield Finding("E501", number, most + 1, said, number, length + 1)
 
 
-def _is_excused(text: PythonText, number: int, line: str) -> bool:
+def _is_excused(text: PythonText, number: int, line: str, most: int) -> bool:
     """Tell whether the line is one long word, such as a URL, in a comment or a string."""
     words = line.split()
-    if len(line) - len(words[-1]) >= MAX_LENGTH - 7:
+    if len(line) - len(words[-1]) >= most - 7:
         return False
     if words[:-1] == ["#"]:
         return True

@@ -197,7 +197,7 @@ def bare_except(line: str) -> Said:
 
 
 def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
-    """E701, E702, E703, E731: several statements on one line."""
+    """E701 to E704, E731: several statements on one line."""
     last = len(line) - 1
     depth = dict.fromkeys("([{", 0)
     pairs = {")": "(", "]": "[", "}": "{"}
@@ -216,7 +216,9 @@ def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
                 if target[-1:] == "=" and target[:-1].strip().isidentifier():
                     yield 0, "E731", f"a lambda is assigned to '{target[:-1].strip()}'; use def"
                 break
-            if not re.match(r"(async\s+def|def)\b", line) and re.match(_BLOCK, line):
+            if re.match(r"(async\s+def|def)\b", line):
+                yield 0, "E704", "the body of the function follows on the same line"
+            elif re.match(_BLOCK, line):
                 yield found, "E701", "a statement follows the colon on the same line"
         before = found
         found = line.find(":", found + 1)

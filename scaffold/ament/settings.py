@@ -1,0 +1,330 @@
+"""What the files of a package are judged by: the configurations that its own tests use.
+
+A linter that the tests of a package do not run judges with the configuration that ament brings
+along.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterator, Sequence
+from fnmatch import fnmatch
+from itertools import zip_longest
+from typing import TYPE_CHECKING, NoReturn
+
+from scaffold.ament.calls import Arguments, Call, directory_of, linter_calls
+from scaffold.ament.finding import FLAKE8, PEP257, Finding
+from scaffold.ament.flake8 import options as flake8
+from scaffold.ament.flake8.options import EXCLUDED, Options, OptionsError, matches, normal
+from scaffold.ament.pep257 import codes as pep257
+from scaffold.ament.use import linter_tests
+from scaffold.record import NamedTuple
+from scaffold.source import Location
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+UNKNOWN = "\0"
+"""Stands for an argument that is not known."""
+MAX_BYTES = 200_000
+"""Of a configuration file."""
+
+
+_OF_BOTH = sorted(pep257.AMENT & pep257.CONVENTIONS["pep257"])
+
+
+class Settings(NamedTuple):
+    """The linters that look at a file, and what they are asked for."""
+
+    linters: int = FLAKE8 | PEP257
+    flake8: Options = flake8.AMENT
+    pep257: frozenset[str] = pep257.AMENT
+    """The codes that it reports."""
+
+    def linters_of(self, finding: Finding) -> int:
+        """Return the linters that report a finding."""
+        linters = finding.linters & self.linters
+        if linters & FLAKE8 and not self.flake8.reports(finding.code):
+            linters &= ~FLAKE8
+        if finding.code.startswith("D") and finding.code not in self.pep257:
+            linters &= ~PEP257
+        return linters
+
+    @property
+    def key(self) -> str:
+        """What findings depend on, for what remembers them; empty for ament's configuration."""
+        if self[1:] == Settings()[1:]:
+            return ""
+        options = self.flake8._replace(exclude=(), extend_exclude=(), filename=())
+        return f"{options}{sorted(self.pep257)}"
+
+
+class Note(NamedTuple):
+    """What of a package's configuration is not followed, and what happens instead."""
+
+    location: Location
+    message: str
+
+
+class _Run(NamedTuple):
+    """A run of a linter: what it is asked for, and the files that it looks at."""
+
+    asked: Options | frozenset[str]
+    covers: Callable[[str], bool]
+    """Of an absolute path."""
+    named: tuple[str, ...] = ()
+    """The paths that are given to it, absolute."""
+
+
+class PackageSettings:
+    """What each file of a package is judged by.
+
+    Args:
+        package: The package.
+        is_reference: Whether the configuration that ament brings along counts for all.
+    """
+
+    def __init__(self, package: Package, *, is_reference: bool = False) -> None:
+        self._package = package
+        self._directory = directory_of(package)
+        self.notes: list[Note] = []
+        self._runs: dict[int, list[_Run]] = {FLAKE8: [], PEP257: []}
+        if not is_reference:
+            self._runs = {
+                FLAKE8: [*self._read("flake8", self._flake8_run)],
+                PEP257: [*self._read("pep257", self._pep257_run)],
+            }
+
+    @property
+    def tests(self) -> set[str]:
+        """The tests in Python that run a linter."""
+        names = ("ament_flake8", "ament_pep257")
+        return {test.path for name in names for test, _ in linter_tests(self._package, name)}
+
+    @property
+    def named(self) -> list[str]:
+        """The files that are given to flake8 by name, whatever their ending."""
+        inside = os.path.join(self._directory, "")
+        paths = (path for run in self._runs[FLAKE8] for path in run.named)
+        return [path[len(inside) :] for path in paths if path.startswith(inside)]
+
+    def is_tested(self, path: str, code: str) -> bool:
+        """Tell whether a test of the package would report a code in a file."""
+        full = os.path.join(self._directory, path)
+        for run in (*self._runs[FLAKE8], *self._runs[PEP257]):
+            if not run.covers(full):
+                continue
+            if isinstance(run.asked, frozenset):
+                if code in run.asked or code.startswith("E9"):
+                    return True
+            elif run.asked.for_file(full, self._directory).reports(code):
+                known = pep257.CONVENTIONS.get(run.asked.docstring_convention, pep257.ALL)
+                if not code.startswith("D") or code in known:
+                    return True
+        return False
+
+    def of(self, path: str, linters: int = FLAKE8 | PEP257) -> list[Settings]:
+        """Return what a file is judged by: a finding counts when any of it reports it.
+
+        Args:
+            path: The file.
+            linters: Those that would look at it.
+        """
+        full = os.path.join(self._directory, path)
+        asked: dict[int, list[Options | frozenset[str]]] = {}
+        for linter, default in ((FLAKE8, flake8.AMENT), (PEP257, pep257.AMENT)):
+            runs = self._runs[linter]
+            asked[linter] = [run.asked for run in runs if run.covers(full)] if runs else [default]
+            if not linters & linter:
+                asked[linter] = []
+        options = dict.fromkeys(
+            item.for_file(full, self._directory)
+            for item in asked[FLAKE8]
+            if isinstance(item, Options)
+        )
+        codes = dict.fromkeys(item for item in asked[PEP257] if isinstance(item, frozenset))
+        if not self._runs[PEP257] and options and codes:
+            # What flake8 is told to ignore, the linter that is not run does not bring up.
+            ignored = [code for code in _OF_BOTH if not any(one.reports(code) for one in options)]
+            codes = {pep257.AMENT.difference(ignored): None}
+        return [
+            Settings(
+                (FLAKE8 if one else 0) | (0 if other is None else PEP257),
+                one or flake8.AMENT,
+                pep257.AMENT if other is None else other,
+            )
+            for one, other in zip_longest(options, codes)
+        ]
+
+    def _read(self, linter: str, read: Callable[[Call], _Run | None]) -> Iterator[_Run]:
+        for call in linter_calls(self._package, linter):
+            try:
+                run = read(call)
+            except _StopError as error:
+                self._note(
+                    call, f"ament_{linter} stops: {error}; judged with ament's configuration"
+                )
+            else:
+                if run is not None:
+                    yield run
+
+    def _note(self, call: Call, message: str) -> None:
+        note = Note(call.location, message)
+        if note not in self.notes:
+            self.notes.append(note)
+
+    # -- ament_flake8
+
+    def _flake8_run(self, call: Call) -> _Run | None:
+        parser = _Parser()
+        parser.add_argument("--config")
+        parser.add_argument("--linelength", type=_number)
+        parser.add_argument("paths", nargs="*", default=["."])
+        parser.add_argument("--exclude", nargs="*", default=[])
+        parser.add_argument("--xunit-file")
+        given = parser.parse(call.arguments)
+        paths = self._known(given.paths)
+        if not paths:
+            return None  # it looks at files that are made by the build
+        options = flake8.AMENT if given.config is None else self._configured(call, given.config)
+        if given.linelength == _UNKNOWN_NUMBER:
+            self._note(call, "the maximum line length cannot be determined: that of ament counts")
+        elif given.linelength is not None:
+            options = options._replace(max_line_length=given.linelength)
+        excludes = self._excludes(call, given.exclude)
+        patterns = [normal(pattern, self._directory) for pattern in excludes]
+        patterns += options.exclude if options.exclude != EXCLUDED else ()
+        patterns += options.extend_exclude
+
+        def covers(path: str) -> bool:
+            return any(self._is_walked(path, top, patterns, options.filename) for top in paths)
+
+        return _Run(options, covers, tuple(map(self._full, paths)))
+
+    def _configured(self, call: Call, path: str) -> Options:
+        if path == UNKNOWN:
+            self._note(call, "which configuration flake8 gets cannot be determined: ament's counts")
+            return flake8.AMENT
+        place = self._full(path)
+        try:
+            text = self._content(place)
+        except OSError:
+            raise _StopError(f"its configuration {path!r} cannot be read") from None
+        except UnicodeDecodeError:
+            raise _StopError(f"its configuration {path!r} is not UTF-8") from None
+        try:
+            options, notes = flake8.read(text, os.path.dirname(place))
+        except OptionsError as error:
+            raise _StopError(f"in {path!r}, {error}") from None
+        for note in notes:
+            self._note(call, f"{path}: {note}")
+        return options
+
+    def _content(self, place: str) -> str:
+        inside = os.path.join(self._directory, "")
+        if place.startswith(inside):
+            data = self._package.bytes_of(place[len(inside) :], MAX_BYTES)
+        else:
+            data = self._package.outside.read(place, MAX_BYTES)
+        return data.decode()
+
+    def _is_walked(
+        self, path: str, given: str, excluded: Sequence[str], names: Sequence[str]
+    ) -> bool:
+        """Tell whether flake8 comes to a file from a path that it is given."""
+        top = self._full(given)
+        is_plain = os.path.basename(given) in {".", ".."}
+        if matches(top, [pattern for pattern in excluded if not is_plain or "/" in pattern]):
+            return False
+        if path == top:
+            return True
+        below = os.path.join(top, "")
+        if not path.startswith(below):
+            return False
+        parts = path[len(below) :].split("/")
+        ways = [below + "/".join(parts[: depth + 1]) for depth in range(len(parts))]
+        if any(matches(way, excluded) for way in ways):
+            return False
+        written = os.path.join(given, path[len(below) :])
+        return any(fnmatch(written, pattern) for pattern in names)
+
+    # -- ament_pep257
+
+    def _pep257_run(self, call: Call) -> _Run | None:
+        parser = _Parser()
+        group = parser.add_mutually_exclusive_group()
+        group.add_argument("--ignore", nargs="+", default=[])
+        group.add_argument("--select", nargs="+", default=[])
+        group.add_argument("--convention", choices=("ament", *pep257.CONVENTIONS), default="ament")
+        parser.add_argument("--add-ignore", nargs="+", default=[])
+        parser.add_argument("--add-select", nargs="+", default=[])
+        parser.add_argument("paths", nargs="*", default=["."])
+        parser.add_argument("--exclude", nargs="*", default=[])
+        parser.add_argument("--xunit-file")
+        given = parser.parse(call.arguments)
+        paths = [self._full(path) for path in self._known(given.paths)]
+        if not paths:
+            return None
+        lists = (given.ignore, given.select, given.add_ignore, given.add_select)
+        if any(UNKNOWN in words for words in lists):
+            self._note(
+                call, "which codes pep257 reports cannot be determined: those of ament count"
+            )
+            codes = pep257.AMENT
+        else:
+            codes = pep257.chosen(*lists, convention=given.convention)
+        excludes = [self._full(path) for path in self._excludes(call, given.exclude)]
+
+        def covers(path: str) -> bool:
+            return _is_below(path, paths) and not _is_below(path, excludes)
+
+        return _Run(codes, covers)
+
+    # -- both
+
+    def _excludes(self, call: Call, given: Sequence[str]) -> list[str]:
+        if UNKNOWN in given:
+            self._note(call, "which files are excluded cannot be determined: they are judged, too")
+        return self._known(given)
+
+    @staticmethod
+    def _known(words: Sequence[str]) -> list[str]:
+        return [word for word in words if word != UNKNOWN]
+
+    def _full(self, path: str) -> str:
+        return os.path.normpath(os.path.join(self._directory, path))
+
+
+class _StopError(Exception):
+    """The linter ends with an error before it looks at anything."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reads a command line as the linter does."""
+
+    def __init__(self) -> None:
+        super().__init__(add_help=False)
+
+    def parse(self, arguments: Arguments) -> argparse.Namespace:
+        """Return what is given; raises _StopError."""
+        return self.parse_args([UNKNOWN if word is None else word for word in arguments])
+
+    def error(self, message: str) -> NoReturn:
+        raise _StopError(message)
+
+
+_UNKNOWN_NUMBER = -1
+
+
+def _number(word: str) -> int:
+    return _UNKNOWN_NUMBER if word == UNKNOWN else int(word)
+
+
+def _is_below(path: str, tops: Sequence[str]) -> bool:
+    return any(path == top or path.startswith(os.path.join(top, "")) for top in tops)
+
+
+def settings_of(package: Package) -> PackageSettings:
+    """Return what the files of a package are judged by; read once."""
+    return package.remember("style settings", lambda: PackageSettings(package))
