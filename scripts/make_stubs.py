@@ -20,6 +20,7 @@ import ast
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -56,14 +57,14 @@ def stubs(source: Path) -> dict[str, str]:
             relative = path.relative_to(source).with_suffix(".pyi")
             if any(part.startswith("_") and part != "__init__.pyi" for part in relative.parts):
                 continue
-            text = stub(path.read_text(), _overlay(relative), package)
+            text = stub(path.read_text(), _overlay(relative))
             head = HEAD.format(package=package, version=VERSIONS[package])
             files[relative.as_posix()] = head + text
     for path in OVERLAY.rglob("*.pyi"):
         relative = path.relative_to(OVERLAY)
         if relative.as_posix() not in files:
-            files[relative.as_posix()] = ast.unparse(_parse(path.read_text()))
-    return {path: formatted(text) for path, text in sorted(files.items())}
+            files[relative.as_posix()] = ast.unparse(ast.parse(path.read_text()))
+    return formatted(files)
 
 
 def _overlay(path: Path) -> str:
@@ -71,28 +72,28 @@ def _overlay(path: Path) -> str:
     return file.read_text() if file.is_file() else ""
 
 
-def formatted(text: str) -> str:
-    """Return a stub as `ruff format` writes it."""
-    command = ["ruff", "format", "--stdin-filename", "stub.pyi", "-"]
-    return subprocess.run(
-        command, input=text, stdout=subprocess.PIPE, text=True, check=True, cwd=ROOT
-    ).stdout
+def formatted(files: dict[str, str]) -> dict[str, str]:
+    """Return stubs as `ruff format` writes them."""
+    with tempfile.TemporaryDirectory() as directory:
+        for path, text in files.items():
+            target = Path(directory, path)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text)
+        configuration = f"--config={ROOT / 'pyproject.toml'}"
+        ruff = [sys.executable, "-m", "ruff", "format", "--no-cache", "--quiet", configuration]
+        subprocess.run([*ruff, directory], check=True)
+        return {path: Path(directory, path).read_text() for path in sorted(files)}
 
 
-def _parse(text: str) -> ast.Module:
-    return ast.parse(text)
-
-
-def stub(source: str, overlay: str, package: str) -> str:
+def stub(source: str, overlay: str) -> str:
     """Return the stub of a module.
 
     Args:
         source: The module.
         overlay: What replaces and completes it, as a stub.
-        package: The package that the module belongs to: names imported from it are exported.
     """
-    body = list(_Module(package).statements(_parse(source).body))
-    body = merged(body, _parse(overlay).body)
+    body = list(_Module().statements(ast.parse(source).body))
+    body = merged(body, ast.parse(overlay).body)
     return ast.unparse(ast.fix_missing_locations(ast.Module(_used(body), [])))
 
 
@@ -101,9 +102,6 @@ def stub(source: str, overlay: str, package: str) -> str:
 
 class _Module:
     """Turns the statements of a module into those of its stub."""
-
-    def __init__(self, package: str) -> None:
-        self._package = package
 
     def statements(self, body: Sequence[Statement]) -> Iterator[Statement]:
         for node in body:

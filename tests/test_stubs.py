@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import ast
+import importlib.util
+import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -58,28 +62,39 @@ def definitions_of(directory: Path, files: dict[str, str]) -> Definitions:
     return Definitions.around(workspace, [])
 
 
+CHECKERS = {
+    "mypy": ["--config-file=", "--check-untyped-defs", "--no-error-summary"],
+    "ty": ["check", "--python-version=3.12", "--output-format=concise"],
+    "pyright": [],
+}
 Check = Callable[[str], list[int]]
 
 
-@pytest.fixture
-def errors(bundled: Path, tmp_path: Path) -> Check:
-    """Return what tells the lines of a program that mypy reports."""
+@pytest.fixture(params=CHECKERS)
+def errors(request: pytest.FixtureRequest, bundled: Path, tmp_path: Path) -> Check:
+    """Return what tells the lines of a program in which a type checker sees an error."""
+    checker = request.param
+    pytest.importorskip(checker)
 
     def lines(program: str) -> list[int]:
-        file = tmp_path / "program.py"
-        file.write_text(program)
-        arguments = ["--check-untyped-defs", "--no-error-summary", "--show-error-codes"]
+        (tmp_path / "program.py").write_text(program)
+        (tmp_path / "pyrightconfig.json").write_text(f'{{"stubPath": "{bundled}"}}')
+        arguments = [*CHECKERS[checker], "program.py"]
+        if checker == "ty":
+            arguments.append(f"--extra-search-path={bundled}")
+        cache = bundled.parent / "mypy_cache"
         result = subprocess.run(
-            [sys.executable, "-m", "mypy", "--config-file=", *arguments, str(file)],
-            env={"MYPYPATH": str(bundled), "MYPY_CACHE_DIR": str(bundled.parent / "mypy_cache")},
+            [sys.executable, "-m", checker, *arguments],
+            env={**os.environ, "MYPYPATH": str(bundled), "MYPY_CACHE_DIR": str(cache)},
             capture_output=True,
             text=True,
             check=False,
             cwd=tmp_path,
         )
-        reports = [line for line in result.stdout.splitlines() if ": error:" in line]
-        assert all(line.startswith("program.py:") for line in reports), result.stdout
-        return sorted({int(line.split(":")[1]) for line in reports})
+        assert result.returncode in {0, 1}, result.stderr
+        places = re.findall(r"(\w+\.pyi?):(\d+):.*\berror\b", result.stdout)
+        assert {name for name, _ in places} <= {"program.py"}, result.stdout
+        return sorted({int(line) for _, line in places})
 
     return lines
 
@@ -200,6 +215,115 @@ def test_nodes_are_judged_by_the_classes_they_name(errors: Check) -> None:
     assert errors(NODE) == marked(NODE)
 
 
+LAUNCH = """
+from pathlib import Path
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, RegisterEventHandler
+from launch.actions import EmitEvent, GroupAction, OpaqueFunction, TimerAction
+from launch.conditions import IfCondition
+from launch.event_handlers import OnProcessExit
+from launch.events import Shutdown
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node, PushRosNamespace
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    share = FindPackageShare('talker')
+    node = Node(
+        package='talker',
+        executable='talker',
+        parameters=[{'rate': 2.0, 'text': ParameterValue('5', value_type=str)}, 'file.yaml'],
+        remappings=[('chatter', '/chatter')],
+        arguments=['--ros-args', '--log-level', LaunchConfiguration('level')],
+        condition=IfCondition(LaunchConfiguration('start')),
+        respawn=True,
+    )
+    Node(package='talker', executable='talker', paramaters=[])  # wrong
+    Node(package='talker', node_executable='talker')  # wrong
+    Node(package='talker', executable='talker', parameters={'rate': 2.0})  # wrong
+    Node(package='talker', executable='talker', arguments='--verbose')  # wrong
+    Node(package='talker', executable='talker', respawn_delay='2')  # wrong
+    DeclareLaunchArgument('start', default_value=True)  # wrong
+    DeclareLaunchArgument('file', default_value=Path('file.yaml'))
+    IfCondition(True)  # wrong
+    PathJoinSubstitution('launch/a.py')  # wrong
+    source = PythonLaunchDescriptionSource(PathJoinSubstitution([share, 'launch', 'a.py']))
+    IncludeLaunchDescription(source, launch_arguments={'rate': '1'})  # wrong
+    IncludeLaunchDescription(source, launch_arguments={'rate': True}.items())  # wrong
+    IncludeLaunchDescription(source, launch_arguments={'rate': '1'}.items())
+    RegisterEventHandler(OnProcessExit(target_action='talker', on_exit=[]))  # wrong
+    leave = EmitEvent(event=Shutdown(reason='done'))
+    return LaunchDescription([
+        DeclareLaunchArgument('start', default_value='true'),
+        GroupAction([PushRosNamespace('robot'), node]),
+        OpaqueFunction(function=lambda context: [node]),
+        TimerAction(period=5.0, actions=[node]),
+        RegisterEventHandler(OnProcessExit(target_action=node, on_exit=leave)),
+        RegisterEventHandler(OnProcessExit(on_exit=lambda event, context: [leave])),
+    ])
+"""
+
+
+def test_launch_files_may_pass_what_launch_takes(errors: Check) -> None:
+    assert errors(LAUNCH) == marked(LAUNCH)
+
+
+LIBRARIES = """
+import message_filters
+import tf2_geometry_msgs
+from cv_bridge import CvBridge
+from geometry_msgs.msg import PoseStamped, TransformStamped
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from sensor_msgs.msg import CameraInfo, Image
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+
+
+class Follower(Node):
+    def __init__(self):
+        super().__init__('follower')
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        TransformListener(self, self.buffer)  # wrong
+        TransformBroadcaster()  # wrong
+        TransformBroadcaster(self).sendTransform(TransformStamped())
+        StaticTransformBroadcaster(self).sendTransform([TransformStamped()])
+        StaticTransformBroadcaster(self).sendTransform(PoseStamped())  # wrong
+        found = self.buffer.lookup_transform('map', 'base_link', Time())
+        found.transform.translation.x + 1.0
+        found.translation  # wrong
+        pose = PoseStamped()
+        self.buffer.lookup_transform('map', 'base_link', pose.header.stamp)
+        self.buffer.lookup_transform('map', 'base_link', Time(), 0.5)  # wrong
+        self.buffer.lookup_transform('map', 'base_link', Time(), timeout=Duration(seconds=1))
+        self.buffer.lookup_transform('map', 'base_link')  # wrong
+        self.buffer.transform(pose, 'map').pose.position.x + 1.0
+        tf2_geometry_msgs.do_transform_pose(pose, found)  # wrong
+        images = message_filters.Subscriber(self, Image, 'image', qos_profile=5)
+        infos = message_filters.Subscriber(self, CameraInfo, 'camera_info')
+        message_filters.Subscriber('image', Image)  # wrong
+        message_filters.TimeSynchronizer([images, infos])  # wrong
+        both = message_filters.ApproximateTimeSynchronizer([images, infos], 10, 0.1)
+        both.registerCallback(self.on_both)
+        both.register_callback(self.on_both)  # wrong
+        self.bridge = CvBridge()
+
+    def on_both(self, image: Image, info: CameraInfo) -> None:
+        picture = self.bridge.imgmsg_to_cv2(image, desired_encoding='bgr8')
+        picture.shape
+        self.bridge.cv2_to_imgmsg(picture, 'bgr8', info.header)
+        self.bridge.imgmsg_to_cv2(image, encoding='bgr8')  # wrong
+"""
+
+
+def test_libraries_are_called_as_they_are_defined(errors: Check) -> None:
+    assert errors(LIBRARIES) == marked(LIBRARIES)
+
+
 def test_interfaces_of_the_workspace_come_along(tmp_path: Path) -> None:
     definitions = definitions_of(
         tmp_path, {"msg/Level.msg": "uint8 LOW=1\nuint8 level\nstd_msgs/Header header\n"}
@@ -228,3 +352,69 @@ def test_what_cannot_be_read_may_be_anything(tmp_path: Path) -> None:
 def test_an_unknown_distribution_is_refused() -> None:
     with pytest.raises(InputError, match="no stubs for distribution 'noetic'"):
         library_stubs("noetic")
+
+
+def test_stubs_have_no_errors_themselves(bundled: Path) -> None:
+    packages = [f"--package={path.name}" for path in bundled.iterdir() if path.is_dir()]
+    result = subprocess.run(
+        [sys.executable, "-m", "mypy", "--config-file=", *packages],
+        env={**os.environ, "MYPYPATH": str(bundled)},
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=bundled.parent,
+    )
+    assert result.returncode == 0, result.stdout
+
+
+# -- against the released source
+
+SCRIPT = Path(__file__).parent.parent / "scripts" / "make_stubs.py"
+
+
+def site_packages() -> Path:
+    spec = importlib.util.find_spec("rclpy")
+    assert spec is not None
+    assert spec.origin is not None
+    return Path(spec.origin).parent.parent
+
+
+def test_generated_stubs_are_what_the_script_makes_of_the_source() -> None:
+    spec = importlib.util.spec_from_file_location("make_stubs", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    made = script.stubs(site_packages())
+    stored = library_stubs("jazzy")
+    assert len(made) > 50
+    assert {path: stored[path] for path in made} == made
+
+
+def exported(text: str) -> set[str]:
+    """Return the names that can be imported from a stub."""
+    names: set[str] = set()
+    for node in ast.parse(text).body:
+        match node:
+            case ast.ClassDef(name=name) | ast.FunctionDef(name=name):
+                names.add(name)
+            case ast.Assign(targets=[ast.Name(id=name)]) | ast.AnnAssign(target=ast.Name(id=name)):
+                names.add(name)
+            case ast.ImportFrom(names=aliases):
+                names |= {alias.name for alias in aliases if alias.asname == alias.name}
+    return names
+
+
+def test_stubs_of_rclpy_have_every_public_class_and_function() -> None:
+    stored = library_stubs("jazzy")
+    missing = []
+    for path in sorted((site_packages() / "rclpy").rglob("*.py")):
+        relative = path.relative_to(site_packages()).with_suffix(".pyi").as_posix()
+        tree = ast.parse(path.read_text())
+        public = {
+            node.name
+            for node in tree.body
+            if isinstance(node, ast.ClassDef | ast.FunctionDef) and not node.name.startswith("_")
+        }
+        missing += [f"{relative}: {name}" for name in public - exported(stored[relative])]
+    assert missing == []

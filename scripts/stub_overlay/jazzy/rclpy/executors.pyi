@@ -42,4 +42,3 @@ class MultiThreadedExecutor(Executor):
         self, future: Future[Any], timeout_sec: Optional[Union[float, TimeoutObject]] = None
     ) -> None: ...
 
-del WaitableEntityType

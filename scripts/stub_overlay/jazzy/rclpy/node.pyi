@@ -26,10 +26,6 @@ _MsgT = TypeVar("_MsgT", bound=AnyMessage)
 
 class NodeNameNonExistentError(RuntimeError): ...
 
-del MsgType
-del SrvType
-del SrvTypeRequest
-del SrvTypeResponse
 
 class Node:
     PARAM_REL_TOL: float

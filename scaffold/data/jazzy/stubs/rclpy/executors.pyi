@@ -8,6 +8,7 @@ from typing import List
 from typing import Optional
 from typing import Set
 from typing import Type
+from typing import TypeVar
 from typing import Union
 from rclpy.client import Client as Client
 from rclpy.clock import Clock as Clock
@@ -27,6 +28,8 @@ from rclpy.waitable import NumberOfEntities as NumberOfEntities
 from rclpy.waitable import Waitable as Waitable
 from rclpy.node import Node as Node
 from typing_extensions import Self
+
+WaitableEntityType = TypeVar("WaitableEntityType")
 
 class _WorkTracker:
     def __init__(self) -> None: ...

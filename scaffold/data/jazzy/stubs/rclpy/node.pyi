@@ -77,6 +77,10 @@ from rclpy.parameter import AllowableParameterValue as AllowableParameterValue
 from rclpy.subscription import MessageInfo
 
 HIDDEN_NODE_PREFIX: str
+MsgType = TypeVar("MsgType")
+SrvType = TypeVar("SrvType")
+SrvTypeRequest = TypeVar("SrvTypeRequest")
+SrvTypeResponse = TypeVar("SrvTypeResponse")
 
 class NodeNameNonExistentError(RuntimeError): ...
 
