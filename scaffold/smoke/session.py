@@ -87,6 +87,7 @@ def smoke(
     interruption = interruption or Interruption()
     with ExitStack() as stack:
         stack.enter_context(interruption)
+        stack.enter_context(interruption.later())
         stack.enter_context(_subreaper())
         with interruption.at_once():
             leftovers.sweep()

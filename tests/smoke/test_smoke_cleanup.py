@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import suppress
@@ -18,10 +19,12 @@ import pytest
 
 from scaffold.errors import InputError
 from scaffold.smoke.cleanup import ledger, leftovers
+from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
 from scaffold.smoke.cleanup.workspace_lock import NAME, locked
 from scaffold.smoke.isolation import shared_memory
 from scaffold.smoke.processes import output, process, supervisor, table
 from scaffold.smoke.processes.process import Origin
+from scaffold.smoke.session import Options, smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import python_package, talker
 from tests.smoke.smoke_runs import (
@@ -306,7 +309,7 @@ def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
         "wait for it to finish, or choose another --workspace"
     )
     assert told == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
-    assert list(tmp_path.iterdir()) == []
+    assert os.listdir(tmp_path / "scratch") == []
 
 
 def test_workspace_is_waited_for(tmp_path: Path) -> None:
@@ -460,3 +463,25 @@ def test_interrupted_while_it_looks_for_ros(package: Path, tmp_path: Path) -> No
 
 def _text(directory: Path) -> str:
     return "".join(path.read_text() for path in directory.iterdir())
+
+
+@NEEDS_ROS
+def test_a_signal_while_it_cleans_up_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "scratch").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "scratch"))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    remove = leftovers.remove_scratch
+
+    def interrupted(scratch: Path, mark: str) -> bool:
+        signal.raise_signal(signal.SIGTERM)
+        return remove(scratch, mark)
+
+    monkeypatch.setattr(leftovers, "remove_scratch", interrupted)
+    with (
+        pytest.raises(InterruptedBySignalError),
+        Interruption() as interruption,
+        interruption.at_once(),
+    ):
+        smoke([], Options(), interruption=interruption)
+
+    assert os.listdir(tmp_path / "scratch") == []

@@ -84,6 +84,15 @@ class Interruption:
         finally:
             self._action = previous
 
+    @contextmanager
+    def later(self) -> Iterator[None]:
+        """Let a signal wait until it is asked for: what cleans up must not be cut short."""
+        previous, self._action = self._action, None
+        try:
+            yield
+        finally:
+            self._action = previous
+
     def run(self, main: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
         """Run a coroutine, which is cancelled when a signal comes.
 

@@ -38,6 +38,8 @@ PERIOD = 0.05
 """Seconds between two looks at what has no event: shared memory, and the children's end."""
 GRACE = 2.0
 """Seconds that processes have to obey SIGTERM."""
+GRACE_OF_STOP = 0.2
+"""Seconds that the kernel has to stop a process at SIGSTOP."""
 GRACE_OF_KILL = 10.0
 """Seconds that the kernel has to end what may start others all the time."""
 LISTING_PERIOD = 1.0
@@ -54,6 +56,8 @@ MOST_OUTPUT = 2**26
 _KEEP_SIZE_PUNCH_HOLE = 3
 
 _SET_CHILD_SUBREAPER = 36
+_STOPPED = frozenset("TtZX")
+"""States of processes that run no code: stopped, traced, and ended."""
 _OWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGXFSZ)
 
 
@@ -106,7 +110,6 @@ class Supervisor:
             self._note_processes()
             self._bound_output()
         self._await_children(self._finish or 0.0)
-        self._note_segments()
         left = self._end_all()
         shared_memory.remove_unused(self._segments)
         self._tell({"left": left, "segments": sorted(self._segments)})
@@ -252,15 +255,16 @@ class Supervisor:
 
     def _end_all(self) -> list[str]:
         """End all descendants; return the command lines of those that had outlived the command."""
-        living = self._living()
+        living = self._hold()
         left = [table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
         for process in living:
             _send(process.pid, signal.SIGTERM)
             _send(process.pid, signal.SIGCONT)
         deadline = time.monotonic() + GRACE
         while self._living() and time.monotonic() < deadline:
+            self._watch_segments()
             time.sleep(PERIOD / 5)
-        self._note_segments()
+        self._hold()
         deadline = time.monotonic() + GRACE_OF_KILL
         while (living := self._living()) and time.monotonic() < deadline:
             # The kernel ends a group at once, also one whose members start others all the time.
@@ -270,6 +274,26 @@ class Supervisor:
                 _send(process.pid, signal.SIGKILL)
             self._reap()
         return left
+
+    def _hold(self) -> list[Process]:
+        """Stop all descendants and note their segments; return the processes.
+
+        One that ran on could create a segment unseen and end before it removes it. Stopped between
+        creating and mapping a segment, it still has the file open.
+        """
+        living = self._living()
+        for process in living:
+            _send(process.pid, signal.SIGSTOP)
+        deadline = time.monotonic() + GRACE_OF_STOP
+        while any(map(_is_running, living)) and time.monotonic() < deadline:
+            time.sleep(PERIOD / 50)
+        self._note_segments()
+        return living
+
+
+def _is_running(process: Process) -> bool:
+    now = table.of_pid(process.pid)
+    return now is not None and now.started == process.started and now.state not in _STOPPED
 
 
 def _leave_pipes() -> None:
