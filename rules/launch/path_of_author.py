@@ -35,6 +35,7 @@ class PathOfAuthor(Rule):
     code = "LF013"
     name = "path-of-author"
     severity = Severity.WARNING
+    release_refused = "the file is not in the package"
     examples = (
         Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
         Example(

@@ -26,6 +26,7 @@ class ChangelogMalformed(Rule):
     code = "LY005"
     name = "changelog-malformed"
     severity = Severity.WARNING
+    release_refused = "bloom leaves the section out"
     examples = (
         Example(
             "versions",

@@ -29,6 +29,7 @@ class ChangelogWithoutVersion(Rule):
     code = "LY060"
     name = "changelog-without-version"
     severity = Severity.INFO
+    release_refused = "the release has no entry in the changelog"
     examples = (
         Example(
             "there", {"package.xml": _MANIFEST.format("0.1.0"), "CHANGELOG.rst": _TITLE + _SECTION}

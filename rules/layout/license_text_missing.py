@@ -25,6 +25,7 @@ class LicenseTextMissing(Rule):
     code = "LY006"
     name = "license-text-missing"
     severity = Severity.INFO
+    release_refused = "rosdistro asks for the text of the license"
     examples = (
         Example("there", {"package.xml": "<package/>\n", "setup.py": "", "LICENSE": "..."}),
         Example(

@@ -33,6 +33,7 @@ class FileOfAuthor(RclpyRule):
     code = "ND063"
     name = "file-of-author"
     severity = Severity.WARNING
+    release_refused = "the file is not in the package"
     examples = (
         Example("a parameter", {"talker.py": _NODE.format("get('path')")}),
         Example(

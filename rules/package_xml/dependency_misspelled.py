@@ -21,6 +21,7 @@ class DependencyMisspelled(Rule):
     code = "PX022"
     name = "dependency-misspelled"
     other_severities = {Severity.WARNING: "a name that other packages suggest: rclpy_action"}
+    release_refused = "bloom finds no rule of rosdep for the name"
     examples = (
         Example(
             "correct, and an unknown one",

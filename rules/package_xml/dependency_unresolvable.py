@@ -42,6 +42,7 @@ class DependencyUnresolvable(Rule):
     code = "PX028"
     name = "dependency-unresolvable"
     severity = Severity.WARNING
+    release_refused = "bloom finds no rule of rosdep for the name"
     examples = (
         Example(
             "a key of rosdep",

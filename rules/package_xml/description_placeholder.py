@@ -23,6 +23,7 @@ class DescriptionPlaceholder(Rule):
     name = "description-placeholder"
     severity = Severity.WARNING
     other_severities = {Severity.ERROR: "there is no description: the package is not built"}
+    release_refused = "the placeholder becomes the text of the Debian package"
     examples = (
         Example(
             "a sentence", {"package.xml": "<package><description>Talks.</description></package>\n"}

@@ -22,6 +22,7 @@ class MaintainerPlaceholder(Rule):
     name = "maintainer-placeholder"
     severity = Severity.WARNING
     other_severities = {Severity.ERROR: "there is no name: the package is not built"}
+    release_refused = "the build farm writes to this address"
     examples = (
         Example(
             "somebody",

@@ -30,6 +30,7 @@ class ManifestNotInstalled(Rule):
     code = "SP007"
     name = "manifest-not-installed"
     severity = Severity.WARNING
+    release_refused = "the Debian package lacks its manifest"
     examples = (
         Example(
             "installed", {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_MARKER + _LINE)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
 from scaffold.ament.settings import settings_of
@@ -21,6 +21,8 @@ class Adjustments(NamedTuple):
     has_own_style_only: bool = False
     """Whether style counts only where a test of the package itself would report it."""
     exclusion: Exclusion = Exclusion()
+    refused_at_release: Collection[str] = ()
+    """Codes that are errors, because no release is made of what has them."""
 
     def apply(self, package: Package, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """Yield what is to be reported of a package, with its severity."""
@@ -46,7 +48,9 @@ class Adjustments(NamedTuple):
 
     def _severity(self, code: str) -> Severity | None:
         fitting = [prefix for prefix in self.severities if code.startswith(prefix)]
-        return self.severities[max(fitting, key=len)] if fitting else None
+        if fitting:
+            return self.severities[max(fitting, key=len)]
+        return Severity.ERROR if code in self.refused_at_release else None
 
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:

@@ -43,6 +43,7 @@ def _rule(row: AmentCode) -> type[AmentRule]:
         "name": row.name,
         "severity": row.severity,
         "other_severities": row.other_severities or {},
+        "release_refused": row.release_refused,
     }
     return type(row.name, (AmentRule,), facts)
 

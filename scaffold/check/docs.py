@@ -136,6 +136,8 @@ def has_fix(rule: type[Rule]) -> bool:
 
 def _severity(rule: type[Rule]) -> str:
     others = [f"{severity.value} if {why}" for severity, why in rule.other_severities.items()]
+    if rule.release_refused:
+        others.append(f"error with `--release`: {rule.release_refused}")
     return "; ".join([rule.severity.value, *others])
 
 

@@ -113,6 +113,8 @@ class Rule:
     severity: ClassVar[Severity] = Severity.ERROR
     other_severities: ClassVar[Mapping[Severity, str]] = {}
     """Severities that a diagnostic may have instead, each with the condition for it."""
+    release_refused: ClassVar[str] = ""
+    """Why no release is made of what has this flaw: then it is an error with `check --release`."""
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]

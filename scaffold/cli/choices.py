@@ -54,8 +54,12 @@ class Choices:
         }
         return Selection(chosen["select"], chosen["ignore"], per_path)
 
-    def adjustments(self) -> Adjustments:
+    def adjustments(self, *, is_release: bool = False) -> Adjustments:
         """Return the other adjustments of findings by the configuration.
+
+        Args:
+            is_release: Whether what no release is made of is an error, unless the configuration
+                says otherwise.
 
         Raises:
             ConfigError: a word means no rule.
@@ -74,7 +78,13 @@ class Choices:
         patterns = self._settings.strings(key)
         exclusion = Exclusion(patterns, self._settings.origin(key)) if patterns else Exclusion()
         is_own = self._settings.value("check.style") == "own"
-        return Adjustments(severities, is_own, exclusion)
+        refused = self._refused_at_release() if is_release else frozenset()
+        return Adjustments(severities, is_own, exclusion, refused)
+
+    def _refused_at_release(self) -> frozenset[str]:
+        from scaffold.check.session import all_rules
+
+        return frozenset(rule.code for rule in all_rules(self._rules) if rule.release_refused)
 
     def _origin(self, key: str) -> str:
         return f"{self._settings.origin(key)}: {key.partition('.')[2]}"

@@ -233,6 +233,7 @@ link.
         "dependency-version-malformed",
         "``version_gte`` or alike of a dependency is not one to three numbers",
         XMLLINT,
+        release_refused="the Debian package cannot ask for such a version",
         message=('version_gte="1.x" is not one to three numbers'),
         documentation="""\
 **Why.** ``ament_xmllint`` fails under ``colcon test``, and bloom writes a wrong dependency

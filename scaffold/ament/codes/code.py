@@ -42,3 +42,5 @@ class AmentCode(NamedTuple):
     """Severities that a diagnostic may have instead, each with the condition for it."""
     is_optional: bool = False
     """Whether only a configuration of a package's own asks for it."""
+    release_refused: str = ""
+    """Why no release is made of what has this flaw: then it is an error with `check --release`."""

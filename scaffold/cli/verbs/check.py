@@ -55,6 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for action in (select, ignore):
         action.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
+        "--release",
+        action="store_true",
+        help="report what a release is refused for as errors, such as names that rosdep lacks",
+    )
+    parser.add_argument(
         "--fix",
         action="store_true",
         help="apply the fixes that do not change behavior; those of single files may change others "
@@ -224,7 +229,7 @@ def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choi
     return kind(
         rules,
         selection,
-        choices.adjustments(),
+        choices.adjustments(is_release=options.release),
         has_types=not options.no_types,
         is_reference=options.reference_config,
     )

@@ -1,0 +1,82 @@
+"""``check --release`` reports what a release is refused for as errors."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+
+PLACEHOLDER, PIP, NAME = "PX003", "PX029", "PX022"
+
+
+@pytest.fixture(scope="module")
+def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a package that nothing is wrong with."""
+    top = tmp_path_factory.mktemp("generated")
+    assert main(["new", "talker", "--destination-directory", str(top)]) == 0
+    return top / "talker"
+
+
+@pytest.fixture
+def package(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a package with flaws that only a release is refused for."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    copy = tmp_path / "talker"
+    shutil.copytree(generated, copy)
+    manifest = copy / "package.xml"
+    text = manifest.read_text()
+    start = text.index('email="') + len('email="')
+    text = text[:start] + "ada@todo.todo" + text[text.index('"', start) :]
+    dependencies = "<exec_depend>python3-furo-pip</exec_depend>\n  <exec_depend>rclpy_action"
+    text = text.replace("  <test_depend", f"  {dependencies}</exec_depend>\n  <test_depend", 1)
+    manifest.write_text(text)
+    monkeypatch.chdir(copy)
+    return copy
+
+
+def severities(capsys: pytest.CaptureFixture[str], *flags: str) -> Mapping[str, str]:
+    capsys.readouterr()
+    main(["check", "--format", "json", *flags])
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    return {finding["code"]: finding["severity"] for finding in found}
+
+
+@pytest.mark.usefixtures("package")
+def test_what_a_release_is_refused_for_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+    usual = {PLACEHOLDER: "warning", PIP: "info", NAME: "warning"}
+    assert severities(capsys) == usual
+    assert severities(capsys, "--release") == dict.fromkeys(usual, "error")
+    assert severities(capsys) == usual
+
+
+@pytest.mark.usefixtures("package")
+def test_the_exit_code_counts_them(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--select", PIP]) == 0
+    assert main(["check", "--select", PIP, "--release"]) == 1
+    assert "1 error" in capsys.readouterr().out
+
+
+def test_a_severity_of_the_configuration_wins(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "ros2-scaffold.toml").write_text(f"[check.severity]\n{PLACEHOLDER} = 'info'\n")
+    found = severities(capsys, "--release")
+    assert (found[PLACEHOLDER], found[PIP]) == ("info", "error")
+
+
+def test_a_package_that_is_ready_stays_clean(
+    generated: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(generated)
+    assert main(["check", "--release"]) == 0
+
+
+def test_the_page_of_a_rule_says_why(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules", PIP]) == 0
+    page = capsys.readouterr().out
+    assert "error with `--release`: a released package cannot depend on what pip installs" in page
