@@ -61,10 +61,12 @@ def package_stubs(
                 exports.append(f"{name}: Any")
                 continue
             module = module_name(name)
-            files[f"{package}/{kind}/{module}.pyi"] = _Renderer(
-                interface, definitions, others=others
-            ).text()
-            exports.append(f"from {package}.{kind}.{module} import {name} as {name}")
+            renderer = _Renderer(interface, definitions, others=others)
+            files[f"{package}/{kind}/{module}.pyi"] = renderer.text()
+            exports += [
+                f"from {package}.{kind}.{module} import {part} as {part}"
+                for part in renderer.exports
+            ]
         if names:
             files[f"{package}/{kind}/__init__.pyi"] = _exporting(exports)
     if files:
@@ -103,6 +105,8 @@ class _Class(NamedTuple):
     fields: Sequence[tuple[str, FieldType]]
     inside: Mapping[str, str]
     """Its attributes that are classes."""
+    implementation: Mapping[str, str] = {}
+    """Those of its class ``Impl``."""
 
 
 class _Renderer:
@@ -115,6 +119,15 @@ class _Renderer:
         self._imports: set[str] = set()
         self._aliases: dict[str, str] = {}
         self._builtins = ""
+
+    @property
+    def exports(self) -> list[str]:
+        """The names that the module of its kind exports; of parts, only those of services."""
+        name, kind = self._interface.name, self._interface.kind
+        services = [f"{name}_SendGoal", f"{name}_GetResult"] if kind == "action" else []
+        services += [name] if kind == "srv" else []
+        parts = ("Event", "Request", "Response")
+        return [name, *(f"{service}_{part}" for service in services for part in parts)]
 
     def text(self) -> str:
         """Return the stub of the module that defines the interface."""
@@ -179,7 +192,19 @@ class _Renderer:
         parts = ("Goal", "Result", "Feedback")
         base = f"Action[{', '.join(f'{name}_{part}' for part in parts)}]"
         inside = {part: f"{name}_{part}" for part in parts}
-        yield _Class(name, base, (), (), inside)
+        yield _Class(name, base, (), (), inside, self._implementation(name))
+
+    def _implementation(self, name: str) -> dict[str, str]:
+        """Return the classes that carry an action, as ``Impl`` of generated code has them."""
+        self._imports.add("from action_msgs.srv._cancel_goal import CancelGoal")
+        self._imports.add("from action_msgs.msg._goal_status_array import GoalStatusArray")
+        return {
+            "SendGoalService": f"{name}_SendGoal",
+            "GetResultService": f"{name}_GetResult",
+            "FeedbackMessage": f"{name}_FeedbackMessage",
+            "CancelGoalService": "CancelGoal",
+            "GoalStatusMessage": "GoalStatusArray",
+        }
 
     # -- one class
 
@@ -190,6 +215,9 @@ class _Renderer:
         lines += [f"    {name}: TypeAlias = {value}" for name, value in class_.inside.items()]
         if class_.inside:
             self._imports.add("from typing_extensions import TypeAlias")
+            inner = class_.implementation.items()
+            lines += ["    class Impl:"] if inner else []
+            lines += [f"        {name}: TypeAlias = {value}" for name, value in inner]
             return "\n".join([*lines, ""])
         members = [self._member(name, type_) for name, type_ in class_.fields]
         for member in members:

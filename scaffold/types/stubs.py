@@ -16,6 +16,12 @@ _DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _STUBS = "stubs"
 INCOMPLETE = frozenset(
     {
+        "ament_copyright",
+        "ament_flake8",
+        "ament_mypy",
+        "ament_pep257",
+        "ament_pycodestyle",
+        "ament_xmllint",
         "cv_bridge",
         "image_geometry",
         "launch_testing",

@@ -41,4 +41,3 @@ class MultiThreadedExecutor(Executor):
     def spin_once_until_future_complete(
         self, future: Future[Any], timeout_sec: Optional[Union[float, TimeoutObject]] = None
     ) -> None: ...
-

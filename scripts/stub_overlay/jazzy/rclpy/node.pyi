@@ -26,7 +26,6 @@ _MsgT = TypeVar("_MsgT", bound=AnyMessage)
 
 class NodeNameNonExistentError(RuntimeError): ...
 
-
 class Node:
     PARAM_REL_TOL: float
     @property

@@ -19,6 +19,7 @@ class CompositeDiagnosticTask(DiagnosticTask):
     def addTask(self, t: DiagnosticTask) -> None: ...
 
 class DiagnosticTaskVector:
+    DiagnosticTaskInternal: Any
     tasks: list[Any]
     lock: Any
     def __init__(self) -> None: ...

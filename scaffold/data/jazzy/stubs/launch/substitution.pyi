@@ -1,5 +1,9 @@
+from typing import Any
+
 from launch.launch_context import LaunchContext
 
 class Substitution:
+    @classmethod
+    def parse(cls, data: Any) -> Any: ...
     def describe(self) -> str: ...
     def perform(self, context: LaunchContext) -> str: ...

@@ -10,6 +10,9 @@ from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage as TFMessage
 from tf2_ros.buffer import Buffer as Buffer
 
+DEFAULT_TF_TOPIC: str
+DEFAULT_STATIC_TF_TOPIC: str
+
 class TransformListener:
     buffer: Buffer
     node: Node

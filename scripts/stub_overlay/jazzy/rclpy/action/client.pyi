@@ -13,10 +13,6 @@ class _GetResultResponse(Generic[ResultT]):
     status: int
     result: ResultT
 
-class _FeedbackMessage(Generic[FeedbackT]):
-    goal_id: UUID
-    feedback: FeedbackT
-
 class ClientGoalHandle(Generic[GoalT, ResultT, FeedbackT]):
     def __init__(self, action_client: Any, goal_id: UUID, goal_response: Any) -> None: ...
     def __eq__(self, other: object) -> bool: ...
@@ -53,13 +49,13 @@ class ActionClient(Waitable, Generic[GoalT, ResultT, FeedbackT]):
         self,
         goal: GoalT,
         *,
-        feedback_callback: Optional[Callable[[_FeedbackMessage[FeedbackT]], object]] = None,
+        feedback_callback: Optional[Callable[[Any], object]] = None,
         goal_uuid: Optional[UUID] = None,
     ) -> _GetResultResponse[ResultT]: ...
     def send_goal_async(
         self,
         goal: GoalT,
-        feedback_callback: Optional[Callable[[_FeedbackMessage[FeedbackT]], object]] = None,
+        feedback_callback: Optional[Callable[[Any], object]] = None,
         goal_uuid: Optional[UUID] = None,
     ) -> Future[ClientGoalHandle[GoalT, ResultT, FeedbackT]]: ...
     def server_is_ready(self) -> bool: ...

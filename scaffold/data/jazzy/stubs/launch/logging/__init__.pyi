@@ -1,6 +1,8 @@
 import logging
 from typing import Any
 
+from launch.logging import handlers as handlers
+
 class LaunchConfig:
     level: int
     log_dir: str

@@ -18,6 +18,7 @@ class LifecycleNode(Node):
         name: SomeSubstitutionsType,
         namespace: SomeSubstitutionsType,
         package: SomeSubstitutionsType | None = None,
+        autostart: bool = False,
         parameters: SomeParameters | None = None,
         remappings: SomeRemapRules | None = None,
         ros_arguments: Listed[SomeSubstitutionsType] | None = None,
@@ -41,3 +42,5 @@ class LifecycleNode(Node):
         respawn_max_retries: int = -1,
         condition: Condition | None = None,
     ) -> None: ...
+    @property
+    def node_autostart(self) -> bool: ...

@@ -69,13 +69,13 @@ class ActionClient(Waitable, Generic[GoalT, ResultT, FeedbackT]):
         self,
         goal: GoalT,
         *,
-        feedback_callback: Optional[Callable[[_FeedbackMessage[FeedbackT]], object]] = None,
+        feedback_callback: Optional[Callable[[Any], object]] = None,
         goal_uuid: Optional[UUID] = None,
     ) -> _GetResultResponse[ResultT]: ...
     def send_goal_async(
         self,
         goal: GoalT,
-        feedback_callback: Optional[Callable[[_FeedbackMessage[FeedbackT]], object]] = None,
+        feedback_callback: Optional[Callable[[Any], object]] = None,
         goal_uuid: Optional[UUID] = None,
     ) -> Future[ClientGoalHandle[GoalT, ResultT, FeedbackT]]: ...
     _cancel_goal: Any
@@ -108,7 +108,3 @@ class ActionClient(Waitable, Generic[GoalT, ResultT, FeedbackT]):
 class _GetResultResponse(Generic[ResultT]):
     status: int
     result: ResultT
-
-class _FeedbackMessage(Generic[FeedbackT]):
-    goal_id: UUID
-    feedback: FeedbackT
