@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api import Diagnostic, Example, Report, Severity, TypeRule
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
+    class_in,
     class_itself,
     full_name,
     in_words,
@@ -15,6 +16,8 @@ from scaffold.api.types import (
     with_article,
 )
 
+_CONVERTED = ("rclpy.time.Time", "rclpy.duration.Duration")
+"""What tf2 takes as well as a message: nobody may publish this one."""
 _NODE = (
     "from geometry_msgs.msg import Vector3\nfrom visualization_msgs.msg import Marker\n\n\n"
     "def dot() -> Marker:\n"
@@ -38,6 +41,7 @@ class AssignedTypeUnfit(TypeRule):
 
     code = "TY007"
     name = "assigned-type-unfit"
+    other_severities = {Severity.WARNING: "it is a time of rclpy in a file that uses tf2"}
     kinds = frozenset({"invalid-assignment"})
     examples = (
         Example("a value of its type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}),
@@ -48,6 +52,23 @@ class AssignedTypeUnfit(TypeRule):
                 "7:20",
                 "'scale' of visualization_msgs.msg.Marker is a "
                 "geometry_msgs.msg.Vector3, not a float: it cannot be published",
+            ),
+        ),
+        Example(
+            "a time for tf2",
+            {
+                "look.py": "import tf2_ros\nfrom rclpy.time import Time\n"
+                "from std_msgs.msg import Header\n\n\n"
+                "def stamped():\n"
+                "    header = Header()\n"
+                "    header.stamp = Time()\n"
+                "    return tf2_ros, header\n"
+            },
+            Report(
+                "8:20",
+                "'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, "
+                "not a rclpy.time.Time: it cannot be published",
+                severity=Severity.WARNING,
             ),
         ),
     )
@@ -66,9 +87,11 @@ class AssignedTypeUnfit(TypeRule):
             return None
         class_ = class_itself(given)
         hint = f"; write {full_name(class_).rpartition('.')[2]}()" if class_ else ""
+        is_converted = full_name(class_in(given)) in _CONVERTED and finding.module.mentions("tf2")
         return self.report(
             finding,
             f"{matched['field']!r} of {full_name(matched['owner'])} is "
             f"{with_article(name_of(expected))}, not {in_words(given)}: it cannot be published"
             f"{hint}",
+            severity=Severity.WARNING if is_converted else None,
         )

@@ -85,6 +85,8 @@ class ModuleUnknown(TypeRule):
             )
             return self.report(finding, message, severity=severity)
         above, _, last = module.rpartition(".")
+        if last.startswith("_"):
+            return None  # an extension module
         if re.fullmatch(r"\w+\.(msg|srv|action)\.[A-Z]\w*", module):
             message = (
                 f"{last!r} is a class, not a module: ModuleNotFoundError; "

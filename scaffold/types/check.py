@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from scaffold.model.package import Package
 from scaffold.types import environment, ty
+from scaffold.types.callbacks import with_callback_types
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.sources import Source, Sources
@@ -109,7 +110,7 @@ class TypeCheck:
                     asked.append(file)
         if asked:
             self._home = home
-            self._run = self._started("project", asked, lambda source: source.data)
+            self._run = self._started("project", asked, _annotated)
 
     def _started(
         self, name: str, asked: Sequence[_File], content: Callable[[Source], bytes]
@@ -156,7 +157,8 @@ class TypeCheck:
             reported = self._run.results()
             for file in asked:
                 found = reported.get(file.source.place, ())
-                file.found = [item for item in found if _concerns(item, self._stubbed)]
+                stubbed = self._stubbed - _made_here(file.reached)
+                file.found = [item for item in found if _concerns(item, stubbed)]
             self._confirm([file for file in asked if any(map(_may_be_annotated, file.found or ()))])
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
@@ -212,6 +214,15 @@ def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
     )
 
 
+def _made_here(reached: Mapping[str, Source]) -> frozenset[str]:
+    """Return the importable packages that are code of the workspace."""
+    return frozenset(
+        place.split("/")[1]
+        for place, source in reached.items()
+        if source.path and place.startswith(f"{ty.LIBRARY}/")
+    )
+
+
 def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
     """Tell whether a report is of interest: most are about the user's own classes."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
@@ -228,11 +239,16 @@ def _may_be_annotated(item: TyDiagnostic) -> bool:
     return item.kind not in _OF_MODULES
 
 
+def _annotated(source: Source) -> bytes:
+    """Return a file with annotations of its callbacks."""
+    return with_callback_types(source.data) if source.path else source.data
+
+
 def _unannotated(source: Source) -> bytes:
-    """Return a file without annotations; nothing of one that does not parse."""
+    """Return a file with no other annotations; nothing of one that does not parse."""
     if not source.path:  # a stub
         return source.data
-    return without_annotations(source.data) or b""
+    return without_annotations(with_callback_types(source.data)) or b""
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

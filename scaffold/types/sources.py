@@ -25,6 +25,8 @@ _IMPORT = re.compile(
       | import [ \t]+ (?P<modules>[^\n#;]+) )""",
     re.MULTILINE | re.VERBOSE,
 )
+_OF_PYTHON = "_py"
+"""The end of the name of a package whose Python package lacks it: ``tf2_ros_py``."""
 _WORD = re.compile(rb"[\w.]+")
 
 
@@ -128,8 +130,11 @@ class Sources:
         """Return the package of the workspace that has a top-level module."""
         key = (id(user), root)
         if key not in self._looked_up:
-            own = user.name == root
-            self._looked_up[key] = user if own else user.workspace.get(root)
+            names = (root, f"{root}{_OF_PYTHON}")
+            found = [user if user.name == name else user.workspace.get(name) for name in names]
+            packages = [item for item in found if item is not None]
+            importable = [item for item in packages if self._of(item).provides(root)]
+            self._looked_up[key] = next(iter(importable or packages), None)
         return self._looked_up[key]
 
     def _of(self, package: Package) -> _PackageSources:
@@ -146,12 +151,13 @@ class _PackageSources:
         self._sources: dict[str, Source | None] = {}
         self._stubs: list[Source] | None = None
         self._files = frozenset(package.tree.files)
-        self._above = self._root()
+        self._root = package.name.removesuffix(_OF_PYTHON)
+        self._above = self._find_above()
         # Nobody can import what is in a directory of this name.
         place = f"{package.name} {package.directory}".encode("utf-8", "surrogateescape")
         self._outside = f"files-{digest(place)[:16]}"
 
-    def _root(self) -> str | None:
+    def _find_above(self) -> str | None:
         """Return the directory above the importable package, with its slash; ``None`` without."""
         name = self._package.name
         if not name.isidentifier() or self._package.workspace.get(name) not in {
@@ -159,11 +165,17 @@ class _PackageSources:
             self._package,
         }:
             return None  # another package of the same name is the one that is imported
-        for above in ("", "src/"):
-            start = f"{above}{self._package.name}/"
-            if any(path.startswith(start) and path.endswith(".py") for path in self._files):
-                return above
+        for root in dict.fromkeys((name, self._root)):
+            for above in ("", "src/"):
+                start = f"{above}{root}/"
+                if any(path.startswith(start) and path.endswith(".py") for path in self._files):
+                    self._root = root
+                    return above
         return None
+
+    def provides(self, root: str) -> bool:
+        """Tell whether the package has an importable package of this name."""
+        return self._above is not None and self._root == root
 
     def source(self, path: str) -> Source | None:
         """Return a file; ``None`` if it cannot be read or is too large."""
@@ -184,7 +196,7 @@ class _PackageSources:
 
     def _place(self, path: str) -> tuple[str, str]:
         name = path if path.endswith(".py") else f"{path}.py"
-        start = None if self._above is None else f"{self._above}{self._package.name}/"
+        start = None if self._above is None else f"{self._above}{self._root}/"
         if start is None or not path.startswith(start):
             return f"{self._outside}/{name}", ""
         place = name[len(self._above or "") :]

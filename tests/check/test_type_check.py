@@ -109,6 +109,83 @@ def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> N
     assert check("talker") == ["talker/talker/talk.py:5:TY003"]
 
 
+def test_what_is_subscribed_to_is_what_a_callback_gets(check: Check, source: Path) -> None:
+    """Whatever it is annotated with, and whoever else has a method of this name."""
+    node = """from example_interfaces.action import Fibonacci
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from std_msgs.msg import Float64, Header, String
+from std_srvs.srv import Trigger
+
+
+class Listener(Node):
+    def __init__(self):
+        super().__init__('listener')
+        self.create_subscription(String, self.name(('a', 'b')), self.on_message, 10)
+        self.create_subscription(Header, 'times', self.on_header, qos_profile=1)
+        self.create_service(Trigger, 'start', self.start)
+        ActionServer(self, Fibonacci, 'count', execute_callback=self.count)
+
+    def on_message(self, message):
+        print(message.stamp)
+
+    def on_header(self, header: String) -> None:
+        print(header.stamp.sec, header.data)
+
+    def start(self, request, response):
+        response.succes = True
+        return response
+
+    async def count(self, goal_handle):
+        goal_handle.succeed(Fibonacci.Result())
+
+
+class Other(Node):
+    def __init__(self):
+        super().__init__('other')
+        self.create_subscription(Float64, 'speeds', self.on_message, 10)
+        self.create_subscription(Float64, 'more', self.on_any, 10)
+        self.create_subscription(String, 'less', self.on_any, 10)
+
+    def on_message(self, message):
+        print(message.speed)
+
+    def on_any(self, message):
+        print(message.anything)
+"""
+    make_package(source, "listener", {"listener/node.py": node})
+    found = [line.removeprefix("listener/listener/node.py:") for line in check("listener")]
+    assert found == ["17:TY003", "20:TY003", "23:TY003", "27:TY004", "38:TY003"]
+
+
+def test_annotations_of_the_user_are_not_believed(check: Check, source: Path) -> None:
+    node = """from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+def topic_of(name) -> String:
+    return name.upper()
+
+
+class Talker(Node):
+    names: list[
+        String
+    ]
+
+    def __init__(self, topic: String, pose: TransformStamped):
+        super().__init__('talker')
+        self.create_publisher(String, topic, 10)
+        self.create_publisher(String, topic_of(topic), 10)
+        pose = pose.transform
+        print(pose.translation)
+        self.text: String = 'é'; print(self.text.upper())
+        self.last: String = String(); print(self.last.txt)
+"""
+    make_package(source, "talker", {"talker/node.py": node})
+    assert check("talker") == ["talker/talker/node.py:22:TY003"]
+
+
 # -- what is imported decides as well
 
 

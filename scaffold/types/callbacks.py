@@ -1,0 +1,140 @@
+"""What callbacks get: written into the files that a type checker reads, whatever is there.
+
+``create_subscription(String, 'chatter', self.on_chatter, 10)`` says what ``on_chatter(self, msg)``
+is called with, as plainly as an annotation. What is added is on the line of the ``def`` alone.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+_WORDS = (b"create_subscription(", b"create_service(", b"ActionServer(")
+_CALL = re.compile(r"\b(create_subscription|create_service|ActionServer)\(")
+_TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
+_CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
+_SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
+_PARAMETER = r"\w+(?:\s*:\s*[\w.\[\]\"']+)?"
+_END = r"(\s*,?\s*\)\s*(?:->[^\n]*)?:)"
+_GOAL_HANDLE = "_Ros2ServerGoalHandle"
+_IMPORT = f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n"
+_LONGEST = 2_000
+"""Characters of a call that are looked at."""
+_CALLBACKS = {
+    "create_subscription": (0, {"callback": 2}),
+    "create_service": (0, {"callback": 2}),
+    "ActionServer": (
+        1,
+        {
+            "execute_callback": 3,
+            "goal_callback": -1,
+            "handle_accepted_callback": -1,
+            "cancel_callback": -1,
+        },
+    ),
+}
+"""Where each function takes the type, and where it takes callbacks besides by name."""
+
+
+def with_callback_types(data: bytes) -> bytes:
+    """Return a file with annotations for its callbacks."""
+    if not any(word in data for word in _WORDS):
+        return data
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return data
+    segments = _SEGMENT.split(text)
+    result = "".join(_annotated(segment) for segment in segments)
+    return (result + _IMPORT if _GOAL_HANDLE in result else result).encode()
+
+
+def _annotated(segment: str) -> str:
+    """Return a class, or what is outside of classes, with what its callbacks get."""
+    types: dict[str, tuple[str, ...]] = {}
+    for name, given in _registered(segment):
+        types[name] = () if types.get(name, given) != given else given
+    for name, given in types.items():
+        pattern = (
+            rf"(\bdef {name}\(\s*(?:self\s*,\s*)?)({_PARAMETER})(?:(\s*,\s*)({_PARAMETER}))?{_END}"
+        )
+        found = list(re.finditer(pattern, segment))
+        if len(found) == 1 and given:
+            start, end = found[0].span()
+            segment = f"{segment[:start]}{_typed(found[0], given)}{segment[end:]}"
+    return segment
+
+
+def _typed(definition: re.Match[str], given: tuple[str, ...]) -> str:
+    head, first, comma, second, tail = definition.groups()
+    result = f'{head}{_name(first)}: "{given[0]}"'
+    if second:
+        result += f"{comma}{_name(second)}" + (f': "{given[1]}"' if len(given) > 1 else "")
+    return result + tail
+
+
+def _name(parameter: str) -> str:
+    return parameter.partition(":")[0].rstrip()
+
+
+def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the callbacks that are registered, with the types of their arguments."""
+    for call in _CALL.finditer(segment):
+        function = call[1]
+        arguments = _arguments(segment, call.end())
+        place, callbacks = _CALLBACKS[function]
+        type_ = arguments.get(str(place), "")
+        if not _TYPE.fullmatch(type_):
+            continue
+        for keyword, position in callbacks.items():
+            callback = _CALLBACK.fullmatch(arguments.get(keyword, arguments.get(str(position), "")))
+            if callback is not None:
+                yield callback[1], _given(function, keyword, type_)
+
+
+def _given(function: str, keyword: str, type_: str) -> tuple[str, ...]:
+    if function == "create_subscription":
+        return (type_,)
+    if function == "create_service":
+        return f"{type_}.Request", f"{type_}.Response"
+    if keyword == "goal_callback":
+        return (f"{type_}.Goal",)
+    return (f"{_GOAL_HANDLE}[{type_}.Goal, {type_}.Result, {type_}.Feedback]",)
+
+
+def _arguments(text: str, start: int) -> Mapping[str, str]:
+    """Return the arguments of a call by keyword or number; empty if its end is not found."""
+    parts: list[str] = []
+    depth, at, quote = 0, start, ""
+    begin = start
+    while at < min(len(text), start + _LONGEST):
+        character = text[at]
+        if quote:
+            if character == "\\":
+                at += 1
+            elif character == quote:
+                quote = ""
+        elif character in "'\"":
+            quote = character
+        elif character in "([{":
+            depth += 1
+        elif character in ")]}" and depth:
+            depth -= 1
+        elif character in ",)" and not depth:
+            parts.append(text[begin:at].strip())
+            begin = at + 1
+            if character == ")":
+                return _by_name(parts)
+        at += 1
+    return {}
+
+
+def _by_name(parts: list[str]) -> dict[str, str]:
+    result: dict[str, str] = {}
+    for number, part in enumerate(parts):
+        keyword = re.match(r"(\w+)\s*=(?!=)\s*", part)
+        if keyword is not None:
+            result[keyword[1]] = part[keyword.end() :]
+        else:
+            result[str(number)] = part
+    return result
