@@ -13,14 +13,14 @@ from scaffold import time_limit
 from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
-from scaffold.ament.finding import CRASHED, UNFOLLOWED, UNPARSABLE, Finding
+from scaffold.ament.finding import CRASHED, TOO_LARGE, UNFOLLOWED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
 from scaffold.ament.settings import Note, PackageSettings, Settings, settings_of
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
 from scaffold.errors import EXHAUSTED, OutOfTimeError, ScaffoldError, exhausted
 from scaffold.files.disk import LargeFileError
-from scaffold.files.limits import most_bytes, why_unread
+from scaffold.files.limits import most_bytes, too_large, why_unread
 from scaffold.model.package import Package
 from scaffold.source import Location, Source, ViewError
 
@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 
 
 _OWN_CODES = {
-    UNPARSABLE: "unparsable-file",
-    CRASHED: "rule-crashed",
-    UNFOLLOWED: "style-not-judged",
+    UNPARSABLE: ("unparsable-file", Severity.ERROR),
+    CRASHED: ("rule-crashed", Severity.ERROR),
+    TOO_LARGE: ("file-too-large", Severity.WARNING),
+    UNFOLLOWED: ("style-not-judged", Severity.INFO),
 }
-"""The codes of the engine that come from here, and their names."""
+"""The codes of the engine that come from here, with their names and severities."""
 
 
 def _identity() -> str:
@@ -73,6 +74,12 @@ def _unread(path: str, settings: Sequence[Settings], why: str) -> _File:
     finding = Finding("E902", 1, 1, why, linters=file.linters)
     linters = reduce(or_, (item.linters_of(finding) for item in settings), 0)
     file.findings = [finding._replace(linters=linters)] if linters else []
+    return file
+
+
+def _too_large(path: str, settings: Sequence[Settings], why: str) -> _File:
+    file = _File(path, b"", settings)
+    file.findings = [Finding(TOO_LARGE, 1, 1, why, linters=file.linters)]
     return file
 
 
@@ -188,15 +195,15 @@ class StyleCheck:
                 continue
             try:
                 data = package.tree.read(path, most_bytes(path))
-            except LargeFileError:
-                files.append(_unread(path, settings, "the file is too large to be checked"))
+            except LargeFileError as error:
+                files.append(_too_large(path, settings, too_large(error.size, path)))
                 continue
             except OSError as error:
                 why = "it links to nothing" if path in links else error.strerror or "it is no file"
                 files.append(_unread(path, settings, f"the file cannot be read: {why}"))
                 continue
-            if why_unread(path, data):
-                files.append(_unread(path, settings, "the file is too large to be checked"))
+            if reason := why_unread(path, data):
+                files.append(_too_large(path, settings, reason))
                 continue
             file = _File(path, data, settings)
             if self._cache is not None:
@@ -241,13 +248,14 @@ def _failure(error: Exception, linters: int) -> Finding:
 
 
 def _noted(note: Note) -> Diagnostic:
-    return Diagnostic(UNFOLLOWED, _OWN_CODES[UNFOLLOWED], Severity.INFO, *note)
+    return Diagnostic(UNFOLLOWED, *_OWN_CODES[UNFOLLOWED], *note)
 
 
 def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
     if finding.code in _OWN_CODES:
-        name, at = _OWN_CODES[finding.code], Location.start_of(path)
-        return Diagnostic(finding.code, name, Severity.ERROR, at, finding.message)
+        name, severity = _OWN_CODES[finding.code]
+        at = Location.start_of(path)
+        return Diagnostic(finding.code, name, severity, at, finding.message)
     code = CODES[finding.code]
     end = (finding.end_line or finding.line, finding.end_column or finding.column)
     location = Location(path, finding.line, finding.column, *max(end, finding[1:3]))

@@ -11,6 +11,8 @@ PEP257 = 2
 
 UNPARSABLE = "SC001"
 """The engine's own code for a file that only this tool cannot read."""
+TOO_LARGE = "SC004"
+"""The engine's own code for a file that is too large to be checked."""
 CRASHED = "SC002"
 """The engine's own code for a defect of this tool."""
 UNFOLLOWED = "SC006"

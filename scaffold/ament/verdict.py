@@ -9,7 +9,7 @@ from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 from scaffold.ament.codes import CODES
-from scaffold.ament.finding import FLAKE8, PEP257, UNPARSABLE, Finding, Replacement
+from scaffold.ament.finding import FLAKE8, PEP257, TOO_LARGE, UNPARSABLE, Finding, Replacement
 from scaffold.ament.flake8 import builtins as shadowing
 from scaffold.ament.flake8 import complexity, comprehensions, noqa, quotes
 from scaffold.ament.flake8.import_order import check as import_order
@@ -76,6 +76,9 @@ def check(
     decoded = decode(data)
     is_same = parsed is not None and parsed.source.text.removeprefix(BOM) == decoded.text
     text = PythonText(name, decoded.text, parsed.index if parsed and is_same else None)
+    if text.why_unchecked:
+        linters = settings[0].linters
+        return [Finding(TOO_LARGE, 1, 1, text.why_unchecked, linters=linters)]
     own = [list(_own(text, item)) for item in settings]
     said = ask_ruff()
     broken = _broken(text, said, is_clean=decoded.is_clean)

@@ -67,7 +67,8 @@ class FileTooLarge(_Internal):
     read up to 500 kB and 100 000 tokens, CMakeLists.txt up to 250 kB and 30 000 tokens,
     package.xml, setup.py and setup.cfg up to 100 kB and 20 000 tokens, data such as YAML up to
     1 MB, and a line of code up to 20 kB: 1.5 to 20 times the largest files and lines of 800
-    public packages.
+    public packages. Python code is read up to a syntax tree of 60 000 nodes, and up to 4 000
+    statements in one block: 3 and 16 times the most that 22 public repositories have.
 
     **Fix.** Split the file, or keep generated code out of the package's sources.
     """

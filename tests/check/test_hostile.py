@@ -358,21 +358,51 @@ def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
 
 def test_too_many_words_for_the_style(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
-    said = {one["code"] for one in found if one["path"].endswith("node.py")}
-    assert "E902" in said
-    assert said <= {"E902", "SC004", "LY020"}
+    said = [one["message"] for one in found if one["code"] == "SC004"]
+    assert {one["code"] for one in found if one["path"].endswith("node.py")} <= {"SC004", "LY020"}
+    assert said == ["120000 words and signs of 100000 that are read: it is not checked"]
+
+
+OVERSIZED = {
+    "a block": ("x = 1\n" * 4001, "4001 statements in one block of 4000 that are read"),
+    "inner blocks": (
+        "def f(a):\n    if a:\n        a = 1\n    else:\n" + "        a = 2\n" * 4500,
+        "4500 statements in one block of 4000 that are read",
+    ),
+    "a tree": (
+        "a + a + a + a + a\n" * 6000,
+        "a syntax tree of 60001 nodes of 60000 that are read",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", OVERSIZED)
+def test_too_much_code(tmp_path: Path, name: str) -> None:
+    """A few words repeated thousands of times: one diagnostic for rules and style alike."""
+    text, message = OVERSIZED[name]
+    found = _check(_package(tmp_path, {"hostile/node.py": text.encode()}))
+    here = [item for item in found if item["path"].endswith("node.py")]
+    messages = [item["message"] for item in here if item["code"] != "LY020"]
+    assert messages == [f"{message}: it is not checked"]
+
+
+def test_the_largest_files_that_people_write_are_checked(tmp_path: Path) -> None:
+    text = "".join(f"X{at} = {{'key': [{at}, {at}.0], 'name': 'a'}}\n" for at in range(3900))
+    found = _check(_package(tmp_path, {"hostile/node.py": f"{text}import os\n".encode()}))
+    codes = {item["code"] for item in found if item["path"].endswith("node.py")}
+    assert "SC004" not in codes
+    assert {"E402", "F401"} <= codes
 
 
 def test_a_line_that_is_too_long_for_the_style(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
     said = {one["code"] for one in found if one["path"].endswith("node.py")}
-    assert "E902" in said
-    assert said <= {"E902", "SC004", "LY020"}
+    assert said <= {"SC004", "LY020"}
 
 
 def test_too_many_findings(tmp_path: Path) -> None:
     """A flood ends, and says so."""
-    found = _check(_package(tmp_path, {"hostile/node.py": b"x = 1  \n" * 6000}))
+    found = _check(_package(tmp_path, {"hostile/node.py": b"# x  \n" * 6000}))
     assert sum(one["code"] == "W291" for one in found) == 5000
     (told,) = (one for one in found if one["code"] == "SC005")
     assert told["line"] == 5001

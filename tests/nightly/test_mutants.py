@@ -21,12 +21,13 @@ from typing import Any
 import pytest
 
 from scaffold.check import registry
-from scaffold.check.fixes import fixer
+from scaffold.check.fixes import workspace_fixer
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cli.main import main
 from scaffold.configuration import content
+from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from tests.nightly.mutation import Files, mutate
 
@@ -88,12 +89,22 @@ def _kilobytes() -> int:
     )
 
 
+class _Silence:
+    """Nobody watches the progress."""
+
+    def begin(self, label: str, total: int) -> None:
+        """Start another part of the work."""
+
+    def step(self) -> None:
+        """Count one of the total as done."""
+
+
 def _problem(session: Session, files: Files, *, fix: bool) -> str:
     """Check a package; return what went wrong."""
     package = Package.of(dict(files))
     try:
         if fix:
-            fixer.fix(package, session.check, unsafe=True)
+            workspace_fixer.fix([Target(package)], session, _Silence(), unsafe=True)
             return ""
         found = session.check(package)
     except Exception:  # noqa: BLE001  whatever it is, it is what the test looks for

@@ -14,6 +14,7 @@ from functools import cached_property
 from scaffold.ament.python_text.logical import LogicalLine, split
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
 from scaffold.errors import EXHAUSTED
+from scaffold.model.python.bounds import why_unchecked
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
 
@@ -77,7 +78,8 @@ class PythonText:
     def tree(self) -> ast.Module | None:
         """The syntax tree; ``None`` when the running Python cannot parse the file.
 
-        Also when it is deeper than visitors can follow; see ``is_too_deep``.
+        Also when it is deeper than visitors can follow, or larger; see ``is_too_deep`` and
+        ``why_unchecked``.
         """
         return self.index.tree if self.index is not None else None
 
@@ -85,6 +87,11 @@ class PythonText:
     def is_too_deep(self) -> bool:
         """Whether the file is nested deeper than anybody writes."""
         return self._parsed[1]
+
+    @property
+    def why_unchecked(self) -> str:
+        """Why the file is not checked: it holds more than anybody writes. Empty if it is."""
+        return self._parsed[2]
 
     @property
     def index(self) -> ScopeIndex | None:
@@ -110,19 +117,22 @@ class PythonText:
         return self.index.parents(node) if self.index is not None else iter(())
 
     @cached_property
-    def _parsed(self) -> tuple[ScopeIndex | None, bool]:
+    def _parsed(self) -> tuple[ScopeIndex | None, bool, str]:
         if self._given_index is not None:
-            return self._given_index, False
+            return self._given_index, False, ""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
                 tree = ast.parse(self.text)
             except (SyntaxError, ValueError):
-                return None, False
+                return None, False, ""
             except EXHAUSTED:
-                return None, True
+                return None, True, ""
         index = ScopeIndex(tree)
-        return (index, False) if index.build(MAX_DEPTH) else (None, True)
+        if not index.build(MAX_DEPTH):
+            return None, True, ""
+        reason = why_unchecked(index)
+        return (None if reason else index), False, reason
 
     @cached_property
     def tokens(self) -> list[Token]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from scaffold.check.fixes.overlay import Overlay
@@ -15,6 +16,8 @@ from scaffold.source import ViewError
 
 MAX_ROUNDS = 10
 """Fixes that still find work after this many rounds work against each other."""
+MAX_ROUNDS_OF_FILE = 6
+"""Rounds with edits of one file; in 22 public repositories three are enough."""
 
 Check = Callable[[Package], list[Diagnostic]]
 
@@ -36,7 +39,7 @@ class Fixed(NamedTuple):
     diagnostics: list[Diagnostic]
     """What remains; a fix that would break its file is no longer among it."""
     unsettled: frozenset[str]
-    """Codes that still had fixes when the rounds were used up."""
+    """Codes that still had fixes when the rounds, or those of their file, were used up."""
 
 
 class Step(NamedTuple):
@@ -94,9 +97,10 @@ def outcome(
     pending = [
         diagnostic for diagnostic in diagnostics if _is_wanted(diagnostic.fix, unsafe=unsafe)
     ]
-    unsettled = frozenset[str]() if is_settled else frozenset(item.code for item in pending)
-    if is_settled and pending:
-        refused = {id(item) for item in pending}
+    late = [item for item in pending if not is_settled or _is_too_late(item.fix, overlay)]
+    unsettled = frozenset(item.code for item in late)
+    refused = {id(item) for item in pending} - {id(item) for item in late}
+    if refused:
         diagnostics = [
             diagnostic._replace(fix=None) if id(diagnostic) in refused else diagnostic
             for diagnostic in diagnostics
@@ -123,8 +127,10 @@ def apply(
     """
     fixes = _ready([item for item in diagnostics if _is_wanted(item.fix, unsafe=unsafe)])
     inside = [fixed for item in fixes if (fixed := _inside(item, overlay)) is not None]
-    chosen, texts = _sound(package, _compatible(inside))
+    timely = [item for item in inside if not _is_too_late(item, overlay)]
+    chosen, texts = _sound(package, _compatible(package, timely))
     result = overlay.copy()
+    result.rounds.update({change.path for item in chosen for change in item.changes})
     for change in _changes(chosen):
         if isinstance(change, CreateFile):
             result.changed[change.path] = change.text.encode()
@@ -136,6 +142,13 @@ def apply(
             result.removed.add(change.path)
     result.changed.update(texts)
     return Step(result, len(chosen))
+
+
+def _is_too_late(fix: Fix | None, overlay: Overlay) -> bool:
+    """Tell whether a file of a fix has been edited so often that no end is in sight."""
+    return fix is not None and any(
+        overlay.rounds[change.path] >= MAX_ROUNDS_OF_FILE for change in fix.changes
+    )
 
 
 def _is_wanted(fix: Fix | None, *, unsafe: bool) -> bool:
@@ -184,7 +197,7 @@ def _inside(fix: Fix, overlay: Overlay) -> Fix | None:
 # -- which fixes go together
 
 
-def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
+def _compatible(package: Package, fixes: Iterable[Fix]) -> list[Fix]:
     """Return fixes in order, without those that touch what an earlier one touches."""
     chosen: list[Fix] = []
     taken: dict[str, list[Edit]] = {}
@@ -193,26 +206,55 @@ def _compatible(fixes: Iterable[Fix]) -> list[Fix]:
         edits = [change for change in item.changes if isinstance(change, Edit)]
         files = {c.path for c in item.changes if isinstance(c, CreateFile | Remove)}
         clash = any(
-            edit.path in whole or any(_clash(edit, other) for other in taken.get(edit.path, ()))
+            edit.path in whole
+            or any(
+                not _go_together(package, edit, other)
+                for other in _touching(edit, taken.get(edit.path, ()))
+            )
             for edit in edits
         )
         if clash or files & (whole | taken.keys()):
             continue
         for edit in edits:
-            taken.setdefault(edit.path, []).append(edit)
+            insort(taken.setdefault(edit.path, []), edit, key=_start)
         whole |= files
         chosen.append(item)
     return chosen
 
 
-def _clash(edit: Edit, other: Edit) -> bool:
-    """Tell whether two edits touch each other and do not go together."""
-    if edit.start > other.end or other.start > edit.end:
+def _touching(edit: Edit, others: Sequence[Edit]) -> Sequence[Edit]:
+    """Return those of some edits, in order and apart from each other, that touch another."""
+    first = bisect_left(others, edit.start, key=_end)
+    return others[first : bisect_right(others, edit.end, key=_start)]
+
+
+def _start(edit: Edit) -> int:
+    return edit.start
+
+
+def _end(edit: Edit) -> int:
+    return edit.end
+
+
+def _go_together(package: Package, edit: Edit, other: Edit) -> bool:
+    """Tell whether two edits that touch each other may both be made."""
+    return _are_neighbors(package, edit, other) or _are_dependencies(edit, other)
+
+
+def _are_neighbors(package: Package, edit: Edit, other: Edit) -> bool:
+    """Tell whether both remove whole lines, one after the other."""
+    first, second = sorted((edit, other), key=_start)
+    if edit.text or other.text or not first.start < first.end == second.start < second.end:
         return False
-    return not _go_together(edit, other)
+    try:
+        text = package.editable(edit.path).text
+    except ViewError:
+        return False
+    places = (first.start, second.start, second.end)
+    return all(at in {0, len(text)} or text[at - 1] == "\n" for at in places)
 
 
-def _go_together(edit: Edit, other: Edit) -> bool:
+def _are_dependencies(edit: Edit, other: Edit) -> bool:
     """Tell whether both insert a dependency, each on a line of its own, at one place."""
     if edit.path != MANIFEST or not edit.start == edit.end == other.start == other.end:
         return False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
@@ -27,6 +28,8 @@ class Overlay:
         self.changed: dict[str, bytes] = {}
         self.removed: set[str] = set()
         self.executable: set[str] = set()
+        self.rounds: Counter[str] = Counter()
+        """How many rounds of fixes edited each file."""
         self._read: dict[str, bytes] = {}
         self._real: dict[str, str | None] = {}
 
@@ -112,7 +115,7 @@ class Overlay:
         """Return an independent copy."""
         twin = Overlay(self._base)
         twin.changed, twin.removed = dict(self.changed), set(self.removed)
-        twin.executable = set(self.executable)
+        twin.executable, twin.rounds = set(self.executable), self.rounds.copy()
         twin._read, twin._real = self._read, self._real
         return twin
 

@@ -21,7 +21,7 @@ def reader_of(path: str) -> Callable[[str, str], None] | None:
 def breaks(path: str, before: str, after: str) -> bool:
     """Tell whether a file can be read before an edit and not after it."""
     read = reader_of(path)
-    return read is not None and _is_read(read, path, before) and not _is_read(read, path, after)
+    return read is not None and not _is_read(read, path, after) and _is_read(read, path, before)
 
 
 def _is_read(read: Callable[[str, str], None], path: str, text: str) -> bool:

@@ -437,7 +437,6 @@ def _report_fixes(
     results: list[Result],
     fixed: Sequence[Fixed],
 ) -> int:
-    from scaffold.check.fixes.fixer import MAX_ROUNDS
     from scaffold.cli import reports
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
@@ -447,8 +446,8 @@ def _report_fixes(
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
-            f"{MAX_ROUNDS} rounds of fixes were not enough for {', '.join(unsettled)}: their fixes "
-            "may undo each other; fix these by hand"
+            f"gave up on {', '.join(unsettled)}: their fixes lead to others without end, or undo "
+            "each other; fix these by hand"
         )
     if options.diff:
         return FINDINGS if count else CLEAN

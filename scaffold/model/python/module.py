@@ -7,10 +7,11 @@ import builtins
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from scaffold.model.python.bounds import why_unchecked
 from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_jazzy
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
-from scaffold.source import Location, ParseError, Source
+from scaffold.source import Location, ParseError, Source, TooLargeError
 
 MAX_DEPTH = 300
 """Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
@@ -115,7 +116,8 @@ class PythonModule:
         """Parse a file.
 
         Raises:
-            ParseError: it is not Python, or too large or nested too deeply to be read.
+            ParseError: it is not Python, or nested too deeply to be read.
+            TooLargeError: it holds more code than people write.
             NewerSyntaxError: only a newer Python than the running one can parse it.
         """
         positions = Positions(source)
@@ -123,6 +125,8 @@ class PythonModule:
         index = ScopeIndex(tree)
         if not index.build(MAX_DEPTH):
             raise ParseError(Location.start_of(source.path), "nested too deeply")
+        if reason := why_unchecked(index):
+            raise TooLargeError(Location.start_of(source.path), reason)
         module = cls(source, tree, index)
         module._refuse_later_syntax()
         return module

@@ -83,6 +83,11 @@ class ScopeIndex:
 
         return visit(self.tree, deepest - 1)
 
+    @property
+    def nodes(self) -> Sequence[ast.AST]:
+        """All nodes, each before what is below it."""
+        return self._nodes
+
     @cached_property
     def _numbers(self) -> Mapping[ast.AST, int]:
         return {node: number for number, node in enumerate(self._nodes)}

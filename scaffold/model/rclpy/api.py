@@ -168,7 +168,7 @@ def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
 def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     """Return the class of what a callback is given: a future that is done, a goal handle."""
     argument = file.parameter_of(node)
-    if argument is not None and _is_goal_handle(file, argument):
+    if argument is not None and argument in _goal_arguments(file):
         return GOAL_HANDLE
     if is_listed_parameter(file, node):
         return PARAMETER
@@ -176,32 +176,42 @@ def _class_of_argument(file: RclpyFile, node: ast.expr, depth: int) -> str | Non
     return class_of(file, future, depth + 1) if future is not None else None
 
 
-def _is_goal_handle(file: RclpyFile, argument: ast.arg) -> bool:
-    """Tell whether an action server calls a function with the handle of a goal for this."""
+def _goal_arguments(file: RclpyFile) -> set[ast.arg]:
+    """Return the arguments that action servers call functions with the handle of a goal for."""
+    if file.goal_arguments is not None:
+        return file.goal_arguments
+    file.goal_arguments = result = set[ast.arg]()
     for server in file.action_servers:
         for name in _GOAL_CALLBACKS:
             given = server.argument(name)
             callback = file.callback(given.node) if given else None
             if callback is None or callback.is_partial or callback.is_called:
                 continue
-            if _first_argument(callback.function, is_bound=callback.is_bound) is argument:
-                return True
-    return False
+            argument = _first_argument(callback.function, is_bound=callback.is_bound)
+            if argument is not None:
+                result.add(argument)
+    return result
 
 
 def future_given(file: RclpyFile, node: ast.expr) -> ast.expr | None:
     """Return the future that is done when a callback is called with what a name refers to."""
     argument = file.parameter_of(node)
-    if argument is None:
-        return None
+    return _futures(file).get(argument) if argument is not None else None
+
+
+def _futures(file: RclpyFile) -> Mapping[ast.arg, ast.expr]:
+    """Return the futures that are done when callbacks are called, by their argument."""
+    if file.futures is not None:
+        return file.futures
+    file.futures = result = dict[ast.arg, ast.expr]()
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[given]) if func is attribute:
                 callback = file.callback(given)
-                given_to = _first_argument(callback.function, is_bound=callback.is_bound)
-                if given_to is argument and not callback.is_partial:
-                    return attribute.value
-    return None
+                argument = _first_argument(callback.function, is_bound=callback.is_bound)
+                if argument is not None and not callback.is_partial:
+                    result.setdefault(argument, attribute.value)
+    return result
 
 
 def _first_argument(

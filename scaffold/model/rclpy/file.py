@@ -114,6 +114,9 @@ class RclpyFile:
         self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
+        self.goal_arguments: set[ast.arg] | None = None
+        self.futures: dict[ast.arg, ast.expr] | None = None
+        """Both kept by `api`."""
         self.classes_of: dict[ast.expr, str | None] = {}
         """Kept by `api.class_of`."""
         self._creation = Creation(self)

@@ -141,9 +141,39 @@ def test_fixes_that_undo_each_other_end_and_are_named() -> None:
         return replace("1", "2")(package) or replace("2", "1")(package)
 
     fixed = fixer.fix(Package.of({"a.py": "a = 1\n"}), check)
-    assert fixed.applied == fixer.MAX_ROUNDS
+    assert fixed.applied == fixer.MAX_ROUNDS_OF_FILE
     assert fixed.unsettled == {"XX001"}
     assert fixed.diagnostics[0].fix
+
+
+@pytest.mark.parametrize(
+    ("before", "old", "rounds"), [("a\n" + "b\n" * 2000, "b\n", 1), ("x = 'bb'\n", "b", 2)]
+)
+def test_whole_lines_are_removed_at_once_but_not_neighbors_in_a_line(
+    before: str, old: str, rounds: int
+) -> None:
+    checks: list[int] = []
+
+    def check(package: Package) -> list[Diagnostic]:
+        checks.append(1)
+        return replace(old, "")(package)
+
+    fixed = fixer.fix(Package.of({"a.py": before}), check)
+    assert fixed.changed == {"a.py": before.replace(old, "").encode()}
+    assert len(checks) == rounds + 1
+
+
+def test_fixes_that_make_work_for_others_end_in_a_few_rounds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each unused variable is used by the next alone."""
+    monkeypatch.chdir(tmp_path)
+    chain = "".join(f"    x{at} = x{at - 1}\n" for at in range(1, 200))
+    fill(tmp_path, {"a.py": f"def f():\n    x0 = 1\n{chain}".encode()})
+    main(["check", "--fix", "--unsafe-fixes", "--select", "F841", "a.py"])
+    error = capsys.readouterr().err
+    assert error.startswith(f"{fixer.MAX_ROUNDS_OF_FILE} fixes applied\n")
+    assert "gave up on F841" in error
 
 
 def test_the_second_run_changes_nothing_in_any_package(
