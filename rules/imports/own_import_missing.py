@@ -12,7 +12,7 @@ from scaffold.api.install import (
     meant_module,
     modules_of,
     own_roots,
-    sibling_not_installed,
+    uninstalled_import,
 )
 from scaffold.api.python import Import, PythonModule
 
@@ -95,12 +95,23 @@ class OwnImportMissing(Rule):
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py scripts/text.py")},
         ),
         Example(
+            "a directory of the package is not installed",
+            {
+                **_PROGRAM,
+                "CMakeLists.txt": _LISTS.format("scripts/node.py"),
+                "scripts/node.py": "from scripts.text import make\n",
+            },
+            Report(
+                "scripts/node.py:1:1",
+                "scripts/text.py is not installed with this program: ModuleNotFoundError",
+            ),
+        ),
+        Example(
             "a file next to a program is not installed",
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py")},
             Report(
                 "scripts/node.py:1:1",
-                "scripts/text.py is not installed next to this program: "
-                "ModuleNotFoundError; `--symlink-install` hides it",
+                "scripts/text.py is not installed with this program: ModuleNotFoundError",
             ),
         ),
     )
@@ -121,7 +132,11 @@ class OwnImportMissing(Rule):
         name = absolute_name(module, node)
         root = name.partition(".")[0]
         path = file_of(package, name)
-        if root in roots and path:
+        missing = "" if node.level else uninstalled_import(package, module, name)
+        if missing:
+            message = f"{missing} is not installed with this program: ModuleNotFoundError"
+            yield self.report(node, message)
+        elif root in roots and path:
             yield from self._check_names(package, node, name, path)
         elif root in roots:
             if not may_be_made(package, name):
@@ -134,11 +149,6 @@ class OwnImportMissing(Rule):
             if meant:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
                 yield self.report(node, f"{message}; closest: {meant!r}")
-                return
-            path = sibling_not_installed(package, module, name)
-            if path:
-                message = f"{path} is not installed next to this program: ModuleNotFoundError"
-                yield self.report(node, f"{message}; `--symlink-install` hides it")
 
     def _check_names(
         self, package: Package, node: Import, name: str, path: str

@@ -12,7 +12,7 @@ from scaffold.model.install.modules import (
     names_imported,
     own_roots,
     paths_imported_by,
-    sibling_not_installed,
+    uninstalled_import,
 )
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
@@ -29,5 +29,5 @@ __all__ = [
     "own_roots",
     "paths_imported_by",
     "share_of",
-    "sibling_not_installed",
+    "uninstalled_import",
 ]

@@ -100,30 +100,41 @@ def meant_module(package: Package, module: PythonModule, name: str) -> str:
     return ""
 
 
-def sibling_not_installed(package: Package, module: PythonModule, name: str) -> str:
-    """Return the file next to a program of CMake that it imports and that is not installed there.
+def uninstalled_import(package: Package, module: PythonModule, name: str) -> str:
+    """Return the file of the package that a program of CMake imports and that is not installed.
 
-    Empty where the module may be installed in another way, or come from elsewhere.
+    It is next to the program, or named from the root of the package. Empty where the module may be
+    installed in another way, or come from elsewhere.
     """
     if package.build_type != "ament_cmake" or "sys.path" in module.source.text:
         return ""
+    if module.path not in {program.path for program in programs(package)}:
+        return ""
     directory = module.path.rpartition("/")[0]
-    stem = f"{directory}/{name}".replace(".", "/").strip("/")
-    path = next((x for x in (f"{stem}.py", f"{stem}/__init__.py") if package.has(x)), "")
     root = name.partition(".")[0]
-    if not path or root in sys.stdlib_module_names or keys_of_module(root):
+    path = file_of(package, f"{directory}/{name}".strip("/")) or file_of(package, name)
+    known = {root, path.partition("/")[0]} & _python_packages(package)
+    if not path or known or root in sys.stdlib_module_names or keys_of_module(root):
         return ""
-    places = {item.destination for item in programs(package) if item.path == module.path}
-    if not places or has_unknown_commands(package) or package.cmake.find(*_ELSEWHERE):
-        return ""
-    for install in package.cmake.installs:
-        for item in install.items:
-            if item.path is None or install.destination is None:
-                return ""
-            is_around = path == item.path or path.startswith(f"{item.path}/".removeprefix("./"))
-            if is_around or item.path == ".":
-                return ""
-    return path
+    return "" if _may_be_installed(package, path) else path
+
+
+def _may_be_installed(package: Package, path: str) -> bool:
+    if has_unknown_commands(package) or package.cmake.find(*_ELSEWHERE):
+        return True
+    others = [install for install in package.cmake.installs if install.kind != "TARGETS"]
+    items = [item.path for install in others for item in install.items]
+    return any(install.destination is None for install in others) or any(
+        item is None or item == "." or f"{path}/".startswith(f"{item}/") for item in items
+    )
+
+
+def _python_packages(package: Package) -> set[str]:
+    """Return the names of what CMake installs as Python packages, and of the package itself."""
+    cmake = package.cmake
+    calls = cmake.find("ament_python_install_package")
+    names = {str(value) for call in calls for value in cmake.expand_list(call.arguments) or ()}
+    return names | {package.name, cmake.project_name or ""}
 
 
 def _lacks_package(package: Package, module: PythonModule, own: str, name: str) -> bool:
