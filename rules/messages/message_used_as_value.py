@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
-from scaffold.api.messages import MessageTypes
+from scaffold.api.messages import MessageClass, MessageTypes
 from scaffold.api.python import is_for_ros1, is_handled
 
 _NODE = (
@@ -170,7 +170,7 @@ class MessageUsedAsValue(MessageRule):
 def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     module = types.module
     for node, value, problem in (*_uses_as_list(types), *_uses_as_value(types)):
-        owner = types.type_of(value)
+        owner = _message(types, value)
         if owner is not None:
             yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
     for node in module.walk(ast.Compare):
@@ -198,6 +198,12 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if kind and not hasattr(_KINDS[kind], node.attr):
             message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
             yield node, f"{message}: AttributeError"
+
+
+def _message(types: MessageTypes, node: ast.expr) -> MessageClass | None:
+    """Return the message that an expression is; ND095 has those of parameters."""
+    owner = types.type_of(node)
+    return None if owner and owner.interface.full_name == _PARAMETER_VALUE else owner
 
 
 def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
@@ -237,7 +243,7 @@ def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr
             yield node, f"{owner.name} is not iterable: TypeError; use one of its fields"
         return
     for value, other in ((node.left, right), (right, node.left)):
-        owner = types.type_of(value) if _is_plain(types, other) else None
+        owner = _message(types, value) if _is_plain(types, other) else None
         if owner is None:
             continue
         if isinstance(operator, ast.Eq | ast.NotEq):
@@ -284,6 +290,7 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
         yield part.iter, part.iter, "is not iterable"
 
 
+_PARAMETER_VALUE = "rcl_interfaces/msg/ParameterValue"
 _REFUSED_BY: Mapping[str, str] = {
     **dict.fromkeys(("float", "int", "abs", "round"), "is not a number"),
     **dict.fromkeys(("list", "tuple", "set", "sorted", "sum", "enumerate"), "is not iterable"),

@@ -10,12 +10,13 @@ from scaffold.api.programs import (
     Executed,
     in_callbacks,
     in_constructors,
+    in_goal_callbacks,
     may_run_meanwhile,
     names_other_executor,
     share_group,
     spins_elsewhere,
 )
-from scaffold.api.rclpy import Entity, RclpyFile, class_of
+from scaffold.api.rclpy import ActionServer, Entity, RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -38,6 +39,11 @@ _MAIN = (
 )
 _OWN_GROUP = (_CALL + _MAIN).replace(
     "'reset')", "'reset', callback_group=MutuallyExclusiveCallbackGroup())"
+)
+_GOAL = (
+    (_CALL + _MAIN)
+    .replace("self.create_timer(1.0, self.ask)", "ActionServer(self, Count, 'count', self.ask)")
+    .replace("import rclpy\n", "import rclpy\nfrom rclpy.action import ActionServer\n", 1)
 )
 _THREADS = (
     "\n\ndef main():\n    rclpy.init()\n    threading.Thread(target=print).start()\n"
@@ -112,6 +118,16 @@ class CallInCallback(RclpyRule):
             ),
         ),
         Example(
+            "while a goal is worked on, in one thread",
+            {"caller.py": _GOAL.replace("MultiThreaded", "SingleThreaded")},
+            Report(
+                "16:9",
+                "waits for a service response in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
+            ),
+        ),
+        Example("while a goal is worked on, in many threads", {"caller.py": _GOAL}),
+        Example(
             "with a timeout",
             {"caller.py": _NODE.format("        self.client.call(0, timeout_sec=1.0)\n")},
         ),
@@ -147,7 +163,8 @@ class CallInCallback(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        for executed in (*in_callbacks(file), *in_constructors(file)):
+        executions = (*in_callbacks(file), *in_constructors(file), *in_goal_callbacks(file))
+        for executed in executions:
             for node, what, client in _waits(file, executed.function):
                 if node in seen:
                     continue
@@ -162,13 +179,15 @@ def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str
     """Return why nothing can end a wait; empty if something may."""
     plain = ": deadlock, no response is processed meanwhile"
     is_same_node = executed.entity and client and executed.entity.owner is client.owner
+    is_one_thread = file.spin_calls and not names_other_executor(file)
+    if isinstance(executed.entity, ActionServer):
+        return plain if is_same_node and is_one_thread else ""
     if executed.entity and client and is_same_node:
         shared = share_group(file, executed.entity, client)
         if shared:
             shares = ", which shares its callback group with the client"
             return f"{shares if names_other_executor(file) else ''}{plain}"
         if shared is False:
-            is_one_thread = file.spin_calls and not names_other_executor(file)
             return plain if is_one_thread else ""
     if may_run_meanwhile(file, executed) or (not is_same_node and spins_elsewhere(file)):
         return ""

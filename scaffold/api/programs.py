@@ -6,6 +6,7 @@ from scaffold.model.programs.blocking import (
     Executed,
     in_callbacks,
     in_constructors,
+    in_goal_callbacks,
     may_run_meanwhile,
     waits_alone,
 )
@@ -35,6 +36,7 @@ __all__ = [
     "files_of",
     "in_callbacks",
     "in_constructors",
+    "in_goal_callbacks",
     "is_private",
     "is_remapped",
     "late_init",

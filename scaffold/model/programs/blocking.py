@@ -12,7 +12,7 @@ from scaffold.model.programs.threads import (
     names_other_executor,
     spins_elsewhere,
 )
-from scaffold.model.rclpy.entities import Service, Subscription, Timer
+from scaffold.model.rclpy.entities import ActionServer, Service, Subscription, Timer
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -43,10 +43,22 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
 
 def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that callbacks of timers, topics and services run, each once."""
+    yield from _run_by(file, (Timer, Subscription, Service))
+
+
+def in_goal_callbacks(file: RclpyFile) -> Iterator[Executed]:
+    """Yield the functions that the callbacks of action servers run to work on goals, each once.
+
+    They belong to no callback group: an executor with many threads runs them next to all others.
+    """
+    yield from _run_by(file, (ActionServer,))
+
+
+def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Executed]:
     seen: set[ast.AST] = set()
     for entity, callback in file.callbacks:
         function = callback.function
-        if function is None or not isinstance(entity, Timer | Subscription | Service):
+        if function is None or not isinstance(entity, kinds):
             continue
         for reached in file.reached(function, seen):
             seen.add(reached)
