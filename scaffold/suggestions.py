@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -12,6 +13,10 @@ MOST_COMPARED = 50_000
 """Pairs of words in one package; a comparison takes some microseconds."""
 LONGEST = 200
 """Limit on the length of a word to compare; the time grows with its square."""
+MOST_LISTED = 5
+"""Names that a message lists: as many as people read."""
+MOST_ORDERED = 100
+"""Names of which the nearest ones are listed: each of thousands of findings may do so."""
 
 
 class _Budget:
@@ -39,3 +44,29 @@ def closest_name(package: Package, word: str, known: Collection[str], cutoff: fl
     if budget.left < 0 or len(word) > LONGEST:
         return ""
     return next(iter(get_close_matches(word, known, 1, cutoff)), "")
+
+
+def listed_names(names: Iterable[str], word: str, none: str = "none") -> str:
+    """Return the end of a message that lists known names: the nearest ones, if there are many.
+
+    Args:
+        names: The names.
+        word: What was written instead of one of them.
+        none: What to return without any names.
+
+    Returns:
+        The names in order, such as ``a, b, c``; the nearest ones and ``and 7 more`` if there are
+        more than fit.
+    """
+    ordered = sorted(set(names))
+    if len(ordered) <= MOST_LISTED:
+        return ", ".join(ordered) or none
+    if len(ordered) <= MOST_ORDERED:
+        pairs = _pairs(word)
+        ordered.sort(key=lambda name: -len(_pairs(name) & pairs))
+    return f"{', '.join(ordered[:MOST_LISTED])} and {len(ordered) - MOST_LISTED} more"
+
+
+def _pairs(word: str) -> set[tuple[str, str]]:
+    """Return the letters of a word with the next ones: what similar words share."""
+    return {*pairwise(word[:LONGEST])}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, listed_names
 from scaffold.api.launch import LaunchCall, LaunchFile, may_be_set_elsewhere, set_names
 
 _LAUNCH = (
@@ -95,7 +95,7 @@ class ConfigurationUndeclared(LaunchRule):
             seen.add(name)
             if may_be_set_elsewhere(package, launch, name):
                 continue
-            have = ", ".join(sorted(set(launch.declared))) or "nothing"
+            have = listed_names(launch.declared, name, "nothing")
             message = f"the launch configuration {name!r} is never set; declared here: {have}"
             yield self.report(launch.location(call.call), message)
 

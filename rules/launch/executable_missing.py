@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, listed_names
 from scaffold.api.launch import package_uses
 from scaffold.api.programs import programs_of
 
@@ -48,6 +48,22 @@ class ExecutableMissing(Rule):
             ),
         ),
         Example(
+            "one of many",
+            {
+                **_FILES,
+                "setup.py": _FILES["setup.py"].replace(
+                    "'talk = talker.talk:main'",
+                    ", ".join(f"'{name}_node = talker.talk:main'" for name in "abcdefgh"),
+                ),
+                "launch/a.launch.py": _LAUNCH.format("g_nde"),
+            },
+            Report(
+                "launch/a.launch.py:7:43",
+                "talker has no program 'g_nde' (it has: g_node, a_node, b_node, "
+                "c_node, d_node and 3 more); closest: 'g_node'",
+            ),
+        ),
+        Example(
             "in another package of the workspace, in XML and in YAML",
             {
                 "package.xml": '<package format="3"><name>bringup</name></package>\n',
@@ -77,7 +93,7 @@ class ExecutableMissing(Rule):
                 continue
             if other is package and self._is_script(package, name):
                 continue
-            have = ", ".join(sorted(programs.sources)) or "none"
+            have = listed_names(programs.sources, name)
             near = get_close_matches(name, programs.sources, 1, 0.7)
             hint = f"; closest: {near[0]!r}" if near else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
 from scaffold.api.launch import has_name, names_of, remappings_of, started_nodes
 
-_MOST_NAMED = 4
 _FILES = {
     "package.xml": "<package><name>demo</name>"
     "<export><build_type>ament_python</build_type></export></package>\n",
@@ -101,6 +100,4 @@ def _hint(package: Package, source: str, names: set[str]) -> str:
     near = closest_name(package, source, names, 0.6)
     if near:
         return f"did you mean {near!r}?"
-    listed = sorted(names)
-    more = ", ..." if len(listed) > _MOST_NAMED else ""
-    return f"it has {', '.join(listed[:_MOST_NAMED]) or 'none'}{more}"
+    return f"it has {listed_names(names, source)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
 from scaffold.api.launch import StartedNode, is_loaded, nodes_for, started_nodes, use_of
 from scaffold.api.parameters import Declared, declared_by, parameter_file, parameter_paths
 
@@ -14,7 +14,6 @@ _NODE = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.declare_parameter('limits.high', 3)\n"
 )
-_MOST_NAMED = 50
 _FILE = "talker:\n  ros__parameters:\n    rate: 1.0\n    use_sim_time: true\n    {}\n"
 
 
@@ -120,8 +119,7 @@ def _cause(node: object) -> str:
 def _message(package: Package, name: str, known: list[Declared], node: object) -> str:
     names = sorted({key for declared in known for key in declared.types})
     near = closest_name(package, name, names, 0.6)
-    more = ", ..." if len(names) > _MOST_NAMED else ""
-    hint = f"it has {', '.join(names[:_MOST_NAMED]) or 'none'}{more}"
+    hint = f"it has {listed_names(names, name)}"
     if near:
         hint = f"did you mean {near!r}?"
     who = f"node {node!r}" if isinstance(node, str) else "this node"

@@ -55,6 +55,22 @@ class MetadataDiffers(Rule):
             Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
             Report("setup.py:9:13", "license is 'MIT', but 'Apache-2.0' in package.xml, line 6"),
         ),
+        Example(
+            "long descriptions that begin with the same words",
+            {
+                "package.xml": _MANIFEST.replace(
+                    "Talks.", "Publishes greetings on a topic, ten times a second."
+                ),
+                "setup.py": _SETUP.format("0.2.0", "Apache-2.0").replace(
+                    "Talks.", "Publishes greetings on a topic, ten times a minute."
+                ),
+            },
+            Report(
+                "setup.py:8:17",
+                "description is '...c, ten times a minute.', but '...c, ten times a "
+                "second.' in package.xml, line 4",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -73,10 +89,8 @@ class MetadataDiffers(Rule):
             tag = "maintainer" if name.startswith("maintainer") else name
             element = manifest.one(tag)
             line = element.location.line if element else 1
-            message = (
-                f"{name} is {_short(keyword.value)}, but {_short(wanted[0])} "
-                f"in package.xml, line {line}"
-            )
+            here, there = _short(keyword.value, wanted[0])
+            message = f"{name} is {here}, but {there} in package.xml, line {line}"
             yield self.report(keyword, message)
 
 
@@ -109,6 +123,21 @@ def _normal(text: str) -> str:
     return " ".join(text.split())
 
 
-def _short(text: str) -> str:
-    plain = _normal(text)
-    return repr(plain if len(plain) <= 40 else f"{plain[:37]}...")  # noqa: PLR2004  for a line
+_LONGEST = 40
+"""Characters of a text in a message: it is for one line."""
+_CONTEXT = 15
+"""Characters before the first difference, where the beginnings are the same."""
+
+
+def _short(one: str, other: str) -> list[str]:
+    """Return two texts for a message, cut so that they differ."""
+    plain = [_normal(one), _normal(other)]
+    pairs = enumerate(zip(*plain, strict=False))
+    same = next((at for at, (left, right) in pairs if left != right), min(map(len, plain)))
+    start = max(same - _CONTEXT, 0) if same > _LONGEST - _CONTEXT else 0
+    return [repr(_part(text, start)) for text in plain]
+
+
+def _part(text: str, start: int) -> str:
+    part = f"...{text[start:]}" if start and len(text) > _LONGEST else text
+    return part if len(part) <= _LONGEST else f"{part[: _LONGEST - 3]}..."

@@ -12,7 +12,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.package import Package
 from scaffold.source import Location, ParseError, Source, ViewError
-from scaffold.suggestions import closest_name
+from scaffold.suggestions import closest_name, listed_names
 
 __all__ = [
     "VERSION",
@@ -39,6 +39,7 @@ __all__ = [
     "TypeRule",
     "ViewError",
     "closest_name",
+    "listed_names",
 ]
 
 VERSION = 1

@@ -13,6 +13,8 @@ from scaffold.record import NamedTuple
 
 ALL = "ALL"
 """What means every code."""
+_TAKEN_FOR_DIGITS = str.maketrans("OIL", "011")
+
 UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
 """Codes that report unchecked input: shown even if other codes are selected."""
 
@@ -74,7 +76,8 @@ def nearest(word: str, known: Collection[str]) -> str:
     renamed = new_codes(word.upper())
     if renamed:
         return f"; renamed to {', '.join(renamed)}"
-    near = get_close_matches(word, known, n=3, cutoff=0.5)
+    typed = word[:2] + word[2:].translate(_TAKEN_FOR_DIGITS)
+    near = [typed] if typed in known else get_close_matches(word, known, n=3, cutoff=0.5)
     return f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
 
 

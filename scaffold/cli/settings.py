@@ -11,6 +11,8 @@ from scaffold.cli import terminal
 if TYPE_CHECKING:
     from scaffold.configuration.config import Config
 
+_ANSWERS = "new."
+
 
 def load(content: Sequence[str] = ()) -> Config:
     """Read the configuration; say on standard error what was ignored.
@@ -26,6 +28,32 @@ def load(content: Sequence[str] = ()) -> Config:
     settings = config.load(content=tuple(content))
     warn(settings.warnings)
     return settings
+
+
+def validate_answers(settings: Config, *, of_user: bool = True) -> None:
+    """Raise InputError if the table ``[new]`` has a key that no template asks for.
+
+    Args:
+        settings: The configuration.
+        of_user: Look at the user's own file, too, and not only at that of the project.
+    """
+    from scaffold.configuration import config, content
+    from scaffold.files.disk import Disk
+
+    left_out = None if of_user else config.user_file(Disk())
+    origins = {item.origin for key, item in settings.values.items() if key.startswith(_ANSWERS)}
+    if not origins - {left_out} or settings.warnings:
+        return  # what was ignored may hold templates that ask for more
+    from scaffold.generate.questions import defaults, questions
+    from scaffold.generate.templates import template
+
+    templates = template.load(content.roots("templates", settings.content))
+    table = {
+        key: item
+        for key, item in defaults.configured(settings).items()
+        if left_out is None or not item.origin.startswith(f"{left_out}:")
+    }
+    questions.from_table(table, questions.unique(templates.values()))
 
 
 def warn(warnings: Iterable[str]) -> None:

@@ -152,6 +152,14 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
             "--select: no rule has the name 'project-name'; did",
         ),
         (["rules", "CN001"], "no rule has the code 'CN001'; did you mean"),
+        (
+            ["check", "--select", "PX02O"],
+            "--select: no rule has the code 'PX02O'; did you mean PX020?",
+        ),
+        (
+            ["check", "--ignore", "f4oi"],
+            "--ignore: no rule has the code 'f4oi'; did you mean F401?",
+        ),
         (["rules", "--content", "nowhere"], "nowhere: no such directory; --content or"),
     ],
 )

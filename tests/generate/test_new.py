@@ -725,7 +725,7 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
         ("rte: 2\n", "answers.yaml: 'rte' is not a question of the templates; did you mean rate?"),
         (
             "zzz: 2\n",
-            "answers.yaml: 'zzz' is not a question of the templates; known are ",
+            "answers.yaml: 'zzz' is not a question of the templates; see ",
         ),
         ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
         ("a: [\n", "answers.yaml:2: invalid YAML: "),

@@ -43,7 +43,9 @@ class Bar:
         if self._bar is None:
             from tqdm import tqdm
 
-            self._bar = tqdm(leave=False, file=sys.stderr, bar_format=_PARTS, mininterval=0.2)
+            self._bar = tqdm(
+                desc=label, leave=False, file=sys.stderr, bar_format=_PARTS, mininterval=0.2
+            )
         self._bar.set_description(label, refresh=False)
         self._bar.reset(total)
 

@@ -156,7 +156,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli import reports, standard_input
     from scaffold.cli.choices import Choices
     from scaffold.cli.interactive import progress
-    from scaffold.cli.settings import warn
+    from scaffold.cli.settings import validate_answers, warn
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
 
@@ -170,6 +170,7 @@ def run(options: argparse.Namespace) -> int:
     directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
+    validate_answers(settings, of_user=False)
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
     session = _session(options, rules, choices)

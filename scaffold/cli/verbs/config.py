@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.check import registry
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN
-    from scaffold.cli.settings import warn
+    from scaffold.cli.settings import validate_answers, warn
     from scaffold.configuration import config, content
     from scaffold.errors import InputError
 
@@ -42,6 +42,7 @@ def run(options: argparse.Namespace) -> int:
     directory = path if os.path.isdir(path) else os.path.dirname(path) or os.curdir
     settings = config.load(directory)
     warn(settings.warnings)
+    validate_answers(settings)
     choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
     choices.selection()  # refuses words that mean no rule
     choices.adjustments()

@@ -184,7 +184,7 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
         name = key.replace("-", "_")
         if name not in known:
             near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(sorted(known))}"
+            hint = f"did you mean {near[0]}?" if near else "see `ros2-scaffold new --help`"
             raise InputError(f"{given.origin}: {key!r} is not a question of the templates; {hint}")
         if given.value is not None:
             result[name] = Given(given.value, f"{given.origin}: {key}")

@@ -307,4 +307,5 @@ def test_a_bar_is_shown_on_a_terminal_only(tmp_path: Path, *, is_terminal: bool)
                 shown += part
     os.close(leader)
     assert (b"round 1:" in shown) == is_terminal
+    assert b"\r: " not in shown, "a bar without a label"
     assert shown.rstrip().endswith(b"fixes applied")
