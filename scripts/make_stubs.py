@@ -45,6 +45,16 @@ _NATIVE = {"_rclpy", "rclpy_implementation", "import_c_library"}
 """How the sources call the extension module, whose types nothing declares."""
 _TYPE_MAKERS = ("TypeVar(", "TypedDict(", "NamedTuple(", "namedtuple(")
 _LITERALS = {bool: "bool", int: "int", float: "float", str: "str", bytes: "bytes"}
+_SPECIAL = {"__eq__": "bool", "__ne__": "bool", "__repr__": "str", "__str__": "str"}
+"""What special methods return."""
+_GENERIC = {
+    "Callable": "..., Any",
+    "Dict": "Any, Any",
+    "OrderedDict": "Any, Any",
+    "dict": "Any, Any",
+    "set": "Any",
+}
+"""Arguments of types that the sources leave without."""
 Statement = ast.stmt
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -204,18 +214,22 @@ def _annotation(node: ast.expr) -> ast.expr:
     """Return an annotation without quotes; any type where it names what nothing declares."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         node = ast.parse(node.value, mode="eval").body
-    if _is_native(node):
-        return _NativeRemover().visit(node)  # type: ignore[no-any-return]  # of the same kind
-    return node
+    return _Completion().visit(node)  # type: ignore[no-any-return]  # an expression as well
 
 
-class _NativeRemover(ast.NodeTransformer):
-    """Replaces types of the extension module."""
+class _Completion(ast.NodeTransformer):
+    """Replaces types of the extension module, and gives generic types their arguments."""
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
         return ast.Name("Any") if _is_native(node) else node
 
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        node.slice = self.visit(node.slice)
+        return node
+
     def visit_Name(self, node: ast.Name) -> ast.expr:
+        if node.id in _GENERIC:
+            return ast.parse(f"{node.id}[{_GENERIC[node.id]}]", mode="eval").body
         return ast.Name("Any") if node.id in _NATIVE else node
 
 
@@ -241,14 +255,25 @@ def _signature(node: Function) -> Function:
     arguments.kw_defaults = [
         None if value is None else _default(value) for value in arguments.kw_defaults
     ]
-    returns = node.returns
-    if returns is not None:
-        returns = _annotation(returns)
-    elif not _returns_value(node):
+    _annotate(node)
+    if node.returns is not None:
+        returns = _annotation(node.returns)
+    elif _returns_value(node):
+        returns = ast.Name(_SPECIAL.get(node.name, "Any"))
+    else:
         returns = ast.Constant(None)
     decorators = [item for item in node.decorator_list if _decorator(item) in _KEPT_DECORATORS]
     kind = type(node)
     return kind(node.name, arguments, [_dots()], decorators, returns, lineno=0)
+
+
+def _annotate(node: Function) -> None:
+    """Give parameters without an annotation any type: strict type checkers ask for one."""
+    arguments = node.args
+    extra = [item for item in (arguments.vararg, arguments.kwarg) if item is not None]
+    for argument in [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *extra]:
+        if argument.annotation is None and argument.arg not in {"self", "cls"}:
+            argument.annotation = ast.Name("Any")
 
 
 def _decorator(node: ast.expr) -> str:
@@ -305,7 +330,7 @@ def _type_of(
         case ast.Name(id=name) if name in annotated:
             return annotated[name]
         case ast.Call(func=ast.Name(id=name)) if name[0].isupper() and name not in _NATIVE:
-            return ast.Name(name)
+            return _annotation(ast.Name(name))
     return ast.Name("Any")
 
 

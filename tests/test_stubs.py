@@ -357,7 +357,7 @@ def test_an_unknown_distribution_is_refused() -> None:
 def test_stubs_have_no_errors_themselves(bundled: Path) -> None:
     packages = [f"--package={path.name}" for path in bundled.iterdir() if path.is_dir()]
     result = subprocess.run(
-        [sys.executable, "-m", "mypy", "--config-file=", *packages],
+        [sys.executable, "-m", "mypy", "--config-file=", "--strict", *packages],
         env={**os.environ, "MYPYPATH": str(bundled)},
         capture_output=True,
         text=True,

@@ -308,7 +308,7 @@ class Node:
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool: ...
     __handle: Any
     _context: Any
-    _parameters: dict
+    _parameters: dict[Any, Any]
     _publishers: List[Publisher]
     _subscriptions: List[Subscription]
     _clients: List[Client]

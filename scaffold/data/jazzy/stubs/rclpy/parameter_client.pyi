@@ -35,37 +35,45 @@ class AsyncParameterClient:
         self,
         prefixes: Optional[List[str]] = None,
         depth: Optional[int] = None,
-        callback: Optional[Callable] = None,
+        callback: Optional[Callable[..., Any]] = None,
     ) -> Future: ...
-    def get_parameters(self, names: List[str], callback: Optional[Callable] = None) -> Future: ...
+    def get_parameters(
+        self, names: List[str], callback: Optional[Callable[..., Any]] = None
+    ) -> Future: ...
     def set_parameters(
         self,
         parameters: Sequence[Union[Parameter, ParameterMsg]],
-        callback: Optional[Callable] = None,
+        callback: Optional[Callable[..., Any]] = None,
     ) -> Future: ...
     def describe_parameters(
-        self, names: List[str], callback: Optional[Callable] = None
+        self, names: List[str], callback: Optional[Callable[..., Any]] = None
     ) -> Future: ...
     def get_parameter_types(
-        self, names: List[str], callback: Optional[Callable] = None
+        self, names: List[str], callback: Optional[Callable[..., Any]] = None
     ) -> Future: ...
     def set_parameters_atomically(
         self,
         parameters: Sequence[Union[Parameter, ParameterMsg]],
-        callback: Optional[Callable] = None,
+        callback: Optional[Callable[..., Any]] = None,
     ) -> Future: ...
     def delete_parameters(
-        self, names: List[str], callback: Optional[Callable] = None
+        self, names: List[str], callback: Optional[Callable[..., Any]] = None
     ) -> Future: ...
     def load_parameter_file(
-        self, parameter_file: str, use_wildcard: bool = False, callback: Optional[Callable] = None
+        self,
+        parameter_file: str,
+        use_wildcard: bool = False,
+        callback: Optional[Callable[..., Any]] = None,
     ) -> Future: ...
     def load_parameter_file_atomically(
-        self, parameter_file: str, use_wildcard: bool = False, callback: Optional[Callable] = None
+        self,
+        parameter_file: str,
+        use_wildcard: bool = False,
+        callback: Optional[Callable[..., Any]] = None,
     ) -> Future: ...
     def on_parameter_event(
         self,
-        callback: Callable,
+        callback: Callable[..., Any],
         qos_profile: QoSProfile = qos_profile_parameter_events,
         *,
         callback_group: Optional[CallbackGroup] = None,

@@ -21,7 +21,7 @@ from rclpy.qos import qos_profile_parameters as qos_profile_parameters
 from rclpy.validate_topic_name import TOPIC_SEPARATOR_STRING as TOPIC_SEPARATOR_STRING
 
 class ParameterService:
-    def __init__(self, node) -> None: ...
+    def __init__(self, node: Any) -> None: ...
     _describe_parameters_callback: Any
     _get_parameters_callback: Any
     _get_parameter_types_callback: Any

@@ -14,7 +14,7 @@ class TopicEndpointTypeEnum(IntEnum):
     SUBSCRIPTION = 2
 
 class TopicEndpointInfo:
-    def __init__(self, **kwargs) -> None: ...
+    def __init__(self, **kwargs: Any) -> None: ...
     node_name: str
     node_namespace: str
     topic_type: str
