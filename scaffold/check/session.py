@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from typing import TYPE_CHECKING
 
 from scaffold.ament.settings import settings_of
-from scaffold.check import runner, suppression, type_rules
+from scaffold.check import conflicts, runner, suppression, type_rules
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
@@ -278,7 +278,8 @@ class Session:
             and (d.code == RuleCrashed.code or self.selection.wants(d.code))
             and self.selection.wants_at(d.code, d.location.path)
         ]
-        return sorted(self.adjustments.apply(target.package, wanted), key=lambda d: d.sort_key)
+        named = [*conflicts.named(target.package, wanted)]
+        return sorted(self.adjustments.apply(target.package, named), key=lambda d: d.sort_key)
 
 
 def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.files.tree import Tree
+from scaffold.formats.conflicts import first_conflict
 from scaffold.generate import draft
 from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD, KIND
@@ -174,12 +175,18 @@ def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict
 
 
 def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> None:
-    """Raise if an earlier merge left something to decide: another one would garble it."""
+    """Raise if a merge left something to decide: another one would garble it."""
     for path in sorted(present.keys() & set(made.rendered.files)):
         if all(mark.encode() in present[path] for mark in MARKS):
             raise InputError(
                 f"{where}/{path}: has conflict markers of an earlier update; "
                 "resolve them first; nothing was changed"
+            )
+        line = first_conflict(present[path].decode(errors="replace").split("\n"))
+        if line:
+            raise InputError(
+                f"{where}/{path}: has merge conflict marks at line {line}; resolve the conflict "
+                "first; nothing was changed"
             )
 
 

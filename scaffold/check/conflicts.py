@@ -1,0 +1,35 @@
+"""Conflicts that a merge has left in files: named as such, and not as mistakes of their syntax."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from scaffold.diagnostic import Diagnostic
+from scaffold.formats.conflicts import first_conflict
+from scaffold.model.package import Package
+from scaffold.source import ViewError
+
+_UNREADABLE = frozenset({"SC001", "E999", "PX050", "PF001"})
+"""The codes of files that cannot be parsed: Python, CMake, XML and YAML."""
+
+
+def named(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield diagnostics; what a conflict has made unreadable is reported as one, once a file."""
+    seen: set[str] = set()
+    for item in diagnostics:
+        path = item.location.path
+        line = _line(package, path) if item.code in _UNREADABLE else 0
+        if not line:
+            yield item
+        elif path not in seen:
+            seen.add(path)
+            message = f"merge conflict marks at line {line}: resolve the conflict"
+            yield item._replace(message=message, fix=None)
+
+
+def _line(package: Package, path: str) -> int:
+    """Return the line on which the first conflict starts, 0 without one."""
+    try:
+        return first_conflict(package.source(path).lines)
+    except ViewError:
+        return 0
