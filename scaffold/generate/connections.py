@@ -1,11 +1,13 @@
-"""What connects the nodes of a package: each topic, service and action has one type."""
+"""What connects the nodes of a package: types, and on topics the quality of service."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from scaffold.generate.templates.template import Question, Template
+from scaffold.generate.questions.names import resolve
+from scaffold.generate.questions.questions import Given
+from scaffold.generate.templates.template import Question, Role, Template
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
@@ -28,10 +30,51 @@ class Use(NamedTuple):
     """Where it is in code."""
     is_fixed: bool = False
     """No parameter changes the name."""
+    direction: str = ""
+    """Of a topic: ``published`` or ``subscribed``; empty if that is not known."""
+    reliability: str = ""
+    """Of a topic: ``reliable``, ``best_effort``; empty if that is not known."""
+    durability: str = ""
+    """Of a topic: ``volatile``, ``transient_local``; empty if that is not known."""
+
+    @property
+    def qos(self) -> str:
+        """The quality of service as a user would write it for the other side."""
+        if self.durability == "transient_local":
+            return "latched" if self.reliability == "reliable" else "best_effort,transient_local"
+        return "sensor_data" if self.reliability == "best_effort" else "10"
 
     def __str__(self) -> str:
         at = f", {self.location.path}:{self.location.line}" if self.location else ""
         return f"{self.type} in {self.node}{at}"
+
+
+class Mismatch(NamedTuple):
+    """A topic whose subscription asks for more than its publisher offers."""
+
+    publisher: Use
+    subscription: Use
+
+    def __str__(self) -> str:
+        offered, requested = _differing(self.publisher, self.subscription)
+        return (
+            f"the topic {self.publisher.name} is published {offered} by {_place(self.publisher)}, "
+            f"but the subscription of {_place(self.subscription)} is {requested}: they do not "
+            "connect; give both the same quality of service"
+        )
+
+
+def _place(use: Use) -> str:
+    return f"{use.node}, {use.location.path}:{use.location.line}" if use.location else use.node
+
+
+def _differing(publisher: Use, subscription: Use) -> tuple[str, str]:
+    """Return what is offered, and what is asked for instead; empty if they connect."""
+    if (publisher.reliability, subscription.reliability) == ("best_effort", "reliable"):
+        return "best effort", "reliable"
+    if (publisher.durability, subscription.durability) == ("volatile", "transient_local"):
+        return "volatile", "transient local"
+    return "", ""
 
 
 class Clash(NamedTuple):
@@ -56,12 +99,106 @@ def clashes(used: Iterable[Use]) -> Iterator[Clash]:
             yield Clash(first, use)
 
 
+def mismatches(used: Iterable[Use]) -> Iterator[Mismatch]:
+    """Yield publishers and subscriptions of one topic and type that do not connect."""
+    uses = list(used)
+    for publisher in uses:
+        for subscription in uses:
+            is_pair = (publisher.direction, subscription.direction) == ("published", "subscribed")
+            is_same = (publisher.name, publisher.type) == (subscription.name, subscription.type)
+            if is_pair and is_same and any(_differing(publisher, subscription)):
+                yield Mismatch(publisher, subscription)
+
+
+def conflicts(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) -> list[str]:
+    """Return why nodes would not connect, according to the answers they are made with."""
+    used = list(uses(nodes, templates))
+    return [str(conflict) for conflict in (*clashes(used), *mismatches(used))]
+
+
 def uses(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) -> Iterator[Use]:
     """Yield what nodes use according to the answers they are made with."""
     for node in nodes:
-        for question, typed in pairs(templates[node["kind"]].questions):
-            kind, name = question.type.partition("_")[0], node[f"{question.name}_name"]
-            yield Use(kind, name, node[typed.name].type, node["name"])
+        yield from _uses_of(templates[node["kind"]], node, node["name"])
+
+
+def _uses_of(template: Template, answers: Mapping[str, Any], node: str) -> Iterator[Use]:
+    for question, typed in pairs(template.questions):
+        kind, name = question.type.partition("_")[0], resolve(answers[question.name], node)
+        asked = qos_question(question, template.questions)
+        qos = answers[asked.name] if asked is not None else None
+        yield Use(
+            kind,
+            name,
+            answers[typed.name].type,
+            node,
+            direction=question.direction,
+            reliability=qos.reliability if qos is not None else "",
+            durability=qos.durability if qos is not None else "",
+        )
+
+
+class Open(NamedTuple):
+    """A part whose answers may still follow from those of others."""
+
+    template: Template
+    answers: Mapping[str, Any]
+    explicit: frozenset[str]
+    """The questions that the user has answered."""
+
+    @property
+    def node(self) -> str:
+        """The name of the node."""
+        return str(self.answers[self.template.name_question])
+
+    @property
+    def uses(self) -> list[Use]:
+        """What it uses, if it is a node."""
+        if self.template.role is not Role.NODE:
+            return []
+        return list(_uses_of(self.template, self.answers, self.node))
+
+
+def agreed_types(part: Open, others: Iterable[Open], known: Iterable[Use]) -> dict[str, Given]:
+    """Return the types that a part takes from others that use a name that the user has given.
+
+    Args:
+        part: Its types are taken over where the user has not said another one.
+        others: The other parts of the package.
+        known: What nodes use that are there already.
+    """
+    theirs = [(use.kind, use.name, use.type) for use in known]
+    for other in others:
+        for (_, typed), use in zip(pairs(other.template.questions), other.uses, strict=False):
+            if typed.name in other.explicit:
+                theirs.append((use.kind, use.name, use.type))
+    result: dict[str, Given] = {}
+    for (question, typed), use in zip(pairs(part.template.questions), part.uses, strict=False):
+        types = [type_ for kind, name, type_ in theirs if (kind, name) == (use.kind, use.name)]
+        is_open = question.name in part.explicit and typed.name not in part.explicit
+        if types and is_open and use.type not in types:
+            result[typed.name] = Given(types[0], "default")
+    return result
+
+
+def agreed_qos(part: Open, others: Iterable[Open], known: Iterable[Use]) -> dict[str, Given]:
+    """Return the qualities of service that a part takes from others, to connect with them."""
+    theirs = [use for other in others for use in other.uses] + list(known)
+    result: dict[str, Given] = {}
+    for (question, _), use in zip(pairs(part.template.questions), part.uses, strict=False):
+        asked = qos_question(question, part.template.questions)
+        for other in theirs if asked is not None and asked.name not in part.explicit else ():
+            if asked is not None and any(True for _ in mismatches([use, other])):
+                result[asked.name] = Given(other.qos, "default")
+    return result
+
+
+def qos_question(topic: Question, questions: Iterable[Question]) -> Question | None:
+    """Return what asks for the quality of service of a topic: ``input_qos`` of ``input_topic``."""
+    if topic.type != "topic":
+        return None
+    asked = {question.name: question for question in questions if question.type == "qos"}
+    return asked.get(topic.name.replace("topic", "qos"), asked.get("qos"))
 
 
 def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:

@@ -148,7 +148,8 @@ def _node(
     scope = {**context, "node": node}
     node["executable"] = renderer.text(build.executable_name, scope)
     node["parameter_file"] = renderer.text(part.template.parameter_file, scope)
-    node["has_parameters"] = renderer.has(f"{part.template.name}/{PARAMETERS}")
+    values = f"{part.template.name}/{PARAMETERS}"
+    node["has_parameters"] = renderer.has(values) and bool(renderer.file(values, scope).strip())
     return node
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from datetime import date
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.configuration.config import USER_FILE
 from scaffold.errors import ContentError, InputError
 from scaffold.files import home
-from scaffold.generate import parts
-from scaffold.generate.connections import clashes, uses
+from scaffold.generate import connections, parts
+from scaffold.generate.connections import Open, Use, clashes, conflicts, uses
 from scaffold.generate.context import package_context, part_scopes, today
 from scaffold.generate.parts import Part, Request
 from scaffold.generate.questions import questions
@@ -36,6 +37,8 @@ class Draft(NamedTuple):
     rendered: Rendered
     remarks: tuple[str, ...]
     """What the user should know, a line each."""
+    conflicts: tuple[str, ...]
+    """Why its nodes would not connect, a line each."""
     answers: Mapping[str, Any]
     """Every answer, as in an answers file."""
     day: date
@@ -90,9 +93,9 @@ def draft(
         rendered=rendered,
         remarks=(
             *_remarks(renderer, context, user),
-            *(str(clash) for clash in clashes(uses(context["nodes"], templates))),
             *unread(place, rendered.unread, os.path.join(user.directory, context["package"])),
         ),
+        conflicts=tuple(conflicts(context["nodes"], templates)),
         answers=composed.answers,
         day=date.fromisoformat(context["date"]),
     )
@@ -109,6 +112,17 @@ class Composed(NamedTuple):
     """Every answer, as in an answers file."""
 
 
+class Existing(NamedTuple):
+    """What a package has that something is added to."""
+
+    answers: Mapping[str, Any] = MappingProxyType({})
+    """Those that are as they are, such as its name."""
+    messages: Sequence[str] = ()
+    """The names of its own messages."""
+    uses: Sequence[Use] = ()
+    """The topics, services and actions of its nodes."""
+
+
 def compose(
     roots: Sequence[str],
     templates: Mapping[str, Template],
@@ -116,8 +130,7 @@ def compose(
     user: User,
     *,
     day: date | None = None,
-    fixed: Mapping[str, Any] | None = None,
-    messages: Sequence[str] = (),
+    existing: Existing | None = None,
     place: Place = NOWHERE,
 ) -> Composed:
     """Choose templates and settle all questions.
@@ -128,8 +141,7 @@ def compose(
         given: The user's answers by question.
         user: Knows what was not given.
         day: The date for its files; today by default.
-        fixed: Answers for the package that are as they are, such as the name of an existing one.
-        messages: The messages that it has already.
+        existing: What the package has already, if it exists.
         place: The git repository that it is for.
 
     Raises:
@@ -141,7 +153,8 @@ def compose(
     _refuse_useless(given, order)
     comments = _answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
-    known = {**(fixed or {}), "contents": parts.contents(order.requests)}
+    existing = existing or Existing()
+    known = {**existing.answers, "contents": parts.contents(order.requests)}
     answers = questions.resolve(
         [question for question in asked if question.name not in known],
         given,
@@ -150,13 +163,14 @@ def compose(
         fallback=user.answer,
         where=user.directory,
     )
-    values = {**(fixed or {}), **answers.values}
-    made, written = _parts(order.requests, given, values, renderer, user.directory)
-    parts.refuse_impossible(made, values["package"], values["build_type"], messages)
+    values = {**existing.answers, **answers.values}
+    settings = _Settings(given, values, renderer, user.directory)
+    made, written = _parts(order.requests, settings, existing.uses)
+    parts.refuse_impossible(made, values["package"], values["build_type"], existing.messages)
     subdirectory = place.subdirectory(values["package"])
     context = package_context(values, order.layers, made, renderer, day or today(), subdirectory)
     for clash in clashes(uses(context["nodes"], templates)):
-        if clash.first.kind != "topic":  # a topic has its name from a parameter
+        if clash.first.kind != "topic":  # `new` refuses it, `update` has to live with it
             raise InputError(str(clash))
     return Composed(
         order.layers,
@@ -227,27 +241,58 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
     return parts.requests(wanted, given[parts.ADD].origin, templates)
 
 
-def _parts(
-    wanted: Sequence[Request],
-    given: Mapping[str, Given],
-    answers: Mapping[str, Any],
-    renderer: Renderer,
-    where: str,
-) -> tuple[list[Part], list[dict[str, Any]]]:
-    """Return the parts with their answers, and those answers as in an answers file."""
-    made: list[Part] = []
-    written: list[dict[str, Any]] = []
-    for request in wanted:
-        own = questions.resolve(
+class _Settings(NamedTuple):
+    """What the answers of parts follow from."""
+
+    given: Mapping[str, Given]
+    answers: Mapping[str, Any]
+    renderer: Renderer
+    where: str
+
+    def resolve(self, request: Request, more: Mapping[str, Given]) -> questions.Answers:
+        """Return the answers for a part."""
+        return questions.resolve(
             request.template.questions,
-            {**given, **request.given},
-            known=answers,
-            render=renderer.text,
+            {**self.given, **request.given, **more},
+            known=self.answers,
+            render=self.renderer.text,
             fallback=lambda _: None,
-            where=where,
+            where=self.where,
         )
-        made.append(Part(request.template, own.values))
-        written.append({parts.KIND: request.template.name, **own.written})
+
+
+def _parts(
+    wanted: Sequence[Request], settings: _Settings, neighbors: Sequence[Use]
+) -> tuple[list[Part], list[dict[str, Any]]]:
+    """Return the parts with their answers, and those answers as in an answers file.
+
+    Where the user has left it open, a part has the type and the quality of service of those that
+    it meets on a topic.
+    """
+    more: list[dict[str, Given]] = [{} for _ in wanted]
+    resolved = [settings.resolve(request, {}) for request in wanted]
+    for agreed in (connections.agreed_types, connections.agreed_qos):
+        for index, request in enumerate(wanted):
+            open_parts = [
+                Open(
+                    item.template,
+                    own.values,
+                    frozenset(settings.given.keys() | item.given.keys() | known.keys()),
+                )
+                for item, own, known in zip(wanted, resolved, more, strict=True)
+            ]
+            others = [part for at, part in enumerate(open_parts) if at != index]
+            taken = agreed(open_parts[index], others, neighbors)
+            if taken:
+                more[index] |= taken
+                resolved[index] = settings.resolve(request, more[index])
+    made = [
+        Part(request.template, own.values) for request, own in zip(wanted, resolved, strict=True)
+    ]
+    written = [
+        {parts.KIND: request.template.name, **own.written}
+        for request, own in zip(wanted, resolved, strict=True)
+    ]
     return made, written
 
 

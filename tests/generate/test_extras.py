@@ -70,8 +70,8 @@ def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
     assert launched.count("parameters=[config / 'conversation.yaml'],") == 2
     parameters: Any = yaml.safe_load(files["config/conversation.yaml"])
     assert parameters == {
-        "talker": {"ros__parameters": {"topic": "example_topic", "rate": 5.0}},
-        "announcer": {"ros__parameters": {"topic": "on", "rate": 5.0}},
+        "talker": {"ros__parameters": {"rate": 5.0}},
+        "announcer": {"ros__parameters": {"rate": 5.0}},
     }
     for kind in ("ament_index_python", "launch", "launch_ros"):
         assert f"<exec_depend>{kind}</exec_depend>" in files["package.xml"]

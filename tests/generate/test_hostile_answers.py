@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from scaffold.check import registry
+from scaffold.cli.main import main
 from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import draft
@@ -691,6 +692,9 @@ def judged(wanted: dict[str, Any]) -> draft.Draft | None:
     except InputError as error:
         assert_one_line(str(error))
         return None
+    if made.conflicts:
+        assert_one_line(made.conflicts[0])
+        return None
     said = [
         f"{one.location.path}:{one.location.line} {one.code} {one.message}"
         for one in draft.defects(made, RULES)
@@ -873,10 +877,11 @@ def test_the_real_linters_accept_what_is_written(
             {
                 "add": [
                     {"kind": "service_server", "name": "a", "service_type": "std_srvs/srv/Empty"},
-                    {"kind": "service_client", "name": "b"},
+                    {"kind": "service_client", "name": "b", "service": "empty"}
+                    | {"service_type": "example_interfaces/srv/AddTwoInts"},
                 ]
             },
-            "the service /add_two_ints is std_srvs/srv/Empty in a, but example_interfaces/srv/",
+            "the service /empty is std_srvs/srv/Empty in a, but example_interfaces/srv/",
         ),
     ],
 )
@@ -886,18 +891,33 @@ def test_what_would_break_is_refused(wanted: dict[str, Any], message: str) -> No
         draft.draft(ROOTS, TEMPLATES, {"package": Given("talker", "PACKAGE"), **asked}, User("."))
 
 
-def test_a_topic_of_two_types_is_noted() -> None:
-    parts = [
-        {"kind": "publisher", "name": "eye", "message_type": "Image"},
-        {"kind": "publisher_subscriber", "name": "ear", "input_topic": "/example_topic"},
-    ]
-    made = judged({"package": "talker", "add": parts})
-    assert made is not None
-    (said,) = (one for one in made.remarks if "example_topic" in one)
-    assert said == (
-        "the topic /example_topic is sensor_msgs/msg/Image in eye, but std_msgs/msg/String in "
-        "ear: they do not connect; give both the same type, or another name to one"
-    )
+@pytest.mark.parametrize(
+    ("first", "second", "message"),
+    [
+        (
+            "publisher:eye topic=a message_type=Image",
+            "subscriber:ear topic=/a message_type=String",
+            "topic /a is sensor_msgs/msg/Image in eye, but std_msgs/msg/String in ear: they do not",
+        ),
+        (
+            "publisher:eye topic=a qos=sensor_data",
+            "subscriber:ear topic=a qos=10",
+            "topic /a is published best effort by eye, but the subscription of ear is reliable: ",
+        ),
+        (
+            "lifecycle:eye topic=a qos=10",
+            "publisher_subscriber:ear input_topic=a topic=b input_qos=latched",
+            "topic /a is published volatile by eye, but the subscription of ear is transient local",
+        ),
+    ],
+)
+def test_parts_that_do_not_connect_are_refused(
+    first: str, second: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["--add", first, "--add", second, "--destination-directory", str(tmp_path)]
+    assert main(["new", "talker", *words]) == 2
+    assert f"ros2-scaffold: error: the {message}" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", ["parameter", "params", "ros_params", "ros_parameters"])

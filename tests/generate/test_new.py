@@ -101,7 +101,7 @@ def test_every_combination(build_type: str, comments: str, name: str) -> None:
     filled = payload.payload(f"std_msgs/msg/{name}")
     assert node.startswith("#!/usr/bin/env python3\n# Copyright 2025 Ada Lovelace\n")
     assert f"\nfrom std_msgs.msg import {name}\n" in node
-    assert "('rate', 2.0).value" in node
+    assert "self.declare_parameter('rate', 2.0, ParameterDescriptor(" in node
     assert ("frame_id" in node) == (name == "Header")
     for statement in filled.statements:
         assert f"        {statement}\n" in node
@@ -137,15 +137,15 @@ def test_brief_node() -> None:
                 a greeting with a counter
         Subscribes to:
             nothing
-
-        Author: Ada Lovelace
-        Date: 2025-10-09
         """
 
         import signal
 
+        from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
         import rclpy
+        from rclpy.exceptions import ParameterException
         from rclpy.executors import ExternalShutdownException
+        from rclpy.logging import get_logger
         from rclpy.node import Node
         from std_msgs.msg import String
 
@@ -153,16 +153,17 @@ def test_brief_node() -> None:
         class MinimalPublisher(Node):
             """Publish a greeting with a counter."""
 
-            def __init__(self):
+            def __init__(self) -> None:
                 """Declare the parameters, then create the publisher and its timer."""
                 super().__init__('minimal_publisher')
-                topic = self.declare_parameter('topic', 'example_topic').value
-                rate = self.declare_parameter('rate', 2.0).value  # messages per second
-                self.publisher = self.create_publisher(String, topic, 10)
+                rate = self.declare_parameter('rate', 2.0, ParameterDescriptor(
+                    description='messages per second', read_only=True, floating_point_range=[
+                        FloatingPointRange(from_value=0.1, to_value=1000.0)])).value
+                self.publisher = self.create_publisher(String, 'example_topic', 10)
                 self.timer = self.create_timer(1.0 / rate, self.publish_message)
                 self.count = 0
 
-            def publish_message(self):
+            def publish_message(self) -> None:
                 """Log the next message and publish it."""
                 msg = String()
                 msg.data = f'Hello World: {self.count}'
@@ -171,7 +172,7 @@ def test_brief_node() -> None:
                 self.count += 1
 
 
-        def main(args=None):
+        def main(args: list[str] | None = None) -> None:
             """Run the node until Ctrl+C (SIGINT) or SIGTERM."""
             signal.signal(signal.SIGTERM, signal.default_int_handler)  # rclpy alone may miss one
             rclpy.init(args=args)
@@ -181,6 +182,9 @@ def test_brief_node() -> None:
                 rclpy.spin(node)
             except (KeyboardInterrupt, ExternalShutdownException):
                 pass
+            except ParameterException as error:
+                get_logger('minimal_publisher').fatal(str(error))
+                raise SystemExit(1) from None
             except RuntimeError:
                 if rclpy.ok():  # otherwise a signal ended the context while the node was using it
                     raise
@@ -272,9 +276,8 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
     node = files["talker/node.py"]
     assert "class NodeNode(Node):" in node
     assert "    node = NodeNode()\n" in node
-    assert "('topic', '~/beat')" in node
     assert "    /node/beat (std_msgs/msg/Header)\n" in node
-    assert "self.create_publisher(Header, topic, qos_profile_sensor_data)" in node
+    assert "self.create_publisher(Header, '~/beat', qos_profile_sensor_data)" in node
     assert "msg.frame_id = self.frame_id" in node
     assert "self.count" not in node
     test = files["test/test_node.py"]

@@ -106,7 +106,8 @@ def test_imports_of_one_module_stand_on_one_line() -> None:
 def test_a_flag_says_what_it_means_for_each_kind() -> None:
     kinds = [TEMPLATES[kind] for kind in ("publisher", "subscriber", "timer")]
     found = {one.name: one for one in questions.shared(kinds)}
-    assert found["topic"].help == "topic to publish on; topic to subscribe to"
-    assert found["topic"].default == "example_topic"
+    usual = "(default: the usual one of the type, such as scan)"
+    assert found["topic"].help == f"topic to publish on {usual}; topic to subscribe to {usual}"
+    assert found["topic"].default == "{{ message_type.topic }}"
     assert found["node_name"].help == "name of the node, its module and its executable"
     assert found["node_name"].default is None

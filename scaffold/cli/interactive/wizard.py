@@ -197,8 +197,9 @@ class _Interview:
             theirs = self._templates[other[parts.KIND]]
             for name, typed in connections.pairs(theirs.questions):
                 known = other.get(typed.name, typed.default)
-                is_known = isinstance(known, str) and "{" not in known
-                if is_known and (name.type, _full_name(name, other, theirs)) in mine:
+                is_known = isinstance(known, str) and not questions.is_derived(known)
+                full_name = _full_name(name, other, theirs)
+                if is_known and full_name and (name.type, full_name) in mine:
                     return str(known)
         return None
 
@@ -254,9 +255,13 @@ class _Interview:
 
 
 def _full_name(question: Question, entry: Mapping[str, Any], template: Template) -> str:
-    """Return the topic or service that a part uses."""
+    """Return the topic or service that a part uses; empty if that follows from its type."""
     given = str(entry.get(question.name, question.default))
-    return names.resolve(given, str(entry.get(template.name_question)))
+    return (
+        ""
+        if questions.is_derived(given)
+        else names.resolve(given, str(entry.get(template.name_question)))
+    )
 
 
 def _free(name: str, taken: Iterable[str]) -> str:

@@ -80,6 +80,7 @@ def run(options: argparse.Namespace) -> int:
         user = User(options.destination_directory)
         around = repository.place_of(options.destination_directory, is_parent=True)
         made = draft.draft(roots, templates, given, user, place=around)
+        _refuse_conflicts(made.conflicts)
         destination.check(options.destination_directory, made.name)
         left = _left_to_owners(options, made, around)
         plan = _plan(options, made, left)
@@ -107,6 +108,12 @@ def run(options: argparse.Namespace) -> int:
     return FINDINGS if _tell_by_hand(options, made, left) else CLEAN
 
 
+def _refuse_conflicts(conflicts: Sequence[str]) -> None:
+    """Raise InputError if nodes of the package would not connect."""
+    if conflicts:
+        raise InputError(conflicts[0])
+
+
 def _ask(
     options: argparse.Namespace,
     roots: list[str],
@@ -118,7 +125,7 @@ def _ask(
     Raises:
         InputError: there is no terminal.
     """
-    from scaffold.generate import destination, draft
+    from scaffold.generate import connections, destination, draft
     from scaffold.generate.questions.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
@@ -133,7 +140,8 @@ def _ask(
 
     def try_package(answers: Mapping[str, Given]) -> None:
         _dependencies(options, answers)
-        draft.compose(roots, templates, answers, User(options.destination_directory))
+        made = draft.compose(roots, templates, answers, User(options.destination_directory))
+        _refuse_conflicts(connections.conflicts(made.context["nodes"], templates))
 
     trial = wizard.Trial(try_name, try_package)
     return wizard.ask(templates, given, user, trial, _besides_answers(options))

@@ -96,7 +96,8 @@ def add(target: Target, wanted: Wanted) -> Added:
         wanted: A part or an extra.
 
     Raises:
-        InputError: the package cannot be parsed or does not fit, or an answer is not acceptable.
+        InputError: the package cannot be parsed or does not fit, an answer is not acceptable, or
+            a node would not connect with another one.
         ConflictError: it has a program of that name already.
     """
     package = target.package
@@ -119,6 +120,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     # The files of the part have the date of today, those of the package keep theirs.
     files = {**repository.inside(others), **new}
     after = _with(package, files, made.rendered.executable)
+    _refuse_conflicts(after, made)
     return Added(
         files,
         above,
@@ -289,6 +291,14 @@ def _why_no_header(package: Package, made: Piece) -> str:
 
 _WITH_HEADER = (".py", ".cpp")
 """Files that have the header of a license."""
+
+
+def _refuse_conflicts(package: Package, made: Piece) -> None:
+    """Raise if a new node would not connect with one that is there."""
+    program = made.addition.program
+    conflicts = neighbours.conflicts(package, program.path) if program is not None else ()
+    for conflict in conflicts:
+        raise InputError(f"{conflict}; nothing was changed")
 
 
 def _refuse_taken(package: Package, made: Piece) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.generate.connections import Clash, Use, clashes
+from scaffold.generate.connections import Clash, Use, clashes, mismatches
 from scaffold.generate.questions.names import resolve
 from scaffold.model.package import Package
 from scaffold.model.rclpy.entities import (
@@ -49,15 +49,36 @@ def _namesakes(package: Package, path: str) -> Iterator[str]:
                 )
 
 
-def _misconnected(package: Package, path: str) -> Iterator[str]:
-    uses = sorted(_uses(package), key=lambda use: _path(use) != path)  # the new node comes first
-    result: set[tuple[str, str]] = set()
-    for clash in clashes(uses):
-        name = clash.first.kind, clash.first.name
-        is_new = _path(clash.first) == path != _path(clash.other)
-        if is_new and name not in result and not _has_rule(clash):
-            result.add(name)
+def conflicts(package: Package, path: str) -> Iterator[str]:
+    """Yield why a node does not connect with others, where the checker would call it an error.
+
+    Args:
+        package: The package with the node.
+        path: The file of the node.
+    """
+    for clash in _clashes(package, path):
+        if _has_rule(clash):
             yield str(clash)
+    for mismatch in mismatches(uses(package)):
+        if path in {_path(mismatch.publisher), _path(mismatch.subscription)}:
+            yield str(mismatch)
+
+
+def _misconnected(package: Package, path: str) -> Iterator[str]:
+    for clash in _clashes(package, path):
+        if not _has_rule(clash):
+            yield str(clash)
+
+
+def _clashes(package: Package, path: str) -> Iterator[Clash]:
+    """Yield the clashes of a new node with others, each name once."""
+    used = sorted(uses(package), key=lambda use: _path(use) != path)  # the new node comes first
+    result: set[tuple[str, str]] = set()
+    for clash in clashes(used):
+        name = clash.first.kind, clash.first.name
+        if _path(clash.first) == path != _path(clash.other) and name not in result:
+            result.add(name)
+            yield clash
 
 
 def _path(use: Use) -> str | None:
@@ -70,7 +91,7 @@ def _has_rule(clash: Clash) -> bool:
     return is_fixed and clash.first.kind in {"topic", "service"}
 
 
-def _uses(package: Package) -> Iterator[Use]:
+def uses(package: Package) -> Iterator[Use]:
     """Yield what the nodes of a package use, as far as names and types are known."""
     for file in rclpy_files(package):
         for endpoint in file.endpoints:
@@ -88,4 +109,12 @@ def _use(endpoint: Endpoint) -> Use | None:
     if endpoint.interface is None:
         return None
     name, is_fixed = resolve(endpoint.name, node), endpoint.from_parameter is None
-    return Use(kind, name, endpoint.interface, node, endpoint.location, is_fixed)
+    use = Use(kind, name, endpoint.interface, node, endpoint.location, is_fixed)
+    if kind != "topic" or endpoint.qos is None:
+        return use
+    qos = endpoint.qos
+    return use._replace(
+        direction="published" if isinstance(endpoint, Publisher) else "subscribed",
+        reliability=qos.reliability.lower() if isinstance(qos.reliability, str) else "",
+        durability=qos.durability.lower() if isinstance(qos.durability, str) else "",
+    )

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from scaffold.errors import InputError
 from scaffold.generate import parts
-from scaffold.generate.add import existing_answers, existing_nodes
+from scaffold.generate.add import existing_answers, existing_nodes, remarks
 from scaffold.generate.context import part_scopes
-from scaffold.generate.draft import Composed, compose
+from scaffold.generate.draft import Composed, Existing, compose
 from scaffold.generate.edit.addition import Addition, Compiled, Program
 from scaffold.generate.edit.edit import README
 from scaffold.generate.edit.layout import Layout, layout_of
@@ -149,8 +149,7 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         answers,
         target.user,
         day=day,
-        fixed=fixed,
-        messages=messages,
+        existing=Existing(fixed, messages, list(remarks.uses(package))),
         place=target.place,
     )
     composed.context["has_license"] = "license" in known

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from scaffold.generate.payload import lookup, recipe, words
+from scaffold.generate.payload import conventions, lookup, recipe, words
 from scaffold.generate.payload.code import Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import HEADER, Types
@@ -51,7 +51,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
-        frame=words_.frame or recipe.FRAME,
+        frame=conventions.of_message(own.full_name).frame or words_.frame or recipe.FRAME,
         constants=walk.constants,
         is_changing=changes(lines),
         message=types.own_alias,

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import ast
+import json
 import re
 from collections.abc import Iterable
+from typing import Any
 
+from scaffold.generate.payload import conventions, processing
+from scaffold.generate.payload.processing import Process
+from scaffold.generate.questions.names import header_name
 from scaffold.record import NamedTuple
 
 
@@ -47,6 +53,28 @@ class Payload(NamedTuple):
     def type(self) -> str:
         """The full name, as ``ros2 topic info`` shows it."""
         return f"{self.package}/msg/{self.message or self.name}"
+
+    @property
+    def topic(self) -> str:
+        """The usual name of a topic with these messages."""
+        return conventions.of_message(self.type).topic
+
+    @property
+    def rate(self) -> float:
+        """The usual number of messages per second."""
+        return conventions.of_message(self.type).rate
+
+    def offered(self, topic: str) -> str:
+        """Return the usual quality of service of who publishes them on a topic."""
+        return conventions.of_topic(self.type, topic).offered
+
+    def requested(self, topic: str) -> str:
+        """Return the usual quality of service of who subscribes to them on a topic."""
+        return conventions.of_topic(self.type, topic).requested
+
+    def processed(self, published: Payload) -> Process | None:
+        """Return how messages of another type are made of these; ``None`` if nobody knows."""
+        return processing.of_pair(self, published)
 
     @property
     def check_imports(self) -> tuple[str, ...]:
@@ -104,6 +132,11 @@ class SectionPayload(NamedTuple):
         """Import statements that the checks need, except the one of the interface."""
         return _needed(self.imports, self.checks)
 
+    @property
+    def example(self) -> str:
+        """The constants among the fields as YAML, for a command line: ``{order: 10}``."""
+        return _yaml(_constants(self.statements))
+
 
 class ServicePayload(NamedTuple):
     """How a client fills the request of a service, and how a server answers it."""
@@ -124,6 +157,11 @@ class ServicePayload(NamedTuple):
     def type(self) -> str:
         """The full name, as ``ros2 service type`` shows it."""
         return f"{self.package}/srv/{self.service or self.name}"
+
+    @property
+    def usual_name(self) -> str:
+        """The usual name of a service of the type."""
+        return header_name(self.service or self.name)
 
     @property
     def import_line(self) -> str:
@@ -188,6 +226,11 @@ class ActionPayload(NamedTuple):
         return f"{self.package}/action/{self.action or self.name}"
 
     @property
+    def usual_name(self) -> str:
+        """The usual name of an action of the type."""
+        return header_name(self.action or self.name)
+
+    @property
     def import_line(self) -> str:
         """The import of the action alone."""
         return _import(f"{self.package}.action", self.action, self.name)
@@ -205,6 +248,34 @@ class ActionPayload(NamedTuple):
         """All interface packages that server and client need, in alphabetical order."""
         sections = (self.goal, self.feedback, self.result)
         return _union([(self.package,), *(section.packages for section in sections)])
+
+
+def _constants(statements: Iterable[str]) -> dict[str, Any]:
+    """Return the fields that statements such as ``goal.order = 10`` give a constant value."""
+    fields: dict[str, Any] = {}
+    for statement in statements:
+        match = re.match(r"\w+\.([a-z][\w.]*) = (.+?)(?:  # .*)?$", statement)
+        if match is None:
+            continue
+        try:
+            value = ast.literal_eval(match[2])
+        except (ValueError, SyntaxError):
+            continue
+        *way, last = match[1].split(".")
+        inner = fields
+        for name in way:
+            inner = inner.setdefault(name, {})
+        inner[last] = value
+    return fields
+
+
+def _yaml(value: object) -> str:
+    """Return a value as YAML on one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{name}: {_yaml(item)}" for name, item in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_yaml, value)) + "]"
+    return json.dumps(value) if isinstance(value, bool | int | float | str) else str(value)
 
 
 def _import(module: str, interface: str, name: str) -> str:

@@ -6,6 +6,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
+from scaffold.generate.payload import conventions
 from scaffold.record import NamedTuple
 
 FRAME = "base_link"
@@ -30,13 +31,15 @@ class Recipe(NamedTuple):
     checks: tuple[str, ...] = ()
     """As in `Payload.checks`."""
     frame: str = FRAME
-    """The default of the parameter ``frame_id``; empty: the header has a time only."""
+    """The default of the parameter ``frame_id``, where there is no convention for the type;
+    empty: the header has a time only."""
 
 
 def find(full_name: str) -> Recipe | None:
     """Return the recipe of a message by ``package/msg/Name``; ``None`` if there is none."""
     recipe: Recipe | None = _in(full_name, "RECIPES")
-    return recipe
+    frame = conventions.of_message(full_name).frame
+    return recipe._replace(frame=frame) if recipe is not None and frame else recipe
 
 
 class ServiceRecipe(NamedTuple):

@@ -34,11 +34,33 @@ class Qos(NamedTuple):
     """Lines of the module that the expression needs."""
     hint: str = "here how many messages wait at most until they are dealt with"
     """What the expression is, for learners."""
+    text: str = ""
+    """What the user wrote."""
+    reliability: str = "reliable"
+    """Empty where it depends on the middleware."""
+    durability: str = "volatile"
+    """Likewise."""
 
     @property
     def assignment(self) -> str:
         """Lines of a module that give the name ``QOS`` to it."""
         return "\n".join(self.constants) or f"{CONSTANT} = {self.expression}"
+
+    def named(self, name: str) -> Qos:
+        """Return the same with another name for its constant: a module may have two."""
+        constants = tuple(
+            line.replace(f"{CONSTANT} = ", f"{name} = ", 1) for line in self.constants
+        )
+        expression = name if self.constants else self.expression
+        return self._replace(expression=expression, constants=constants)
+
+    def conflict(self, requested: Qos) -> str:
+        """Return why a subscription gets nothing from a publisher with this; empty if it does."""
+        if (self.reliability, requested.reliability) == ("best_effort", "reliable"):
+            return "is best effort, but the subscription is reliable"
+        if (self.durability, requested.durability) == ("volatile", "transient_local"):
+            return "is volatile, but the subscription is transient local"
+        return ""
 
 
 _SAYS: Mapping[str, str] = {
@@ -83,11 +105,15 @@ def qos(text: str) -> Qos:
     name, *others = words = [word.strip() for word in text.split(",")]
     if not others and name in _SAYS:
         constant = f"qos_profile_{name}"
+        _, _, reliability, durability = (str(value).lower() for value in PROFILES[name])
         return Qos(
             constant,
             (f"from rclpy.qos import {constant}",),
             f"{name}: {_SAYS[name]}",
             hint="here a profile that rclpy has a name for",
+            text=text,
+            reliability="" if reliability == "system_default" else reliability,
+            durability="" if durability == "system_default" else durability,
         )
     base = _of_profile(name) if name in NAMES else {}
     settings = {**base, **_settings(others if base else words, text)}
@@ -96,8 +122,13 @@ def qos(text: str) -> Qos:
     else:
         settings.setdefault("depth", str(PROFILES["default"][0]))
     if list(settings) == ["depth"]:
-        return Qos(settings["depth"], (), f"reliable, depth {settings['depth']}")
-    return _profile(settings, name if name in _OWN and not others else "")
+        return Qos(settings["depth"], (), f"reliable, depth {settings['depth']}", text=text)
+    made = _profile(settings, name if name in _OWN and not others else "")
+    return made._replace(
+        text=text,
+        reliability=settings.get("reliability", made.reliability),
+        durability=settings.get("durability", made.durability),
+    )
 
 
 def _of_profile(name: str) -> Mapping[str, str]:

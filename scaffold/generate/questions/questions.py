@@ -7,6 +7,7 @@ wins: flag, answers file, configuration, the default of the template, the user (
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
@@ -210,7 +211,7 @@ def resolve(
 ) -> Answers:
     """Return an answer for every question.
 
-    Defaults without Jinja come first, so that the others may use them.
+    Defaults without Jinja come first, so that the others may use them, and each other.
 
     Args:
         questions: Of the chosen templates.
@@ -230,18 +231,30 @@ def resolve(
         is_list = question.type == SEVERAL and question.choices
         answers.written[question.name] = [*value] if is_list else found.value
 
-    later = [item for item in questions if item.name not in given and _is_jinja(item.default)]
+    later = [item for item in questions if item.name not in given and is_derived(item.default)]
     for question in questions:
         if question not in later:
             add(question, given.get(question.name) or _default(question, fallback))
-    for question in later:
+    while later:
+        question = _independent(later)
+        later.remove(question)
         text = render(question.default, {**known, **answers.values})
         add(question, Given(text, "default"))
     return answers
 
 
-def _is_jinja(default: object) -> bool:
+def is_derived(default: object) -> bool:
+    """Tell whether a default follows from other answers."""
     return isinstance(default, str) and "{" in default
+
+
+def _independent(later: Sequence[Question]) -> Question:
+    """Return the first question whose default does not need the answer to another of them."""
+    names = {question.name for question in later}
+    for question in later:
+        if not (names - {question.name}) & {*re.findall(r"\w+", question.default)}:
+            return question
+    return later[0]
 
 
 def _default(question: Question, fallback: Callable[[str], Given | None]) -> Given:

@@ -72,6 +72,8 @@ class Question(NamedTuple):
     choices: tuple[str, ...]
     is_positional: bool
     metavar: str | None
+    direction: str = ""
+    """Of a topic: ``published`` or ``subscribed``; empty if that is not known."""
 
 
 class Template(NamedTuple):
@@ -142,7 +144,10 @@ _INNER: Mapping[str, Any] = {
 """The types of what is in a value."""
 _WORDS: Mapping[object, str] = {str: "text", dict: "mapping", list: "list", (str, bool): "text"}
 _DEFINITIONS = frozenset({"msg", "srv", "action"})
-_QUESTION_KEYS = frozenset({"type", "help", "default", "choices", "positional", "metavar"})
+_QUESTION_KEYS = frozenset(
+    {"type", "help", "default", "choices", "positional", "metavar", "direction"}
+)
+_DIRECTIONS = ("published", "subscribed")
 
 
 def load(roots: Sequence[str]) -> dict[str, Template]:
@@ -303,6 +308,10 @@ def _question(path: str, name: str, entry: object) -> Question:
     choices = entry.get("choices", [])
     if not isinstance(choices, str | list):
         raise ContentError(f"{path}: {name} must have a list of choices, or a role")
+    direction = entry.get("direction", "")
+    if direction and (kind != "topic" or direction not in _DIRECTIONS):
+        wanted = " or ".join(_DIRECTIONS)
+        raise ContentError(f"{path}: direction of {name} must be {wanted}, and its type topic")
     return Question(
         name=name,
         type=kind,
@@ -311,6 +320,7 @@ def _question(path: str, name: str, entry: object) -> Question:
         choices=(f"role:{choices}",) if isinstance(choices, str) else tuple(map(str, choices)),
         is_positional=bool(entry.get("positional", False)),
         metavar=entry.get("metavar"),
+        direction=direction,
     )
 
 

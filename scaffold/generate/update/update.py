@@ -91,6 +91,7 @@ def update(
         written = Provenance.of(made).files(is_new=is_new)
         files |= {path: text.encode() for path, text in written.items()}
     executable = frozenset(path for path in made.rendered.executable if path in files)
+    remarks += made.conflicts
     return Updated(files, executable, conflicts, tuple(remarks))
 
 

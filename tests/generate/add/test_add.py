@@ -525,9 +525,8 @@ def test_answers_come_from_flags_a_file_and_the_configuration(
     answers = ["--answers", str(tmp_path / "answers.yaml"), "--topic", "b"]
     assert add(demo, "publisher", "talker", *answers) == 0
     text = (demo / "scripts" / "talker.py").read_text()
-    assert "declare_parameter('rate', 8.0)" in text
-    assert "declare_parameter('topic', 'b')" in text
-    assert "qos_profile_sensor_data" in text
+    assert "declare_parameter('rate', 8.0, " in text
+    assert "create_publisher(String, 'b', qos_profile_sensor_data)" in text
     assert "MIT-style" not in text
 
 
@@ -666,22 +665,43 @@ def test_nodes_that_do_not_connect_are_named(
     assert add(demo, "publisher", "other", "--topic", "chatter") == 0
     assert capsys.readouterr().err == ""
     assert add(demo, "action_server", "counter", "--action", "count") == 0
-    text = (demo / "scripts" / "talker.py").read_text()
-    line = text.partition("self.create_publisher")[0].count("\n") + 1
-    capsys.readouterr()
+    before = read(demo)
     words = ["--topic", "/chatter", "--message-type", "std_msgs/msg/Int32"]
-    assert add(demo, "subscriber", "listener", *words) == 0
-    text = (demo / "scripts" / "listener.py").read_text()
-    own = text.partition("self.create_subscription")[0].count("\n") + 1
-    assert capsys.readouterr().err == (
-        f"note: the topic /chatter is std_msgs/msg/Int32 in listener, scripts/listener.py:{own}, "
-        f"but std_msgs/msg/String in other, scripts/other.py:{line}: they do not connect; give "
-        "both the same type, or another name to one\n"
-    )
+    message = refused(demo, capsys, "subscriber", "listener", *words)
+    assert message.startswith("the topic /chatter is std_msgs/msg/Int32 in listener, scripts/")
+    assert message.endswith("give both the same type, or another name to one; nothing was changed")
+    words = ["--topic", "chatter", "--qos", "latched"]
+    message = refused(demo, capsys, "subscriber", "listener", *words)
+    assert message.startswith("the topic /chatter is published volatile by ")
+    assert message.endswith("give both the same quality of service; nothing was changed")
+    assert read(demo) == before
     words = ["--action", "count", "--action-type", "tf2_msgs/action/LookupTransform"]
     assert add(demo, "action_client", "asker", *words) == 0
     said = capsys.readouterr().err
     assert "the action /count is tf2_msgs/action/LookupTransform in asker, scripts/" in said
+
+
+DRIVER = """\
+    import rclpy
+    from rclpy.node import Node
+    from rclpy.qos import qos_profile_sensor_data
+    from sensor_msgs.msg import LaserScan
+
+
+    class Driver(Node):
+        def __init__(self):
+            super().__init__('driver')
+            self.publisher = self.create_publisher(LaserScan, 'front', qos_profile_sensor_data)
+    """
+
+
+def test_a_subscriber_has_the_type_and_the_quality_of_service_of_the_publisher_there(
+    tmp_path: Path,
+) -> None:
+    demo = write(tmp_path / "demo", {**CMAKE, "demo/driver.py": dedent(DRIVER)})
+    assert add(demo, "subscriber", "listener", "--topic", "front") == 0
+    text = (demo / "scripts" / "listener.py").read_text()
+    assert "LaserScan, 'front', self.receive_message, qos_profile_sensor_data)" in text
 
 
 def test_a_package_of_ours_refuses_services_of_two_types(

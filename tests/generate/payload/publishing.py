@@ -186,7 +186,8 @@ def _run(
 def _start(
     publisher: Publisher, variables: Mapping[str, str], scratch: Path
 ) -> subprocess.Popen[bytes]:
-    arguments = ["-p", "rate:=20.0", "-p", f"topic:={publisher.topic}"]
+    remapped = f"{publisher.payload.topic}:={publisher.topic}"
+    arguments = ["-p", "rate:=20.0", "-r", remapped]
     with _output_path(publisher, scratch).open("w") as output:
         return subprocess.Popen(
             [sys.executable, str(publisher.script), "--ros-args", *arguments],

@@ -69,7 +69,6 @@ RECIPES: dict[str, Recipe] = {
             "len(message.data) == message.info.width * message.info.height == 20 * 10",
             "message.data.count(100) == message.info.height",
         ),
-        frame="map",
     ),
     "Odometry": Recipe(
         says="the pose and the velocity of a robot that drives on a circle",
@@ -92,7 +91,6 @@ RECIPES: dict[str, Recipe] = {
             "-1.0 <= message.pose.pose.position.x <= 1.0",
             "message.pose.covariance[35] > 0.0",
         ),
-        frame="odom",
     ),
     "Path": Recipe(
         says="a path of five poses that sways",
@@ -102,6 +100,5 @@ RECIPES: dict[str, Recipe] = {
             "len(message.poses) == 5",
             "all(pose.header == message.header for pose in message.poses)",
         ),
-        frame="map",
     ),
 }

@@ -57,7 +57,6 @@ RECIPES: dict[str, Recipe] = {
             "len(message.d) == 5",
             "message.k[8] == 1.0",
         ),
-        frame="camera_optical_frame",
     ),
     "ChannelFloat32": Recipe(
         says="the intensities of three points",
@@ -90,7 +89,6 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="a {msg.format} image of {len(msg.data)} bytes",
         checks=("message.format == 'png'", "bytes(message.data[1:4]) == b'PNG'"),
-        frame="camera_optical_frame",
     ),
     "FluidPressure": Recipe(
         says="the pressure of the air",
@@ -129,7 +127,6 @@ RECIPES: dict[str, Recipe] = {
             "message.encoding == 'mono8'",
             "len(message.data) == message.height * message.step == 64 * 48",
         ),
-        frame="camera_optical_frame",
     ),
     "Imu": Recipe(
         says="the motion of a sensor that turns about the vertical axis",
@@ -150,7 +147,6 @@ RECIPES: dict[str, Recipe] = {
             "message.linear_acceleration.z == 9.81",
             "message.orientation_covariance[0] > 0.0",
         ),
-        frame="imu_link",
     ),
     "JointState": Recipe(
         says="the state of two joints that swing",
@@ -225,7 +221,6 @@ RECIPES: dict[str, Recipe] = {
             "all(1.0 <= distance <= 3.0 for distance in message.ranges)",
             "message.angle_max > message.angle_min",
         ),
-        frame="laser",
     ),
     "MagneticField": Recipe(
         says="the magnetic field of the earth, seen by a sensor that turns",
@@ -238,7 +233,6 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="x {msg.magnetic_field.x * 1e6:.1f} uT",
         checks=("message.magnetic_field.z == -4e-5", "message.magnetic_field_covariance[0] > 0.0"),
-        frame="imu_link",
     ),
     "MultiDOFJointState": Recipe(
         says="the state of a joint that floats and circles",
@@ -272,7 +266,6 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="{len(msg.ranges)} rays",
         checks=("len(message.ranges) == len(message.intensities) == 360",),
-        frame="laser",
     ),
     "NavSatFix": Recipe(
         says="the position of a receiver that is carried around a place in Munich",
@@ -292,7 +285,6 @@ RECIPES: dict[str, Recipe] = {
             "message.longitude == pytest.approx(11.575, abs=1e-3)",
             "message.position_covariance_type == NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN",
         ),
-        frame="gps",
     ),
     "NavSatStatus": Recipe(
         says="a fix that is lost and found in turn",
@@ -337,7 +329,6 @@ RECIPES: dict[str, Recipe] = {
             "[field.name for field in message.fields] == ['x', 'y', 'z']",
             "len(message.data) == message.height * message.row_step == 100 * 12",
         ),
-        frame="lidar",
     ),
     "PointField": Recipe(
         says="the description of a coordinate in the data of a point: x, y and z in turn",
@@ -365,7 +356,6 @@ RECIPES: dict[str, Recipe] = {
             "message.min_range < message.range < message.max_range",
             "message.radiation_type == Range.ULTRASOUND",
         ),
-        frame="sonar",
     ),
     "RegionOfInterest": Recipe(
         says="a window of an image that moves to the right",

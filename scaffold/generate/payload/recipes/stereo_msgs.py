@@ -30,6 +30,5 @@ RECIPES: dict[str, Recipe] = {
             "len(message.image.data) == message.image.height * message.image.step",
             "message.min_disparity < message.max_disparity",
         ),
-        frame="camera_optical_frame",
     ),
 }

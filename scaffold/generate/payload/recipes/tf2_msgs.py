@@ -33,6 +33,5 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="{msg.transforms[0].child_frame_id}",
         checks=("[one.child_frame_id for one in message.transforms] == ['base_link']",),
-        frame="map",
     ),
 }

@@ -132,7 +132,6 @@ RECIPES: dict[str, Recipe] = {
         code=_MARKER.format(marker="msg", package="example"),
         log="a ball at x {msg.pose.position.x:.2f} m",
         checks=("message.type == Marker.SPHERE", "message.color.a == 1.0"),
-        frame="map",
     ),
     "MarkerArray": Recipe(
         says="three balls that move on a circle",
@@ -157,7 +156,6 @@ RECIPES: dict[str, Recipe] = {
             "[marker.id for marker in message.markers] == [0, 1, 2]",
             "all(marker.header.stamp.sec > 0 for marker in message.markers)",
         ),
-        frame="map",
     ),
     "MenuEntry": Recipe(
         says="an entry of a menu",

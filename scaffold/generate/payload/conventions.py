@@ -1,0 +1,63 @@
+"""What people expect of a topic by the type of its messages: name, quality of service, rate."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cache
+
+from scaffold.generate.questions.names import header_name
+from scaffold.record import NamedTuple
+
+_TABLE = os.path.join(
+    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "conventions.tsv"
+)
+_OF_ONE_TOPIC = "* "
+"""What is in front of the type where the topic has to have the name, too."""
+_VALUES = "std_msgs"
+"""The package whose messages mean nothing by themselves."""
+
+
+class Convention(NamedTuple):
+    """What people expect of a topic."""
+
+    topic: str
+    offered: str = "10"
+    """The quality of service of publishers, as a user writes it."""
+    requested: str = "10"
+    """The same of subscriptions."""
+    rate: float = 2.0
+    """Messages per second."""
+    frame: str = ""
+    """Of the header; empty where there is none."""
+
+
+def of_message(full_name: str) -> Convention:
+    """Return what is usual for messages of a type, such as ``sensor_msgs/msg/LaserScan``."""
+    known = _table().get((full_name, ""))
+    if known is not None:
+        return known
+    package, _, name = full_name.split("/")
+    return Convention("example_topic" if package == _VALUES else header_name(name))
+
+
+def of_topic(full_name: str, topic: str) -> Convention:
+    """Return what is usual for a topic with messages of a type."""
+    return _table().get((full_name, topic.strip("~/")), of_message(full_name))
+
+
+@cache
+def _table() -> Mapping[tuple[str, str], Convention]:
+    """Return the table by type, and the topic where that decides."""
+    result: dict[tuple[str, str], Convention] = {}
+    with open(_TABLE, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("#"):
+                continue
+            full_name, topic, offered, requested, rate, frame, _ = line.split("\t")
+            key = full_name.removeprefix(_OF_ONE_TOPIC), ""
+            if key[0] != full_name:
+                key = key[0], topic
+            frame = "" if frame == "-" else frame
+            result[key] = Convention(topic, offered, requested, float(rate), frame)
+    return result

@@ -1,0 +1,348 @@
+"""What a node makes of the messages that it receives, by the types of its input and its output.
+
+A pair of types that is not here passes messages on, if both are the same, or publishes example
+values for each message that arrives.
+"""
+
+from __future__ import annotations
+
+import re
+from textwrap import dedent
+from typing import TYPE_CHECKING
+
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.generate.payload.payloads import Payload
+
+
+class Process(NamedTuple):
+    """How a message is made of another one."""
+
+    says: str
+    """What comes out, to be read after "publish"."""
+    code: str
+    """Lines of a method: they fill ``msg`` from ``received``; where both have the same type,
+    they change ``msg``, the message received."""
+    check: str
+    """An expression that is true of a published ``message`` and the ``item`` that it is made of;
+    false if the node does not look at its input."""
+    constant: str = ""
+    """A line of the module."""
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The code, without the indentation of the table."""
+        return tuple(line for line in dedent(self.code).splitlines() if line.strip())
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Lines of the module that the code needs."""
+        return (self.constant,) if self.constant else ()
+
+    @property
+    def imports(self) -> tuple[str, ...]:
+        """Import statements that the code needs, besides those of the messages."""
+        return ("import math",) if "math." in self.code else ()
+
+    @property
+    def check_imports(self) -> tuple[str, ...]:
+        """Import statements that the check needs."""
+        return ("import math",) if "math." in self.check else ()
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether the code uses ``self.count``, the number of messages published so far."""
+        return "self.count" in self.code
+
+
+def of_pair(received: Payload, published: Payload) -> Process | None:
+    """Return how messages of one type are made of those of another; ``None`` if nobody knows."""
+    known = _PROCESSES.get((_short(received.type), _short(published.type)))
+    return known or _of_values(received, published)
+
+
+def _short(full_name: str) -> str:
+    return full_name.replace("/msg/", "/")
+
+
+def _of_values(received: Payload, published: Payload) -> Process | None:
+    """Return how the one value of a message of std_msgs follows from any other message."""
+    package, name = published.package, published.message or published.name
+    if package != "std_msgs" or received.type == published.type:
+        return None
+    if name == "String" and "{" in received.log_received:
+        text = re.sub(r"\bmsg\b", "received", received.log_received)
+        item = re.sub(r"\bmsg\b", "item", received.log_received)
+        return Process(
+            "what is received as text",
+            f"msg.data = f'{text}'",
+            f"message.data == f'{item}'",
+        )
+    kind = name.lower()
+    is_value = received.package == "std_msgs" and _is_number(received.message or received.name)
+    if kind in FLOATS and is_value:
+        return Process(
+            "the number received as a float",
+            "msg.data = float(received.data)",
+            "message.data == pytest.approx(item.data)",
+        )
+    return None
+
+
+def _is_number(name: str) -> bool:
+    return name.lower() in {*FLOATS, *INTEGER_RANGES} - {"byte", "char"}
+
+
+_NEAREST = """
+    valid = [
+        distance for distance in received.ranges
+        if received.range_min <= distance <= received.range_max
+    ]
+    nearest = min(valid, default=received.range_max)  # meters
+"""
+_DISTANCE = Process(
+    "the distance to the nearest obstacle",
+    f"{_NEAREST}    msg.data = nearest\n",
+    "message.data == min(item.ranges)",
+)
+_APPROACH = """
+    # Slow down in front of an obstacle, and stop at the distance STOP
+    {target}.linear.x = min(MAX_SPEED, max(0.0, 0.5 * (nearest - STOP)))  # meters per second
+"""
+_APPROACH_CHECK = "{}.linear.x == pytest.approx(min(0.5, 0.5 * (min(item.ranges) - 1.0)))"
+_SPEED = Process(
+    "the speed over ground",
+    """
+    velocity = received.twist.twist.linear
+    msg.data = math.hypot(velocity.x, velocity.y)  # meters per second
+    """,
+    "message.data == pytest.approx(abs(item.twist.twist.linear.x))",
+)
+_YAW = Process(
+    "the heading of the sensor",
+    """
+    q = received.orientation
+    sine, cosine = 2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y**2 + q.z**2)
+    msg.data = math.atan2(sine, cosine)  # radians, about the vertical axis
+    """,
+    "abs(math.sin(message.data / 2.0)) == pytest.approx(abs(item.orientation.z), abs=1e-4)",
+)
+_COMPASS = Process(
+    "the heading of the sensor, seen from magnetic north",
+    """
+    field = received.magnetic_field
+    msg.data = math.atan2(-field.y, field.x)  # radians
+    """,
+    "math.tan(message.data) == pytest.approx(-item.magnetic_field.y / item.magnetic_field.x)",
+)
+_TELEOP = """
+    if len(received.axes) >= 2:
+        {target}.linear.x = MAX_SPEED * received.axes[1]  # meters per second
+        {target}.angular.z = MAX_TURN * received.axes[0]  # radians per second
+"""
+_LIMIT = "{target}.angular.z = max(-MAX_TURN, min(MAX_TURN, {target}.angular.z))"
+
+
+def _value(says: str, path: str) -> Process:
+    """Return how a number of a message becomes a message of its own."""
+    return Process(
+        says,
+        f"msg.data = received.{path}",
+        f"message.data == pytest.approx(item.{path})",
+    )
+
+
+def _part(says: str, target: str, path: str) -> Process:
+    """Return how a part of a message becomes that of another one."""
+    return Process(
+        says,
+        f"msg.{target} = received.{path}",
+        f"message.{target} == item.{path}",
+    )
+
+
+_PROCESSES: dict[tuple[str, str], Process] = {
+    ("sensor_msgs/LaserScan", "std_msgs/Float32"): _DISTANCE,
+    ("sensor_msgs/LaserScan", "std_msgs/Float64"): _DISTANCE,
+    ("sensor_msgs/LaserScan", "std_msgs/Bool"): Process(
+        "whether there is an obstacle near the sensor",
+        f"{_NEAREST}    msg.data = nearest < STOP\n",
+        "message.data == min(item.ranges) < 1.0",
+        "STOP = 1.0  # meters",
+    ),
+    ("sensor_msgs/LaserScan", "sensor_msgs/Range"): Process(
+        "the distance to the nearest obstacle, as that of a range finder",
+        f"""{_NEAREST}    msg.radiation_type = Range.INFRARED
+    msg.field_of_view = received.angle_max - received.angle_min  # radians
+    msg.min_range = received.range_min  # meters
+    msg.max_range = received.range_max
+    msg.range = nearest
+        """,
+        "message.range == min(item.ranges)",
+    ),
+    ("sensor_msgs/LaserScan", "sensor_msgs/LaserScan"): Process(
+        "scans in which what is far away is out of range",
+        """
+        msg.ranges = [
+            distance if distance <= MAX_RANGE else math.inf for distance in msg.ranges
+        ]
+        """,
+        "list(message.ranges) == [d if d <= 2.5 else math.inf for d in item.ranges]",
+        "MAX_RANGE = 2.5  # meters",
+    ),
+    ("sensor_msgs/LaserScan", "geometry_msgs/Twist"): Process(
+        "a velocity that stops in front of obstacles",
+        _NEAREST + _APPROACH.format(target="msg"),
+        _APPROACH_CHECK.format("message"),
+        "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
+    ),
+    ("sensor_msgs/LaserScan", "geometry_msgs/TwistStamped"): Process(
+        "a velocity that stops in front of obstacles",
+        _NEAREST + _APPROACH.format(target="msg.twist"),
+        _APPROACH_CHECK.format("message.twist"),
+        "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
+    ),
+    ("sensor_msgs/Image", "sensor_msgs/Image"): Process(
+        "negatives of the images received",
+        "msg.data = bytes(255 - value for value in msg.data)",
+        "message.data[0] == 255 - item.data[0]",
+    ),
+    ("sensor_msgs/Image", "std_msgs/Float32"): Process(
+        "the mean brightness of the images received",
+        "msg.data = sum(received.data) / max(1, len(received.data))",
+        "message.data == pytest.approx(sum(item.data) / len(item.data))",
+    ),
+    ("sensor_msgs/PointCloud2", "std_msgs/UInt32"): Process(
+        "the number of points in the clouds received",
+        "msg.data = received.width * received.height",
+        "message.data == item.width * item.height",
+    ),
+    ("sensor_msgs/Imu", "std_msgs/Float32"): _YAW,
+    ("sensor_msgs/Imu", "std_msgs/Float64"): _YAW,
+    ("sensor_msgs/Imu", "geometry_msgs/QuaternionStamped"): _part(
+        "the orientation of the sensor", "quaternion", "orientation"
+    ),
+    ("sensor_msgs/Imu", "geometry_msgs/Vector3Stamped"): _part(
+        "the acceleration of the sensor", "vector", "linear_acceleration"
+    ),
+    ("sensor_msgs/Imu", "sensor_msgs/Imu"): Process(
+        "the motion of a sensor that lies flat, without gravity",
+        "msg.linear_acceleration.z -= GRAVITY",
+        "message.linear_acceleration.z == item.linear_acceleration.z - 9.81",
+        "GRAVITY = 9.81  # meters per second squared",
+    ),
+    ("sensor_msgs/MagneticField", "std_msgs/Float32"): _COMPASS,
+    ("sensor_msgs/MagneticField", "std_msgs/Float64"): _COMPASS,
+    ("sensor_msgs/Joy", "geometry_msgs/Twist"): Process(
+        "a velocity that follows the left stick of a gamepad",
+        _TELEOP.format(target="msg"),
+        "message.linear.x == pytest.approx(0.5 * item.axes[1])",
+        "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
+    ),
+    ("sensor_msgs/Joy", "geometry_msgs/TwistStamped"): Process(
+        "a velocity that follows the left stick of a gamepad",
+        _TELEOP.format(target="msg.twist"),
+        "message.twist.linear.x == pytest.approx(0.5 * item.axes[1])",
+        "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
+    ),
+    ("sensor_msgs/JointState", "std_msgs/Float64MultiArray"): Process(
+        "the positions of the joints",
+        "msg.data = received.position",
+        "message.data == item.position",
+    ),
+    ("sensor_msgs/BatteryState", "std_msgs/Float32"): _value(
+        "the charge of the battery", "percentage"
+    ),
+    ("sensor_msgs/BatteryState", "std_msgs/Float64"): _value(
+        "the charge of the battery", "percentage"
+    ),
+    ("sensor_msgs/BatteryState", "std_msgs/Bool"): Process(
+        "whether the battery is low",
+        "msg.data = received.percentage < LOW",
+        "message.data == item.percentage < 0.2",
+        "LOW = 0.2  # of 1.0, a full battery",
+    ),
+    ("sensor_msgs/Range", "std_msgs/Float32"): _value("the distance measured", "range"),
+    ("sensor_msgs/Range", "std_msgs/Float64"): _value("the distance measured", "range"),
+    ("sensor_msgs/Range", "std_msgs/Bool"): Process(
+        "whether there is something near the sensor",
+        "msg.data = received.range < STOP",
+        "message.data == item.range < 0.5",
+        "STOP = 0.5  # meters",
+    ),
+    ("sensor_msgs/Temperature", "std_msgs/Float32"): _value("the temperature", "temperature"),
+    ("sensor_msgs/Temperature", "std_msgs/Float64"): _value("the temperature", "temperature"),
+    ("sensor_msgs/NavSatFix", "std_msgs/Float64"): _value("the altitude", "altitude"),
+    ("nav_msgs/Odometry", "std_msgs/Float32"): _SPEED,
+    ("nav_msgs/Odometry", "std_msgs/Float64"): _SPEED,
+    ("nav_msgs/Odometry", "geometry_msgs/PoseStamped"): _part(
+        "the pose of the robot", "pose", "pose.pose"
+    ),
+    ("nav_msgs/Odometry", "geometry_msgs/PoseWithCovarianceStamped"): _part(
+        "the pose of the robot", "pose", "pose"
+    ),
+    ("nav_msgs/Odometry", "geometry_msgs/PointStamped"): _part(
+        "the position of the robot", "point", "pose.pose.position"
+    ),
+    ("nav_msgs/Odometry", "geometry_msgs/Twist"): Process(
+        "the velocity of the robot",
+        """
+        msg.linear = received.twist.twist.linear
+        msg.angular = received.twist.twist.angular
+        """,
+        "message == item.twist.twist",
+    ),
+    ("nav_msgs/Odometry", "geometry_msgs/TransformStamped"): Process(
+        "where the robot is, as a transform",
+        """
+        msg.child_frame_id = received.child_frame_id
+        msg.transform.translation.x = received.pose.pose.position.x
+        msg.transform.translation.y = received.pose.pose.position.y
+        msg.transform.translation.z = received.pose.pose.position.z
+        msg.transform.rotation = received.pose.pose.orientation
+        """,
+        "message.transform.rotation == item.pose.pose.orientation",
+    ),
+    ("nav_msgs/OccupancyGrid", "std_msgs/Float32"): Process(
+        "the part of the map that is occupied",
+        "msg.data = received.data.count(100) / max(1, len(received.data))  # 0.0 to 1.0",
+        "message.data == pytest.approx(item.data.count(100) / len(item.data))",
+    ),
+    ("geometry_msgs/PoseWithCovarianceStamped", "geometry_msgs/PoseStamped"): _part(
+        "the pose, without its covariance", "pose", "pose.pose"
+    ),
+    ("geometry_msgs/PoseStamped", "geometry_msgs/PointStamped"): _part(
+        "the position", "point", "pose.position"
+    ),
+    ("geometry_msgs/PointStamped", "geometry_msgs/PoseStamped"): _part(
+        "the point as a pose without a turn", "pose.position", "point"
+    ),
+    ("geometry_msgs/Twist", "geometry_msgs/TwistStamped"): Process(
+        "the velocity, with a time and a frame",
+        "msg.twist = received",
+        "message.twist == item",
+    ),
+    ("geometry_msgs/TwistStamped", "geometry_msgs/Twist"): Process(
+        "the velocity, without time and frame",
+        """
+        msg.linear = received.twist.linear
+        msg.angular = received.twist.angular
+        """,
+        "message == item.twist",
+    ),
+    ("geometry_msgs/Twist", "geometry_msgs/Twist"): Process(
+        "the velocity, with slower turns",
+        _LIMIT.format(target="msg"),
+        "message.angular.z == max(-0.5, min(0.5, item.angular.z))",
+        "MAX_TURN = 0.5  # radians per second",
+    ),
+    ("geometry_msgs/TwistStamped", "geometry_msgs/TwistStamped"): Process(
+        "the velocity, with slower turns",
+        _LIMIT.format(target="msg.twist"),
+        "message.twist.angular.z == max(-0.5, min(0.5, item.twist.angular.z))",
+        "MAX_TURN = 0.5  # radians per second",
+    ),
+}
+"""By the short names of input and output."""
