@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -67,16 +68,28 @@ def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
         "executable='talker.py',",
         "executable='announcer.py',",
     ]
-    assert launched.count("parameters=[config / 'conversation.yaml'],") == 2
+    assert launched.count("LaunchConfiguration('params_file'),") == 2
+    for argument in ("namespace", "use_sim_time", "params_file", "log_level"):
+        assert [line for line in launched if line.startswith(f"'{argument}',")]
     parameters: Any = yaml.safe_load(files["config/conversation.yaml"])
     assert parameters == {
-        "talker": {"ros__parameters": {"rate": 5.0}},
-        "announcer": {"ros__parameters": {"rate": 5.0}},
+        "/**/talker": {"ros__parameters": {"rate": 5.0}},
+        "/**/announcer": {"ros__parameters": {"rate": 5.0}},
     }
     for kind in ("ament_index_python", "launch", "launch_ros"):
         assert f"<exec_depend>{kind}</exec_depend>" in files["package.xml"]
     assert "ros2 launch conversation conversation.launch.py" in files["README.md"]
     assert "    config\n    launch\n  DESTINATION share/${PROJECT_NAME}" in files["CMakeLists.txt"]
+
+
+def test_the_launch_file_configures_and_activates_managed_nodes() -> None:
+    files = make(package="robot", extras="launch", add=["lifecycle:laser", "timer:clock"])
+    text = files["launch/robot.launch.py"]
+    _, managed, other = re.split(r"(?:Lifecycle)?Node\(\n", text)
+    assert "name='laser',\n" in managed
+    assert "autostart=True," in managed
+    assert "autostart" not in other
+    assert "namespace=LaunchConfiguration('namespace')," in managed
 
 
 def test_long_names_fit_on_their_lines() -> None:

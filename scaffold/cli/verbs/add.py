@@ -47,6 +47,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="the package (default: the one that contains the current directory)",
     )
+    parser.add_argument(
+        "--launch",
+        metavar="FILE",
+        default="",
+        help="a launch file of the package that starts the new node; no other is edited",
+    )
     questions.add_flags(parser, _asked(templates))
     flags.add_answers(parser)
     flags.add_looking(parser)
@@ -97,7 +103,7 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
     from scaffold.generate.questions.defaults import User
     from scaffold.generate.questions.questions import choose
     from scaffold.generate.templates import template
-    from scaffold.generate.templates.template import PARTS
+    from scaffold.generate.templates.template import PARTS, Role
     from scaffold.model.package import Package
 
     settings = config.load(content=tuple(options.content))
@@ -109,9 +115,12 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
         raise InputError(f"NAME is required: the name of the {chosen.role.value}")
     if not is_part and options.name is not None:
         raise InputError(f"NAME does not apply to {chosen.name}, which is for the whole package")
+    if options.launch and chosen.role is not Role.NODE:
+        raise InputError(f"--launch: does not apply to {chosen.name}, which is not a node")
     directory = _directory(options.package_directory)
     target = Target(Package.at(directory), roots, templates, User(directory))
-    return target, Wanted(chosen, options.name, _given(options, templates, settings))
+    given = _given(options, templates, settings)
+    return target, Wanted(chosen, options.name, given, options.launch)
 
 
 def _asked(templates: Mapping[str, Template]) -> list[Question]:
@@ -192,13 +201,23 @@ def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> Wri
 
     tree = package.tree if isinstance(package.tree, DiskTree) else None
     plan = WritePlan.of(package.root or ".", added.files, executable=added.executable, tree=tree)
-    what_to_do = "choose another name, or " if is_named else ""
+    what_to_do = f"{'choose another name, or ' if is_named else ''}overwrite it with --force"
+    launch = next((path for path in added.new if path.startswith("launch/")), None)
+    if launch is not None:
+        what_to_do = (
+            f"`add KIND NAME --launch {launch}` starts a new node there; nothing was changed"
+        )
     _refuse_differing(plan, added.new, package.directory, what_to_do, force=force)
     return plan
 
 
 def _refuse_differing(
-    plan: WritePlan, new: Sequence[str], where: str = "", what_to_do: str = "", *, force: bool
+    plan: WritePlan,
+    new: Sequence[str],
+    where: str = "",
+    what_to_do: str = "overwrite it with --force",
+    *,
+    force: bool,
 ) -> None:
     """Raise if a file that is to be new exists and differs."""
     from scaffold.errors import ConflictError
@@ -211,7 +230,7 @@ def _refuse_differing(
     if differing and not force:
         raise ConflictError(
             f"{', '.join(differing)} in {where or plan.root} already exists and differs; "
-            f"{what_to_do}overwrite it with --force"
+            f"{what_to_do}"
         )
 
 

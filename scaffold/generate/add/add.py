@@ -15,10 +15,11 @@ from scaffold.generate import repository
 from scaffold.generate.add import regenerate, rendered_part
 from scaffold.generate.add import remarks as neighbours
 from scaffold.generate.add.rendered_part import LAUNCH, Piece, Target, Wanted
-from scaffold.generate.edit.addition import ByHand
+from scaffold.generate.edit.addition import Addition, ByHand
 from scaffold.generate.edit.edit import edit
 from scaffold.generate.templates.template import Role
 from scaffold.generate.update.provenance import Provenance
+from scaffold.model.launch.files import launch_files
 from scaffold.model.package import Package
 from scaffold.model.programs.executables import programs_of
 from scaffold.source import MissingFileError, ParseError, ViewError
@@ -277,6 +278,17 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
         yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
     if made.addition.program is not None:
         yield from neighbours.remarks(package, made.addition.program.path)
+        yield from _not_launched(package, made.addition)
+
+
+def _not_launched(package: Package, addition: Addition) -> Iterator[str]:
+    """Yield the launch file that starts other nodes of the package, but not a new one."""
+    program = addition.program
+    for path in launch_files(package) if program is not None and not addition.launch else ():
+        text = package.source(path).text
+        starts_others = re.search(rf"\b{re.escape(package.name)}\b", text) and "ode" in text
+        if program is not None and starts_others and not re.search(rf"\b{program.name}\b", text):
+            yield f"{path} does not start {program.name}: --launch {path} would add it"
 
 
 def _why_no_header(package: Package, made: Piece) -> str:

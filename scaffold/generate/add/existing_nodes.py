@@ -75,7 +75,9 @@ def _parameters(package: Package, name: str) -> str:
     fitting: list[str] = []
     for path in parameter_paths(package):
         read = parameter_file(package, path) if path.rpartition("/")[0] == CONFIG else None
-        if read is not None and any(section.node.strip("/") == name for section in read.sections):
+        if read is not None and any(
+            section.node.rpartition("/")[2] == name for section in read.sections
+        ):
             fitting.append(path)
     return fitting[0] if len(fitting) == 1 else ""
 

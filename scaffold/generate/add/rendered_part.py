@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import date
@@ -23,6 +24,7 @@ from scaffold.generate.templates.render import Rendered
 from scaffold.generate.templates.template import BASE, ENDING, PARTS, Role, Template
 from scaffold.generate.update import update
 from scaffold.generate.update.provenance import Provenance
+from scaffold.model.launch.files import launch_files
 from scaffold.model.package import Package
 
 _TESTS = "test"
@@ -62,6 +64,8 @@ class Wanted(NamedTuple):
     """Of a part; an extra has none."""
     given: Mapping[str, Given]
     """The answers; the package answers what it has decided."""
+    launch: str = ""
+    """The launch file that starts a node, as the user has named it."""
 
 
 class Piece(NamedTuple):
@@ -104,7 +108,27 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
     composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
     composed.context["is_added"] = True
     rendered = _rendered(target, composed, _only(composed, PARTS), layout)
-    return Piece(wanted.template, composed, rendered, _of_part(target, composed, layout, rendered))
+    addition = _of_part(target, composed, layout, rendered)
+    if wanted.launch:
+        addition = addition._replace(launch=_launch_file(target.package, wanted.launch))
+    return Piece(wanted.template, composed, rendered, addition)
+
+
+def _launch_file(package: Package, given: str) -> str:
+    """Return the path in the package of a launch file that is named from there or from here.
+
+    Raises:
+        InputError: it is not a launch file of the package.
+    """
+    known = launch_files(package)
+    here = os.path.relpath(os.path.realpath(given), os.path.realpath(package.root or "."))
+    path = next((path for path in (os.path.normpath(given), here) if path in known), None)
+    if path is None:
+        names = ", ".join(known) or "none"
+        raise InputError(
+            f"--launch: {given} is not a launch file of {package.name}; it has {names}"
+        )
+    return path
 
 
 def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | None) -> Piece:

@@ -64,6 +64,8 @@ class Addition(NamedTuple):
     """README.md of a package that has nothing but this: its sections are merged."""
     changes: Sequence[str] = ()
     """Lines for the next release in CHANGELOG.rst."""
+    launch: str = ""
+    """The launch file that starts it, if the user has named one."""
 
 
 def inside(addition: Addition, directory: str) -> list[str]:

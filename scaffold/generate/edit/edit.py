@@ -10,7 +10,6 @@ from scaffold.formats.ini import IniFile
 from scaffold.generate.edit import changelog, cmake, launch, manifest, readme, setup_cfg, setup_py
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome
 from scaffold.generate.edit.layout import layout_of
-from scaffold.model.launch.files import launch_files
 from scaffold.model.package import Package
 from scaffold.model.setup_py.setup_py import EntryPoint
 from scaffold.source import ParseError, Source, ViewError
@@ -137,13 +136,12 @@ def _declares_scripts(package: Package, config: IniFile) -> bool:
 
 def _others(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
     """Yield the files that help people: those that cannot be read are left alone."""
-    found = launch_files(package)
     editors: dict[str, _Editor] = {
         README: lambda source: readme.add_to_readme(source, addition),
         CHANGELOG: lambda source: changelog.add_to_changelog(source, addition),
     }
-    if len(found) == 1:
-        editors[found[0]] = lambda source: launch.add_to_launch(source, addition)
+    if addition.launch:
+        editors[addition.launch] = lambda source: launch.add_to_launch(source, addition)
     for path, make in editors.items():
         try:
             if package.has(path):

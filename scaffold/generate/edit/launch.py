@@ -175,14 +175,17 @@ def _is_apart(source: Source, number: int) -> bool:
 
 
 def _node(launch: LaunchFile, like: LaunchCall, program: Program) -> str | Block:
-    """Return a node written like another one, with its package and its output."""
+    """Return a node written like another one, with its package, namespace and output."""
     module = launch.module
     package = module.text(like.given["package"])
     texts = [module.text(node) for node in like.given.values()]
     quote = next((text[0] for text in texts if text[0] in {"'", '"'}), "'")
     words = [f"package={package}", f"executable={quote}{program.name}{quote}"]
-    if "output" in like.given:
-        words.append(f"output={module.text(like.given['output'])}")
+    words += [
+        f"{key}={module.text(like.given[key])}"
+        for key in ("namespace", "output")
+        if key in like.given
+    ]
     name = module.text(like.call.func)
     if "\n" in module.text(like.call):
         return Block(f"{name}(", ")", tuple(words))

@@ -761,7 +761,7 @@ def with_nodes(files: Mapping[str, str], directory: str, *names: str) -> dict[st
 def launched(demo: Path) -> list[str]:
     """Return what the launch file says of its nodes."""
     text = (demo / "launch" / "demo.launch.py").read_text()
-    return re.findall(r"(?<= )(?:executable|name|parameters)=.*(?=,)", text)
+    return re.findall(r"(?<= )(?:(?:executable|name)=|config / ').*(?=,)", text)
 
 
 @pytest.mark.parametrize(("files", "directory"), [(CMAKE, "scripts"), (PYTHON, "demo")])
@@ -779,7 +779,7 @@ def test_launch_starts_the_nodes_of_a_package(
     assert set(launched(demo)) == {
         f"executable='first{ending}'",
         f"executable='other{ending}'",
-        "parameters=[config / 'ear.yaml']",
+        "config / 'ear.yaml'",
     }
     build = "CMakeLists.txt" if ending else "setup.py"
     for path in ("package.xml", build):
@@ -795,6 +795,35 @@ def test_launch_starts_the_nodes_of_a_package(
     after = read(demo)
     assert add(demo, "launch") == 0
     assert read(demo) == after
+
+
+def test_a_launch_file_is_edited_only_when_it_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye"))
+    assert add(demo, "launch") == 0
+    path = demo / "launch" / "demo.launch.py"
+    path.write_text(path.read_text().replace("Start the node", "Run the node"))
+    before = path.read_bytes()
+    capsys.readouterr()
+    assert add(demo, "publisher", "talker") == 0
+    assert path.read_bytes() == before
+    assert capsys.readouterr().err == (
+        "note: launch/demo.launch.py does not start talker.py: --launch launch/demo.launch.py "
+        "would add it\n"
+    )
+    assert refused(demo, capsys, "launch") == (
+        f"launch/demo.launch.py in {demo} already exists and differs; "
+        "`add KIND NAME --launch launch/demo.launch.py` starts a new node there; "
+        "nothing was changed"
+    )
+    assert refused(demo, capsys, "publisher", "talker", "--launch", "launch/talker.py") == (
+        "--launch: launch/talker.py is not a launch file of demo; it has launch/demo.launch.py"
+    )
+    for named in ("launch/demo.launch.py", str(path)):
+        assert add(demo, "publisher", "talker", "--launch", named) == 0
+        assert launched(demo) == ["executable='first.py'", "executable='talker.py'"]
+    assert path.read_text().count("namespace=LaunchConfiguration('namespace'),") == 2
 
 
 def test_launch_starts_programs_that_use_rclcpp(
@@ -1072,7 +1101,7 @@ def test_ament_accepts_a_launch_file(
     demo = write(tmp_path / "demo", with_nodes(files, directory, "first=eye", "other=eye", "x=ear"))
     write(demo, {"config/ear.yaml": "ear:\n  ros__parameters:\n    gain: 2.0\n"})
     assert add(demo, "launch") == 0
-    assert "parameters=[config / 'ear.yaml']" in launched(demo)
+    assert "config / 'ear.yaml'" in launched(demo)
     for lint in (oracles.ament_flake8, oracles.ament_pep257):
         assert not [finding for finding in lint(demo) if finding.path.startswith("launch")]
 
