@@ -248,8 +248,13 @@ class _Renderer:
             return _Member(name, element, element)
         code = _CODES.get(type_.name) if type_.is_primitive else None
         if code is None:
-            self._base("Items")
-            return _Member(name, f"{self._builtin('list')}[{element}]", f"Items[{element}]")
+            accepted = "Items" if type_.name in TEXTS else "Iterable"
+            if accepted == "Items":
+                self._base(accepted)
+            else:
+                self._imports.add("from collections.abc import Iterable")
+            read = f"{self._builtin('list')}[{element}]"
+            return _Member(name, read, f"{accepted}[{element}]")
         accepted = "Floats" if type_.name in FLOATS else "Integers"
         self._base(accepted)
         if type_.array_size is None or type_.is_upper_bound:
