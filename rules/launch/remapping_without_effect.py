@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
-from scaffold.api.launch import has_name, names_of, remappings_of, started_nodes
+from scaffold.api.launch import has_name, names_of, remapped_nodes
 
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -70,6 +70,28 @@ class RemappingWithoutEffect(Rule):
             ),
         ),
         Example(
+            "in XML and in YAML",
+            {
+                **_FILES,
+                "launch/a.launch.xml": '<launch><node pkg="demo" exec="talk">'
+                '<remap from="chatter" to="a"/><remap from="chat_in" to="b"/></node></launch>\n',
+                "launch/b.launch.yaml": "launch:\n- node:\n    pkg: demo\n    exec: talk\n"
+                "    remap:\n    - from: chat_in\n      to: b\n",
+                "launch/c.launch.xml": '<launch><node pkg="demo" exec="talk">'
+                '<param from="a.yaml"/><remap from="chat_in" to="b"/></node></launch>\n',
+            },
+            Report(
+                "launch/a.launch.xml:1:81",
+                "'talk' has no topic, service or action 'chat_in': nothing is "
+                "remapped; it has chatter, ~/input",
+            ),
+            Report(
+                "launch/b.launch.yaml:6:13",
+                "'talk' has no topic, service or action 'chat_in': nothing is "
+                "remapped; it has chatter, ~/input",
+            ),
+        ),
+        Example(
             "the name of a parameter that is set",
             {
                 **_FILES,
@@ -80,20 +102,16 @@ class RemappingWithoutEffect(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for started in started_nodes(package):
-            remappings = list(remappings_of(started))
-            names = names_of(started, package) if remappings else None
-            if names is None:
-                continue
-            for remapping in remappings:
-                if has_name(names, remapping.source, started.name):
+        for node in remapped_nodes(package):
+            names = names_of(node, package)
+            for source, location in node.remappings if names is not None else ():
+                if names is None or has_name(names, source, node.name):
                     continue
                 message = (
-                    f"{started.executable!r} has no topic, service or action {remapping.source!r}: "
-                    f"nothing is remapped; {_hint(package, remapping.source, names)}"
+                    f"{node.program!r} has no topic, service or action {source!r}: "
+                    f"nothing is remapped; {_hint(package, source, names)}"
                 )
-                at = started.launch.location(remapping.node)
-                yield self.report(at, message, cause=f"names of {started.executable}")
+                yield self.report(location, message, cause=f"names of {node.program}")
 
 
 def _hint(package: Package, source: str, names: set[str]) -> str:

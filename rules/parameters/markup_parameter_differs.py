@@ -6,9 +6,8 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
-from scaffold.api.launch import MarkupNode, is_known, markup_files
+from scaffold.api.launch import MarkupNode, code_of, is_known, markup_files
 from scaffold.api.parameters import declared_by, place_of
-from scaffold.api.programs import nodes_of
 from scaffold.api.rclpy import NodeClass, NodeDefinition
 
 _WORDS = {
@@ -118,13 +117,9 @@ class MarkupParameterDiffers(Rule):
 
 
 def _owner(package: Package, node: MarkupNode) -> NodeDefinition | None:
-    """Return the code of a node if it is Python in this package or the workspace."""
     if node.package is None or node.executable is None:
         return None
-    name = node.package.value
-    home = package if name == package.name else package.workspace.get(name)
-    nodes = nodes_of(home, node.executable.value) if home is not None else []
-    return nodes[0] if len(nodes) == 1 else None
+    return code_of(package, node.package.value, node.executable.value)
 
 
 def _type(text: str) -> str | None:

@@ -15,7 +15,7 @@ from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
-from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
+from scaffold.model.launch.nodes import StartedNode, code_of, consumers, started_nodes
 from scaffold.model.launch.parameter_files import (
     is_loaded,
     names_alike,
@@ -33,7 +33,7 @@ from scaffold.model.launch.python_file import (
     returns,
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
-from scaffold.model.launch.remappings import Remapping, has_name, names_of, remappings_of
+from scaffold.model.launch.remappings import Remapped, has_name, names_of, remapped_nodes
 from scaffold.model.launch.share_paths import paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
@@ -53,8 +53,9 @@ __all__ = [
     "LaunchFile",
     "MarkupNode",
     "Reference",
-    "Remapping",
+    "Remapped",
     "StartedNode",
+    "code_of",
     "consumers",
     "data_files",
     "describe",
@@ -79,7 +80,7 @@ __all__ = [
     "nodes_for",
     "package_uses",
     "paths_of",
-    "remappings_of",
+    "remapped_nodes",
     "returns",
     "set_names",
     "signature",

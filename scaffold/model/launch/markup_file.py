@@ -14,14 +14,25 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
 if TYPE_CHECKING:
-    from scaffold.formats.xml import Document
+    from scaffold.formats.xml import Document, Element
     from scaffold.model.package import Package
 
 _FIND = r"\$\(find-pkg-share ([\w-]+)\)((?:/[\w.+-]+)*)(.?)"
 
 
-_Element = tuple[str, Location, dict[str, Attribute], list[dict[str, Attribute]]]
-"""Tag, place and attributes, and the attributes of its parameters."""
+class _Element(NamedTuple):
+    """Something in a launch file."""
+
+    tag: str
+    location: Location
+    attributes: dict[str, Attribute]
+    parameters: list[dict[str, Attribute]]
+    """The attributes of its parameters; in YAML, of those without quotes."""
+    remappings: list[Attribute]
+    """What its remappings rename."""
+    has_parameter_files: bool
+
+
 _ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
 
 
@@ -35,6 +46,10 @@ class MarkupNode(NamedTuple):
     location: Location
     parameters: list[tuple[Attribute, Attribute]]
     """Name and value of those that are given one by one, without a type."""
+    remappings: list[Attribute]
+    """The names that are remapped."""
+    parameter_names: frozenset[str] | None
+    """The parameters that are given; ``None`` if files give some."""
 
 
 class MarkupPath(NamedTuple):
@@ -82,33 +97,34 @@ def _read(package: Package, path: str) -> MarkupFile | None:
         elements = _elements(package, path)
     except ViewError:
         return None  # another rule reports what is not well-formed
-    for tag, at, given, parameters in elements:
-        attributes.extend(given.values())
-        if tag == "node":
-            package_, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
-            pairs = [
-                (parameter["name"], parameter["value"])
-                for parameter in parameters
-                if "type" not in parameter and "name" in parameter and "value" in parameter
-            ]
-            nodes.append(MarkupNode(path, package_, executable, name, at, pairs))
+    for element in elements:
+        attributes.extend(element.attributes.values())
+        if element.tag == "node":
+            nodes.append(_node(path, element))
     paths = [item for attribute in attributes for item in _paths(attribute)]
     return MarkupFile(path, nodes, paths, attributes)
+
+
+def _node(path: str, element: _Element) -> MarkupNode:
+    given = element.attributes
+    package, executable, name = (given.get(key) for key in ("pkg", "exec", "name"))
+    pairs = [
+        (parameter["name"], parameter["value"])
+        for parameter in element.parameters
+        if "type" not in parameter and "name" in parameter and "value" in parameter
+    ]
+    names = [parameter["name"].value for parameter in element.parameters if "name" in parameter]
+    known = None if element.has_parameter_files else frozenset(names)
+    return MarkupNode(
+        path, package, executable, name, element.location, pairs, element.remappings, known
+    )
 
 
 def _elements(package: Package, path: str) -> list[_Element]:
     """Return everything in a launch file."""
     if path.endswith(".xml"):
         root = _document(package, path).root
-        return [
-            (
-                descendant.tag,
-                descendant.name_location,
-                descendant.attributes,
-                [child.attributes for child in descendant.children if child.tag == "param"],
-            )
-            for descendant in root.descendants()
-        ]
+        return [_of_xml(descendant) for descendant in root.descendants()]
     result: list[_Element] = []
     roots = yaml_tree.parse(Source.decode(path, package.data(path)))
     pending: list[tuple[str, YamlNode]] = [("", root) for root in roots]
@@ -116,16 +132,40 @@ def _elements(package: Package, path: str) -> list[_Element]:
         if isinstance(node, Sequence):
             pending += [(tag, item) for item in node.items]
         elif isinstance(node, Mapping):
-            given = [
-                dict(_scalars(item))
-                for key, value in node.pairs
-                if key.text == "param" and isinstance(value, Sequence)
-                for item in value.items
-                if isinstance(item, Mapping) and _is_plain(item)
-            ]
-            result.append((tag, node.location, dict(_scalars(node)), given))
+            result.append(_of_yaml(tag, node))
             pending += [(key.text, value) for key, value in node.pairs]
     return result
+
+
+def _of_xml(element: Element) -> _Element:
+    parameters = [child.attributes for child in element.children if child.tag == "param"]
+    remaps = [child.attributes for child in element.children if child.tag == "remap"]
+    return _Element(
+        element.tag,
+        element.name_location,
+        element.attributes,
+        parameters,
+        [given["from"] for given in remaps if "from" in given],
+        any("name" not in given for given in parameters),
+    )
+
+
+def _of_yaml(tag: str, node: Mapping) -> _Element:
+    children: dict[str, list[Mapping]] = {"param": [], "remap": []}
+    for key, value in node.pairs:
+        if key.text in children and isinstance(value, Sequence):
+            children[key.text] += [item for item in value.items if isinstance(item, Mapping)]
+    parameters = [dict(_scalars(item)) for item in children["param"] if _is_plain(item)]
+    remaps = [dict(_scalars(item)) for item in children["remap"]]
+    return _Element(
+        tag,
+        node.location,
+        dict(_scalars(node)),
+        parameters,
+        [given["from"] for given in remaps if "from" in given],
+        len(parameters) < len(children["param"])
+        or any("name" not in given for given in parameters),
+    )
 
 
 def _is_plain(node: Mapping) -> bool:

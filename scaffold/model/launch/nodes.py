@@ -37,10 +37,7 @@ class StartedNode:
         """The code of the node, when it is Python of this package or one of the workspace."""
         if not isinstance(self.executable, str) or not isinstance(self.package, str):
             return None
-        own = self._own
-        home = own if self.package == own.name else own.workspace.get(self.package)
-        found = nodes_of(home, self.executable) if home is not None else []
-        return found[0] if len(found) == 1 else None
+        return code_of(self._own, self.package, self.executable)
 
     @property
     def _own_code(self) -> NodeDefinition | None:
@@ -142,6 +139,19 @@ class StartedNode:
                 yield from self._given_in(value, f"{prefix}{name}.")
             else:
                 yield f"{prefix}{name}", key, value
+
+
+def code_of(package: Package, name: str, program: str) -> NodeDefinition | None:
+    """Return the code of a node if it is Python in this package or one of the workspace.
+
+    Args:
+        package: The package with the launch file.
+        name: The name of the package with the node.
+        program: What is started.
+    """
+    home = package if name == package.name else package.workspace.get(name)
+    nodes = nodes_of(home, program) if home is not None else []
+    return nodes[0] if len(nodes) == 1 else None
 
 
 def started_nodes(package: Package) -> list[StartedNode]:
