@@ -9,6 +9,7 @@ from scaffold.ament.settings import settings_of
 from scaffold.check.engine_rules import RuleCrashed
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 
@@ -23,6 +24,8 @@ class Adjustments(NamedTuple):
     exclusion: Exclusion = Exclusion()
     refused_at_release: Collection[str] = ()
     """Codes that are errors, because no release is made of what has them."""
+    foreign: Foreign | None = None
+    """Tells what is not the user's; nothing is without it."""
 
     def apply(self, package: Package, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """Yield what is to be reported of a package, with its severity."""
@@ -36,6 +39,28 @@ class Adjustments(NamedTuple):
 
     def excludes(self, package: Package, path: str) -> bool:
         """Tell whether a file of a package is skipped."""
+        return path in self.foreign_files(package) or self._is_excluded(package, path)
+
+    def foreign_files(self, package: Package) -> Mapping[str, str]:
+        """Return the files of a package that are not the user's, each with what makes it so."""
+        foreign = self.foreign
+        if foreign is None or not package.directory:
+            return {}
+
+        def find() -> Mapping[str, str]:
+            disk = package.outside
+            top = disk.real(package.directory)
+            kinds = (
+                (path, foreign.kind_of(disk, f"{top}/{path}", is_directory=False))
+                for path in package.files
+            )
+            environments = getattr(package.tree, "environments", ())
+            found = {path: kind for path, kind in kinds if kind}
+            return {**found, **dict.fromkeys(environments, ENVIRONMENTS)}
+
+        return package.remember("foreign files", find)
+
+    def _is_excluded(self, package: Package, path: str) -> bool:
         if not self.exclusion.patterns:
             return False
         place = package.remember(

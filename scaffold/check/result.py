@@ -69,6 +69,8 @@ class Result(NamedTuple):
     diagnostics: list[Diagnostic]
     verdict: Verdict | None = None
     """The same in parts, where a later check can make use of it."""
+    foreign: tuple[str, ...] = ()
+    """Of each file that is not the user's, and was skipped, what makes it so."""
 
 
 class Summary(NamedTuple):

@@ -45,6 +45,8 @@ class Ruled(NamedTuple):
     found: list[Diagnostic]
     verdict: Verdict | None
     """The same in parts, with the style of the files that are not to be checked again."""
+    foreign: tuple[str, ...] = ()
+    """Of the files that are not the user's, what makes them so."""
 
 
 def _do_nothing() -> None:
@@ -152,8 +154,10 @@ class Session:
             # Without findings: what is found is remembered file by file.
             part = Part(self._types.needed_by(target.package), frozenset(), ())
             verdict = verdict._replace(parts={**verdict.parts, _TYPES: part})
-        files = rules.files if target.only is None else len(target.only)
-        return Result(target.package, files, self._report(target, found), verdict)
+        diagnostics = self._report(target, found)
+        if target.only is not None:
+            return Result(target.package, len(target.only), diagnostics, verdict)
+        return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)
 
     def check(self, package: Package, style: StyleCheck | None = None) -> list[Diagnostic]:
         """Check one package, for instance one in memory; see `run_batch`."""
@@ -263,7 +267,8 @@ class Session:
             tests = settings_of(package).tests
             verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
         count = sum(not self.adjustments.excludes(package, path) for path in package.files)
-        return Ruled(count, said, verdict)
+        foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
+        return Ruled(count, said, verdict, foreign)
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""

@@ -54,12 +54,13 @@ class Choices:
         }
         return Selection(chosen["select"], chosen["ignore"], per_path)
 
-    def adjustments(self, *, is_release: bool = False) -> Adjustments:
+    def adjustments(self, *, is_release: bool = False, include_all: bool = False) -> Adjustments:
         """Return the other adjustments of findings by the configuration.
 
         Args:
             is_release: Whether what no release is made of is an error, unless the configuration
                 says otherwise.
+            include_all: Whether also that is checked which is not the user's.
 
         Raises:
             ConfigError: a word means no rule.
@@ -67,6 +68,7 @@ class Choices:
         from scaffold.check.adjustments import Adjustments
         from scaffold.configuration.exclusion import Exclusion
         from scaffold.diagnostic import Severity
+        from scaffold.model.discovery.foreign import Foreign
 
         key = "check.severity"
         severities = {
@@ -79,7 +81,8 @@ class Choices:
         exclusion = Exclusion(patterns, self._settings.origin(key)) if patterns else Exclusion()
         is_own = self._settings.value("check.style") == "own"
         refused = self._refused_at_release() if is_release else frozenset()
-        return Adjustments(severities, is_own, exclusion, refused)
+        kinds = () if include_all else self._settings.strings("check.leave-out")
+        return Adjustments(severities, is_own, exclusion, refused, Foreign(kinds))
 
     def _refused_at_release(self) -> frozenset[str]:
         from scaffold.check.session import all_rules

@@ -13,6 +13,7 @@ from scaffold.record import NamedTuple
 
 SEVERITIES = ("error", "warning", "info")
 STYLES = ("all", "own")
+FOREIGN = ("submodules", "ignored", "vendored", "copies")
 
 
 class Kind(NamedTuple):
@@ -90,6 +91,15 @@ def _refuse_severities(value: Any) -> str:  # noqa: ANN401  likewise
     return ""
 
 
+def _refuse_kinds(value: Any) -> str:  # noqa: ANN401  likewise
+    if not _is_list_of_strings(value):
+        return _must_be(_KINDS_NOUN)
+    for kind in value:
+        if kind not in FOREIGN:
+            return f"has {kind!r}, which is no choice; {nearest(kind, FOREIGN)}"
+    return ""
+
+
 def _refuse_style(value: Any) -> str:  # noqa: ANN401  likewise
     if value in STYLES:
         return ""
@@ -100,6 +110,7 @@ _STRINGS_NOUN = "a list of strings"
 _DIRECTORIES_NOUN = "a list of directories"
 _LISTS_BY_PATTERN_NOUN = "a table of patterns with lists of strings"
 _SEVERITIES_NOUN = "a table of rules with severities"
+_KINDS_NOUN = "a list of `submodules`, `ignored`, `vendored` and `copies`"
 _STRINGS = {"type": "array", "items": {"type": "string"}}
 
 STRINGS = Kind(_STRINGS_NOUN, _refuse_strings, _STRINGS)
@@ -119,6 +130,7 @@ SEVERITIES_BY_RULE = Kind(
     _refuse_severities,
     {"type": "object", "additionalProperties": {"enum": [*SEVERITIES]}},
 )
+FOREIGN_KINDS = Kind(_KINDS_NOUN, _refuse_kinds, {"type": "array", "items": {"enum": [*FOREIGN]}})
 STYLE = Kind('`"all"` or `"own"`', _refuse_style, {"enum": [*STYLES]})
 
 KEYS = (
@@ -155,6 +167,14 @@ KEYS = (
         "Leave out the packages and files whose path, or a directory above, matches; relative to "
         "the file.",
         is_projects=True,
+    ),
+    Key(
+        "check",
+        "leave-out",
+        FOREIGN_KINDS,
+        [*FOREIGN],
+        "Leave out what is not yours to change: submodules of git, files that git ignores, "
+        "vendored code, copies that editors and synchronization make.",
     ),
     Key(
         "check",

@@ -16,6 +16,8 @@ SETUP_CFG = "setup.cfg"
 
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
+ENVIRONMENT = "pyvenv.cfg"
+"""The file at the top of a virtual environment: what is in it is installed, not a source."""
 
 
 def within(most: int, path: str, data: bytes) -> bytes:
@@ -59,6 +61,7 @@ class DiskTree:
         self.disk = disk or Disk()
         self._nested: list[str] = []
         self._broken: list[str] = []
+        self._environments: list[str] = []
 
     @cached_property
     def _listing(self) -> tuple[tuple[str, ...], frozenset[str]]:
@@ -70,6 +73,9 @@ class DiskTree:
             names, children, broken = self.disk.names(os.path.join(self.root, parent))
             if parent and MANIFEST in names:
                 self._nested.append(parent.rstrip("/"))
+                continue
+            if parent and ENVIRONMENT in names:
+                self._environments.append(parent.rstrip("/"))
                 continue
             files.extend(parent + name for name in names)
             self._broken.extend(parent + name for name in broken)
@@ -97,6 +103,11 @@ class DiskTree:
         return sorted(self._nested) if self._listing else ()
 
     @property
+    def environments(self) -> Sequence[str]:
+        """The directories that hold a virtual environment; their files are skipped."""
+        return sorted(self._environments) if self._listing else ()
+
+    @property
     def broken_links(self) -> Sequence[str]:
         """The links to files that are not there; they are not among the files."""
         return sorted(self._broken) if self._listing else ()
@@ -105,6 +116,7 @@ class DiskTree:
         """Drop the listing."""
         self.__dict__.pop("_listing", None)
         self._nested.clear()
+        self._environments.clear()
         self._broken.clear()
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:

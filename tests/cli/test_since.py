@@ -78,7 +78,7 @@ def test_changed_and_new_files_are_reported(
     ):
         if words:
             git(*words)
-        code, (*findings, note, summary) = check(capsys, revision, "--select", "F")
+        code, (*findings, note, summary) = check(capsys, revision, "--select", "F", "--include-all")
         assert (code, len(findings)) == (1, 1)
         assert findings[0].startswith("third/third/new.py:1:1: ")
         assert note.endswith(
@@ -90,6 +90,7 @@ def test_changed_and_new_files_are_reported(
     assert [line.split(": ")[0] for line in lines[:-2]] == [
         "third/third/old.py:1:1",
         "third/third/old.py:2:1",
+        "left out",
     ], "a changed file is reported whole"
 
 

@@ -248,6 +248,7 @@ def test_config_shows_each_value_and_its_file(
         ("check.per-path-ignores", {}, None),
         ("check.severity", {"F401": "info"}, str(project)),
         ("check.exclude", [], None),
+        ("check.leave-out", [*keys.FOREIGN], None),
         ("check.style", "all", None),
         ("new.rate", 2.5, str(project)),
     ]

@@ -40,6 +40,8 @@ class _Known(NamedTuple):
     diagnostics: tuple[Any, ...]
     verdict: tuple[Any, ...] | None
     """The same in parts; see ``_encode_verdict``."""
+    foreign: tuple[str, ...]
+    """Of the files that are not the user's, what makes them so."""
 
 
 class ResultCache:
@@ -121,7 +123,7 @@ class ResultCache:
                 yield next(checked)
             else:
                 result = [_decode(diagnostic) for diagnostic in known.diagnostics]
-                yield Result(target.package, known.files, result)
+                yield Result(target.package, known.files, result, None, known.foreign)
 
     def save(
         self,
@@ -170,6 +172,7 @@ def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Kno
         result.files,
         tuple(map(encode, result.diagnostics)),
         _encode_verdict(result.verdict, encode) if result.verdict else None,
+        result.foreign,
     )
 
 

@@ -103,6 +103,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="instead, run pydocstyle, too, and show where the docstring rules disagree with it",
     )
     parser.add_argument(
+        "--include-all",
+        action="store_true",
+        help="also check submodules, files that git ignores, vendored code and copies of editors",
+    )
+    parser.add_argument(
         "--reference-config",
         action="store_true",
         help="judge style with the configuration that ament brings along, not with that which the "
@@ -189,6 +194,7 @@ def run(options: argparse.Namespace) -> int:
     targets = change.targets() if change else targets
     memory = ResultCache(slot.last if slot else None, targets)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
+    options.notes += _foreign_note(session, results)
     _note_types(session)
     if options.write_baseline:
         return baselines.write(options, results)
@@ -230,7 +236,7 @@ def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choi
     return kind(
         rules,
         selection,
-        choices.adjustments(is_release=options.release),
+        choices.adjustments(is_release=options.release, include_all=options.include_all),
         has_types=not options.no_types,
         is_reference=options.reference_config,
     )
@@ -257,6 +263,7 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
         whole_packages=options.whole_packages,
         exclusion=adjustments.exclusion,
         left_out=left_out,
+        foreign=adjustments.foreign,
     )
     if adjustments.exclusion.patterns:
         packages = sum(map(os.path.isdir, left_out))
@@ -268,6 +275,25 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
         origin = adjustments.exclusion.origin
         options.notes = (f"excluded by {os.path.relpath(origin)}: {', '.join(parts)}",)
     return targets
+
+
+def _foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
+    """Return the line about what is not the user's and was skipped, if anything was."""
+    from scaffold.model.discovery.foreign import ENVIRONMENTS, WHERE
+    from scaffold.reporters.summary import count
+
+    foreign = session.adjustments.foreign
+    packages = foreign.packages if foreign is not None else []
+    files = [kind for result in results for kind in result.foreign]
+    parts: list[str] = []
+    for kind, where in WHERE.items():
+        numbers = ((packages.count(kind), "package"), (files.count(kind), "file"))
+        shown = [count(number, noun) for number, noun in numbers if number]
+        parts += [f"{' and '.join(shown)} {where}"] if shown else []
+    parts[-1:] = [f"{part} (--include-all checks them)" for part in parts[-1:]]
+    environments = files.count(ENVIRONMENTS)
+    parts += [count(environments, "virtual environment")] if environments else []
+    return (f"left out: {', '.join(parts)}",) if parts else ()
 
 
 def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:

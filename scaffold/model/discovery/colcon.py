@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.files.tree import BUILD_DIRECTORIES, MANIFEST
+from scaffold.files.tree import BUILD_DIRECTORIES, ENVIRONMENT, MANIFEST
 
 if TYPE_CHECKING:
     from scaffold.files.disk import Disk
@@ -14,9 +14,6 @@ SOURCES = "src"
 """The directory of a workspace with the packages."""
 IGNORE_MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files that hide a directory from colcon."""
-
-ENVIRONMENT = "pyvenv.cfg"
-"""The file at the top of a virtual environment: packages in it are installed, not sources."""
 
 _RESULTS = ("install", "build")
 """What colcon makes next to the sources."""

@@ -10,6 +10,7 @@ from scaffold.errors import InputError
 from scaffold.files.disk import Disk
 from scaffold.files.tree import MANIFEST, DiskTree
 from scaffold.model.discovery import colcon
+from scaffold.model.discovery.foreign import Foreign
 from scaffold.model.discovery.unchecked import UncheckedPackages
 from scaffold.model.package import Package
 from scaffold.model.workspace.workspace import Workspace
@@ -47,6 +48,7 @@ def find(
     whole_packages: bool = False,
     exclusion: Exclusion | None = None,
     left_out: set[str] | None = None,
+    foreign: Foreign | None = None,
 ) -> list[Target]:
     """Return the packages at or below the paths, and those of single files and directories.
 
@@ -58,6 +60,8 @@ def find(
             current directory; other files are skipped.
         exclusion: Packages and files to skip; other packages still see these packages.
         left_out: Gets the packages that are skipped, and the files of ``paths``.
+        foreign: Tells which packages are not the user's: they are skipped likewise, unless there
+            are no others. It learns what the user names.
 
     Raises:
         InputError: a path does not exist, or holds no package.
@@ -67,19 +71,16 @@ def find(
     if whole_packages:
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
-    whole: dict[str, Target] = {}
-    excluded: dict[str, Package] = {}
-    for path in directories:
-        for directory in _package_directories(disk, path):
-            real = disk.real(directory)
-            if exclusion is not None and exclusion.covers(disk, directory):
-                excluded.setdefault(real, Package.at(directory, workspace, disk))
-            else:
-                whole.setdefault(real, Target(Package.at(directory, workspace)))
+    if foreign is not None:
+        foreign.given = [disk.real(path) for path in paths]
+    whole, excluded = _whole_packages(disk, workspace, directories, exclusion or Exclusion())
+    by_configuration = [*excluded]
+    if foreign is not None:
+        _set_apart(disk, workspace, whole, excluded, foreign)
     files = [path for path in paths if path not in directories]
     excluded_files = {path for path in files if exclusion and exclusion.covers(disk, path)}
     if left_out is not None:
-        left_out |= {*excluded, *excluded_files}
+        left_out |= {*by_configuration, *excluded_files}
     partial, loose = _sort_files(
         disk, [path for path in files if path not in excluded_files], are_saved=are_saved
     )
@@ -95,6 +96,40 @@ def find(
     top = [disk.real(os.curdir)] if whole_packages else []
     workspace.around = _surroundings(disk, workspace, directories, top)
     return sorted(targets, key=lambda target: target.package.directory)
+
+
+def _whole_packages(
+    disk: Disk, workspace: Workspace, directories: Sequence[str], exclusion: Exclusion
+) -> tuple[dict[str, Target], dict[str, Package]]:
+    """Return the packages at and below directories, and those that are excluded, by place."""
+    whole: dict[str, Target] = {}
+    excluded: dict[str, Package] = {}
+    for path in directories:
+        for directory in _package_directories(disk, path):
+            real = disk.real(directory)
+            if exclusion.covers(disk, directory):
+                excluded.setdefault(real, Package.at(directory, workspace, disk))
+            else:
+                whole.setdefault(real, Target(Package.at(directory, workspace)))
+    return whole, excluded
+
+
+def _set_apart(
+    disk: Disk,
+    workspace: Workspace,
+    whole: dict[str, Target],
+    excluded: dict[str, Package],
+    foreign: Foreign,
+) -> None:
+    """Move the packages that are not the user's to the excluded ones."""
+    kinds = {real: foreign.kind_of(disk, real, is_directory=True) for real in whole}
+    if all(kinds.values()):
+        foreign.given += kinds  # if there is nothing else, the user means these
+        return
+    for real, kind in kinds.items():
+        if kind:
+            foreign.packages.append(kind)
+            excluded[real] = Package.at(whole.pop(real).package.directory, workspace, disk)
 
 
 def _packages_of(disk: Disk, paths: Sequence[str]) -> list[str]:

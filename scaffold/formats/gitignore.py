@@ -1,0 +1,101 @@
+"""Files with patterns of what git ignores, as gitignore(5) defines them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cached_property
+
+from scaffold.record import NamedTuple
+
+
+class _Pattern(NamedTuple):
+    regex: str
+    """Of paths relative to the directory of the file."""
+    is_taken_back: bool
+    is_for_directories: bool
+
+
+class IgnoreFile:
+    """The patterns of one file.
+
+    Args:
+        text: What is in it.
+    """
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def decides(self, path: str, *, is_directory: bool) -> bool | None:
+        """Tell whether a path is ignored, ``None`` if no pattern is about it.
+
+        What is below an ignored directory is ignored; this is about the path itself.
+
+        Args:
+            path: Relative to the directory of the file.
+            is_directory: What the path is.
+        """
+        _, for_directories, for_files = self._compiled
+        matched = (for_directories if is_directory else for_files).fullmatch(path)
+        if matched is None:
+            return None
+        return not self._compiled[0][int(str(matched.lastgroup)[1:])].is_taken_back
+
+    @cached_property
+    def _compiled(self) -> tuple[list[_Pattern], re.Pattern[str], re.Pattern[str]]:
+        patterns = [*_read(self._text)]
+        # The last pattern that fits decides.
+        groups = [(f"(?P<p{at}>{one.regex})", one) for at, one in enumerate(patterns)][::-1]
+        files = [group for group, one in groups if not one.is_for_directories]
+        never = ["(?!)"]
+        return (
+            patterns,
+            re.compile("|".join([group for group, _ in groups] or never), re.DOTALL),
+            re.compile("|".join(files or never), re.DOTALL),
+        )
+
+
+def _read(text: str) -> Iterator[_Pattern]:
+    for line in text.splitlines():
+        pattern = re.sub(r"(?<!\\)\s+$", "", line)
+        if not pattern or pattern.startswith("#"):
+            continue
+        is_taken_back = pattern.startswith("!")
+        pattern = pattern[is_taken_back:]
+        is_for_directories = pattern.endswith("/")
+        pattern = pattern.rstrip("/")
+        start = "" if "/" in pattern else "(?:.*/)?"
+        regex = start + _translate(pattern.removeprefix("/"))
+        try:
+            re.compile(regex)
+        except re.error:
+            continue
+        yield _Pattern(regex, is_taken_back, is_for_directories)
+
+
+_PIECES = re.compile(
+    r"(?P<any_start>(?:^|(?<=/))\*\*/)|(?P<any_end>(?<=/)\*\*$)|(?P<star>\*+)|(?P<one>\?)"
+    r"|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^\]\\])*)\]|\\(?P<escaped>.)|(?P<plain>.)",
+    re.DOTALL,
+)
+
+
+def _translate(pattern: str) -> str:
+    """Return a pattern as a regular expression."""
+    parts: list[str] = []
+    for piece in _PIECES.finditer(pattern):
+        match piece.lastgroup:
+            case "any_start":
+                parts.append("(?:.*/)?")
+            case "any_end":
+                parts.append(".+")
+            case "star":
+                parts.append("[^/]*")
+            case "one":
+                parts.append("[^/]")
+            case "set":
+                inside = piece["set"].replace("[", "\\[").replace("]", "\\]")
+                parts.append(f"(?!/)[{'^' if piece['not'] else ''}{inside}]")
+            case _:
+                parts.append(re.escape(piece["escaped"] or piece["plain"]))
+    return "".join(parts)

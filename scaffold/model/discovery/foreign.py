@@ -1,0 +1,233 @@
+"""What lies among the sources of a user and is not theirs to change.
+
+Submodules, what git ignores, vendored code and the copies that editors and synchronization leave
+behind. It is checked where somebody names it, or a directory in it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
+
+from scaffold.formats.gitignore import IgnoreFile
+
+if TYPE_CHECKING:
+    from scaffold.files.disk import Disk
+
+SUBMODULES, IGNORED, VENDORED, COPIES = "submodules", "ignored", "vendored", "copies"
+WHERE = {
+    SUBMODULES: "in submodules",
+    IGNORED: "ignored by git",
+    VENDORED: "of vendored code",
+    COPIES: "left by editors or synchronization",
+}
+"""What the report says of each kind."""
+ENVIRONMENTS = "environments"
+"""Virtual environments, which are never checked."""
+
+_COPIES = ("*.sync-conflict-*", "*~", ".#*", "#*#", "*.orig", "*.rej", ".*.sw[op]")
+_VENDORED = frozenset(
+    {"3rdparty", "3rd_party", "third_party", "third-party", "thirdparty", "vendor", "vendored"}
+)
+_LICENCES = ("LICENSE", "LICENCE", "COPYING")
+"""How the names of files begin that somebody else's code brings along."""
+_MOST_BYTES = 200_000
+"""Of a file of git with patterns or paths."""
+
+
+class Foreign:
+    """Tells what is not the user's.
+
+    Args:
+        kinds: What counts, of the keys of `WHERE`.
+    """
+
+    def __init__(self, kinds: Sequence[str] = ()) -> None:
+        self.kinds = frozenset(kinds)
+        self.given: list[str] = []
+        """The paths that the user names, without links: what is above them does not count."""
+        self.packages: list[str] = []
+        """What makes each of the packages foreign that are skipped."""
+        self._known: dict[tuple[str, bool], str] = {}
+        self._named: dict[tuple[str, bool], bool] = {}
+        self._repositories: dict[str, str] = {}
+        self._submodules: dict[str, frozenset[str]] = {}
+        self._patterns: dict[str, IgnoreFile | None] = {}
+        self._tracked: dict[str, frozenset[str] | None] = {}
+
+    def kind_of(self, disk: Disk, path: str, *, is_directory: bool) -> str:
+        """Return what makes a path foreign, empty if nothing does.
+
+        Args:
+            disk: Notes what was looked at.
+            path: The path, without links.
+            is_directory: What it is.
+        """
+        above = [given for given in self.given if _is_at_or_above(given, path)]
+        if not self.kinds or not above:
+            return ""
+        top = max(above, key=len)
+        for at in _downwards(top, path):
+            kind = self._own_kind(disk, at, top, is_directory=is_directory or at != path)
+            if kind in self.kinds:
+                return kind
+        return ""
+
+    def _own_kind(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
+        key = path, is_directory
+        if key not in self._known:
+            self._known[key] = self._judge(disk, path, top, is_directory=is_directory)
+        return self._known[key]
+
+    def _judge(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
+        name = os.path.basename(path)
+        is_copy = not is_directory and any(fnmatchcase(name, pattern) for pattern in _COPIES)
+        if is_copy and COPIES in self.kinds:
+            return COPIES
+        if is_directory and SUBMODULES in self.kinds and self._is_submodule(disk, path):
+            return SUBMODULES
+        if IGNORED in self.kinds:
+            repository = self._repository_of(disk, os.path.dirname(path))
+            is_named = self._is_named(disk, path, top, is_directory=is_directory)
+            if is_named and self._is_untracked(disk, repository, path):
+                return IGNORED
+        is_within = is_directory and not _VENDORED.isdisjoint(path[len(top) :].split("/"))
+        return VENDORED if is_within and disk.entries(path, *_LICENCES) else ""
+
+    # -- git
+
+    def _is_submodule(self, disk: Disk, path: str) -> bool:
+        return any(
+            path in self._submodules_of(disk, above) for above in _upwards(os.path.dirname(path))
+        )
+
+    def _submodules_of(self, disk: Disk, directory: str) -> frozenset[str]:
+        if directory not in self._submodules:
+            text = _text(disk, os.path.join(directory, ".gitmodules"))
+            paths = re.findall(r"(?m)^\s*path\s*=\s*(\S.*?)\s*$", text)
+            self._submodules[directory] = frozenset(
+                os.path.normpath(os.path.join(directory, path)) for path in paths
+            )
+        return self._submodules[directory]
+
+    def _is_named(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> bool:
+        """Tell whether a pattern names a path, or a directory above it and below another."""
+        key = path, is_directory
+        if key not in self._named:
+            self._named[key] = False
+            parent = os.path.dirname(path)
+            repository = self._repository_of(disk, parent)
+            is_inside = parent not in {top, repository}
+            if is_inside and repository and self._is_named(disk, parent, top, is_directory=True):
+                self._named[key] = True
+            elif repository:
+                self._named[key] = self._is_matched(
+                    disk, repository, path, is_directory=is_directory
+                )
+        return self._named[key]
+
+    def _is_matched(self, disk: Disk, repository: str, path: str, *, is_directory: bool) -> bool:
+        result = False
+        for directory in _between(repository, os.path.dirname(path)):
+            decided = self._decides(disk, directory, path, is_directory=is_directory)
+            result = result if decided is None else decided
+        return result
+
+    def _decides(self, disk: Disk, directory: str, path: str, *, is_directory: bool) -> bool | None:
+        if directory not in self._patterns:
+            text = _text(disk, os.path.join(directory, ".gitignore"))
+            self._patterns[directory] = IgnoreFile(text) if text else None
+        patterns = self._patterns[directory]
+        if patterns is None:
+            return None
+        return patterns.decides(os.path.relpath(path, directory), is_directory=is_directory)
+
+    def _repository_of(self, disk: Disk, directory: str) -> str:
+        """Return the top of the checkout around a directory; empty without one."""
+        if directory not in self._repositories:
+            parent = os.path.dirname(directory)
+            if disk.exists(os.path.join(directory, ".git")):
+                self._repositories[directory] = directory
+            else:
+                found = "" if parent == directory else self._repository_of(disk, parent)
+                self._repositories[directory] = found
+        return self._repositories[directory]
+
+    def _is_untracked(self, disk: Disk, repository: str, path: str) -> bool:
+        """Tell whether a path that a pattern names was not added to git all the same."""
+        if repository not in self._tracked:
+            self._tracked[repository] = _tracked(disk, repository)
+        tracked = self._tracked[repository]
+        return tracked is not None and os.path.relpath(path, repository) not in tracked
+
+
+def _tracked(disk: Disk, repository: str) -> frozenset[str] | None:
+    """Return the files that git tracks, and the directories with them; ``None`` if unknown."""
+    from subprocess import SubprocessError
+
+    from scaffold.programs import git
+
+    disk.stamp(_index_of(disk, repository))
+    try:
+        done = git.run("ls-files", "-z", directory=repository)
+    except (OSError, SubprocessError):
+        return None
+    if done.returncode:
+        return None
+    result: set[str] = set()
+    for path in os.fsdecode(done.stdout).split("\0"):
+        above = path
+        while above and above not in result:
+            result.add(above)
+            above = os.path.dirname(above)
+    return frozenset(result)
+
+
+def _index_of(disk: Disk, repository: str) -> str:
+    """Return the file in which git notes what it tracks."""
+    place = os.path.join(repository, ".git")
+    if not disk.is_directory(place):
+        matched = re.match(r"gitdir:\s*(.+)", _text(disk, place))
+        place = os.path.join(repository, matched[1].strip()) if matched else place
+    return os.path.join(place, "index")
+
+
+def _text(disk: Disk, path: str) -> str:
+    try:
+        return disk.read(path, _MOST_BYTES).decode(errors="replace")
+    except OSError:
+        return ""
+
+
+# -- paths
+
+
+def _is_at_or_above(top: str, path: str) -> bool:
+    return path == top or path.startswith(os.path.join(top, ""))
+
+
+def _upwards(path: str) -> Iterator[str]:
+    while True:
+        yield path
+        parent = os.path.dirname(path)
+        if parent == path:
+            return
+        path = parent
+
+
+def _downwards(top: str, path: str) -> list[str]:
+    """Return the paths from below a directory down to another path."""
+    result = []
+    for at in _upwards(path):
+        if at == top:
+            break
+        result.append(at)
+    return result[::-1]
+
+
+def _between(top: str, directory: str) -> list[str]:
+    """Return a directory and those from it down to another."""
+    return [top, *_downwards(top, directory)]
