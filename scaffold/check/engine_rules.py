@@ -107,6 +107,21 @@ class StyleNotJudged(_Internal):
     severity = Severity.INFO
 
 
+class PackageOfRos1(_Internal):
+    """The package is for ROS 1: it is built with catkin.
+
+    **Why.** Jazzy has no catkin: colcon stops at ``find_package(catkin)``, and nodes at
+    ``import rospy``. What else could be said of such a package is of no use, so nothing else is.
+
+    **Fix.** Migrate the package, or put an empty file ``COLCON_IGNORE`` next to its package.xml.
+
+    **Source.** ROS 2 documentation, "Migrating packages".
+    """
+
+    code = "SC007"
+    name = "package-of-ros1"
+
+
 INTERNAL_RULES: tuple[type[Rule], ...] = (
     UnparsableFile,
     RuleCrashed,
@@ -114,4 +129,5 @@ INTERNAL_RULES: tuple[type[Rule], ...] = (
     FileTooLarge,
     TooManyFindings,
     StyleNotJudged,
+    PackageOfRos1,
 )

@@ -15,7 +15,7 @@ ALL = "ALL"
 """What means every code."""
 _TAKEN_FOR_DIGITS = str.maketrans("OIL", "011")
 
-UNCHECKED = ("SC001", "SC002", "SC004", "SC005")
+UNCHECKED = ("SC001", "SC002", "SC004", "SC005", "SC007")
 """Codes that report unchecked input: shown even if other codes are selected."""
 
 

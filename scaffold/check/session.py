@@ -12,6 +12,7 @@ from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
     INTERNAL_RULES,
     FileTooLarge,
+    PackageOfRos1,
     RuleCrashed,
     TooManyFindings,
     UnparsableFile,
@@ -21,9 +22,11 @@ from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
+from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.ament import StyleCheck
@@ -209,7 +212,7 @@ class Session:
             known = (earlier or {}).get(package.directory)
             if known is not None and path in known.verdict.style:
                 return False
-            if self.adjustments.excludes(package, path):
+            if self.adjustments.excludes(package, path) or _of_ros1(package):
                 return False
             return paths is None or path in paths
 
@@ -225,9 +228,8 @@ class Session:
 
         def is_wanted(package: Package, path: str) -> bool:
             chosen = only[id(package)]
-            return not self.adjustments.excludes(package, path) and (
-                chosen is None or path in chosen
-            )
+            is_left_out = self.adjustments.excludes(package, path) or _of_ros1(package)
+            return not is_left_out and (chosen is None or path in chosen)
 
         return TypeCheck([target.package for target in targets], is_wanted)
 
@@ -258,10 +260,12 @@ class Session:
             package.forget()
             _ = package.name  # which everybody asks for: a malformed manifest is told of
         check = runner.Check(package, earlier)
-        said = suppression.apply(package, check.run(self._counted_rules()), self._ran)
+        of_ros1 = [*_of_ros1(package)]
+        found = of_ros1 or check.run(self._counted_rules())
+        said = suppression.apply(package, found, self._ran)
         _ = package.identity  # while the manifest is at hand
         verdict = None
-        if len(package.python_files) >= WORTH_PARTS:
+        if len(package.python_files) >= WORTH_PARTS and not of_ros1:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
         if verdict is not None:
             tests = settings_of(package).tests
@@ -285,6 +289,21 @@ class Session:
         ]
         named = [*conflicts.named(target.package, wanted)]
         return sorted(self.adjustments.apply(target.package, named), key=lambda d: d.sort_key)
+
+
+def _of_ros1(package: Package) -> Sequence[Diagnostic]:
+    """Return what is reported of a package of ROS 1 instead of all else; nothing for others."""
+    try:
+        catkin = package.manifest.catkin
+        if catkin is None or uses_ament(package):
+            return ()
+    except ViewError:
+        return ()
+    message = (
+        "a package of ROS 1: Jazzy has no 'catkin' to build it with, and it is not checked; "
+        "migrate it, or put COLCON_IGNORE next to package.xml"
+    )
+    return (PackageOfRos1().report(catkin, message),)
 
 
 def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:

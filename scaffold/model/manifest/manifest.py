@@ -41,6 +41,7 @@ _PURPOSES: dict[str, frozenset[str]] = {
 }
 DEPENDENCY_TAGS = tuple(_PURPOSES)
 """The tags of dependencies on packages, in the order that people write them."""
+_OF_ROS2 = frozenset({"rclpy", "rclcpp", "rosidl_default_generators"})
 
 
 class Dependency(NamedTuple):
@@ -256,6 +257,16 @@ class Manifest:
             if _is_active(element.get("condition"))
         ]
         return result[-1] if result else None
+
+    @cached_property
+    def catkin(self) -> Dependency | None:
+        """The dependency on catkin of a package that is for ROS 1 alone."""
+        names = self.build_names | self.run_names
+        is_for_ros2 = bool(names & _OF_ROS2) or any(name.startswith("ament_") for name in names)
+        if is_for_ros2 or self.build_type not in {None, "catkin"}:
+            return None
+        catkin = self.depends("buildtool_depend", "build_depend", "depend").get("catkin")
+        return catkin if catkin is not None and catkin.condition is None else None
 
     # -- around the root
 

@@ -1,0 +1,70 @@
+"""Packages of ROS 1: one finding says so, instead of dozens about a tool that is not theirs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from scaffold.check import registry
+from scaffold.check.selection import Selection
+from scaffold.check.session import Session
+from scaffold.configuration import content
+from scaffold.model.package import Package
+
+MANIFEST = '<package format="3">\n  <name>old</name>\n{}  <depend>std_msgs</depend>\n{}</package>\n'
+CATKIN = "  <buildtool_depend>catkin</buildtool_depend>\n"
+FILES = {
+    "CMakeLists.txt": "cmake_minimum_required(VERSION 3.0.2)\nproject(old)\n"
+    "find_package(catkin REQUIRED COMPONENTS rospy)\ncatkin_package()\n",
+    "scripts/talker.py": '#!/usr/bin/env python\nimport rospy\nprint "hello"\n',
+    "src/old/other.py": 'import rospy\ndef f():\n    rospy.loginfo("x")\n',
+}
+
+
+def found(dependency: str, export: str = "") -> list[tuple[str, str, int]]:
+    session = Session(registry.load(content.roots("rules")), Selection())
+    files = {**FILES, "package.xml": MANIFEST.format(dependency, export)}
+    reported = session.check(Package.of(files))
+    return [(item.code, item.location.path, item.location.line) for item in reported]
+
+
+@pytest.mark.parametrize("export", ["", "  <export><build_type>catkin</build_type></export>\n"])
+def test_a_package_of_ros1_has_one_finding(export: str) -> None:
+    assert found(CATKIN, export) == [("SC007", "package.xml", 3)]
+
+
+@pytest.mark.parametrize(
+    ("dependency", "export"),
+    [
+        (CATKIN, "  <export><build_type>ament_cmake</build_type></export>\n"),
+        (f"{CATKIN}  <buildtool_depend>ament_cmake</buildtool_depend>\n", ""),
+        (f"{CATKIN}  <depend>rclpy</depend>\n", ""),
+        (CATKIN.replace(">", ' condition="$ROS_VERSION == 1">', 1), ""),
+        ("", ""),
+    ],
+)
+def test_a_package_that_is_also_for_ros2_is_checked(dependency: str, export: str) -> None:
+    reported = {code for code, _, _ in found(dependency, export)}
+    assert "SC007" not in reported
+    assert {"E999", "E302"} <= reported
+
+
+def test_a_package_that_calls_ament_is_checked() -> None:
+    session = Session(registry.load(content.roots("rules")), Selection())
+    lists = "find_package(ament_cmake REQUIRED)\nament_package()\n"
+    files = {**FILES, "package.xml": MANIFEST.format(CATKIN, ""), "CMakeLists.txt": lists}
+    assert "SC007" not in {item.code for item in session.check(Package.of(files))}
+
+
+def test_a_workspace_with_both_is_checked_but_for_the_old_one(tmp_path: Path) -> None:
+    from scaffold.cli.main import main
+
+    assert main(["new", "talker", "--destination-directory", str(tmp_path)]) == 0
+    for path, text in {**FILES, "package.xml": MANIFEST.format(CATKIN, "")}.items():
+        (tmp_path / "old" / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "old" / path).write_text(text)
+    assert main(["check", str(tmp_path / "talker")]) == 0
+    assert main(["check", str(tmp_path)]) == 1
+    (tmp_path / "old" / "COLCON_IGNORE").touch()
+    assert main(["check", str(tmp_path)]) == 0
