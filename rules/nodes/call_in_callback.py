@@ -15,6 +15,7 @@ from scaffold.api.programs import (
     names_other_executor,
     share_group,
     spins_elsewhere,
+    spins_in_one_thread,
 )
 from scaffold.api.rclpy import ActionServer, Entity, RclpyFile, class_of
 
@@ -126,6 +127,15 @@ class CallInCallback(RclpyRule):
                 "response is processed meanwhile",
             ),
         ),
+        Example(
+            "many threads that are not used",
+            {"caller.py": _OWN_GROUP.replace("executor.spin()", "rclpy.spin(node)")},
+            Report(
+                "15:9",
+                "waits for a service response in callback 'ask': deadlock, no "
+                "response is processed meanwhile",
+            ),
+        ),
         Example("while a goal is worked on, in many threads", {"caller.py": _GOAL}),
         Example(
             "with a timeout",
@@ -179,14 +189,15 @@ def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str
     """Return why nothing can end a wait; empty if something may."""
     plain = ": deadlock, no response is processed meanwhile"
     is_same_node = executed.entity and client and executed.entity.owner is client.owner
-    is_one_thread = file.spin_calls and not names_other_executor(file)
+    is_one_thread = spins_in_one_thread(file)
     if isinstance(executed.entity, ActionServer):
         return plain if is_same_node and is_one_thread else ""
     if executed.entity and client and is_same_node:
         shared = share_group(file, executed.entity, client)
         if shared:
+            is_surprising = names_other_executor(file) and not is_one_thread
             shares = ", which shares its callback group with the client"
-            return f"{shares if names_other_executor(file) else ''}{plain}"
+            return f"{shares}{plain}" if is_surprising else plain
         if shared is False:
             return plain if is_one_thread else ""
     if may_run_meanwhile(file, executed) or (not is_same_node and spins_elsewhere(file)):

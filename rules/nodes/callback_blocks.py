@@ -75,6 +75,18 @@ class CallbackBlocks(RclpyRule):
             ),
         ),
         Example(
+            "a key in a window",
+            {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(0)")},
+            Report(
+                "13:9",
+                "cv2.waitKey(0) blocks callback 'tick', and with it all other "
+                "callbacks of the node",
+            ),
+        ),
+        Example(
+            "a moment for a window", {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(1)")}
+        ),
+        Example(
             "user input",
             {"talker.py": _NODE.format("input()")},
             Report(
@@ -126,6 +138,8 @@ def _blocking(file: RclpyFile, call: ast.Call) -> str:
             return f"time.sleep({seconds:g})"
     if name in WAITING:
         return f"{name}()"
+    if name == "cv2.waitKey" and (not call.args or file.evaluator.evaluate(call.args[0]) == 0):
+        return "cv2.waitKey(0)"
     is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
     if is_builtin and file.module.index.lookup("input", call.func) is None:
         return "input()"

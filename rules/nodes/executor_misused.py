@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import used_of_executor
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _NODE = (
     "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
@@ -28,7 +28,7 @@ class ExecutorMisused(RclpyRule):
 
     **Why.** No callback is ever called: an executor without nodes waits forever, and does nothing
     unless it is spun. A class instead of a node raises ``TypeError: 'property' object is not
-    iterable``.
+    iterable``. ``rclpy.spin(node)`` takes the node to another executor, with one thread.
 
     **Fix.** ``executor.add_node(node)`` and ``executor.spin()``.
 
@@ -37,6 +37,7 @@ class ExecutorMisused(RclpyRule):
 
     code = "ND096"
     name = "executor-misused"
+    other_severities = {Severity.WARNING: "rclpy.spin() runs the callbacks, in one thread"}
     examples = (
         Example("with a node, spun", {"talker.py": _NODE.format(_ADD + _SPIN)}),
         Example(
@@ -53,6 +54,20 @@ class ExecutorMisused(RclpyRule):
             "not spun",
             {"talker.py": _NODE.format(_ADD)},
             Report("15:16", "executor is never spun: the callbacks of its nodes never run"),
+        ),
+        Example(
+            "with many threads that are not used",
+            {
+                "talker.py": _NODE.replace("SingleThreaded", "MultiThreaded").format(
+                    _ADD + "    rclpy.spin(node)\n"
+                )
+            },
+            Report(
+                "17:5",
+                "rclpy.spin() does not use the executor of line 15: callbacks run "
+                "one at a time; call spin() of the executor",
+                severity=Severity.WARNING,
+            ),
         ),
     )
 
@@ -73,6 +88,13 @@ class ExecutorMisused(RclpyRule):
             elif "add_node" in used and not is_spun and not file.spin_calls:
                 message = "executor is never spun: the callbacks of its nodes never run"
                 yield self.report(file.module.location(call), message)
+            elif "add_node" in used and not is_spun and _has_many_threads(call):
+                for other in _other_spins(file, used["add_node"]):
+                    message = (
+                        f"rclpy.spin() does not use the executor of line {call.lineno}: "
+                        "callbacks run one at a time; call spin() of the executor"
+                    )
+                    yield self.report(other, message, severity=Severity.WARNING)
 
 
 def _added_class(file: RclpyFile, call: ast.Call) -> str:
@@ -83,3 +105,17 @@ def _added_class(file: RclpyFile, call: ast.Call) -> str:
             if class_ is not None and file.node_class(class_) is not None:
                 return class_.name
     return ""
+
+
+def _has_many_threads(call: ast.Call) -> bool:
+    return ast.unparse(call.func).endswith("MultiThreadedExecutor")
+
+
+def _other_spins(file: RclpyFile, add_node: ast.AST) -> Iterator[RclpyCall]:
+    """Yield the calls of ``rclpy.spin`` for the node that was added to an executor."""
+    added = file.module.parent(add_node)
+    for spin in file.spin_calls:
+        match added, spin.call:
+            case ast.Call(args=[ast.Name(id=node)]), ast.Call(args=[ast.Name(id=other)]):
+                if node == other and not spin.call.keywords and spin.name == "spin":
+                    yield spin

@@ -19,6 +19,7 @@ from scaffold.model.programs.threads import (
     names_other_executor,
     share_group,
     spins_elsewhere,
+    spins_in_one_thread,
 )
 from scaffold.model.programs.topics import (
     is_private,
@@ -51,6 +52,7 @@ __all__ = [
     "services_of",
     "share_group",
     "spins_elsewhere",
+    "spins_in_one_thread",
     "starts_of",
     "topics_of",
     "used_of_executor",
