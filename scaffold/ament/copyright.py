@@ -8,13 +8,15 @@ from contextlib import suppress
 from functools import lru_cache
 
 from scaffold.ament.files import broken_links, lintable
+from scaffold.configuration import content
 from scaffold.files.disk import LargeFileError
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
 EXTENSIONS = frozenset({".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cmake", ".py"})
-REPOSITORY_FILES = ("CONTRIBUTING.md", "LICENSE")
+CONTRIBUTING = "CONTRIBUTING.md"
+REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
 
 _DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licences.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
@@ -217,6 +219,19 @@ class Known(NamedTuple):
 
     licence: str
     sections: tuple[str, ...]
+
+
+def contributing(licence: str) -> str | None:
+    """Return the CONTRIBUTING.md of a license, which `new` writes as well; ``None`` without one."""
+    directory = os.path.join(content.built_in(), "templates", "_licenses")
+    if licence not in os.listdir(directory):  # it is the user's word, and may be a path
+        return None
+    path = os.path.join(directory, licence)
+    try:
+        with open(os.path.join(path, f"{CONTRIBUTING}.jinja"), encoding="utf-8") as file:
+            return file.read()
+    except OSError:
+        return None
 
 
 @lru_cache(maxsize=1)

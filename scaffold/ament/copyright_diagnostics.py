@@ -7,14 +7,18 @@ from collections.abc import Callable, Iterator
 
 from scaffold.ament.codes import diagnostic
 from scaffold.ament.copyright import (
+    CONTRIBUTING,
     REPOSITORY_FILES,
     Header,
+    contributing,
     departure,
     headers,
     identify_file,
 )
 from scaffold.ament.use import linter_use
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.edits import CreateFile, Fix
+from scaffold.model.manifest.spdx import spdx_of
 from scaffold.model.package import Package
 
 _CAUSE = "copyright"
@@ -83,11 +87,26 @@ def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:
     for name in REPOSITORY_FILES:
         wrong = _wrong(package, name)
         at = package.start_of(name).location
-        if wrong and use.runs:
-            yield diagnostic(code, at, f"{wrong}: ament_copyright fails", cause=_CAUSE)
-        elif wrong:
+        if not wrong:
+            continue
+        fix = _fix(package, name)
+        if use.runs:
+            yield diagnostic(code, at, f"{wrong}: ament_copyright fails", fix, cause=_CAUSE)
+        else:
             message = f"{wrong}: ament_copyright would fail, but {use.why_not}"
-            yield diagnostic(code, at, message, severity=Severity.INFO, cause=_CAUSE)
+            yield diagnostic(code, at, message, fix, severity=Severity.INFO, cause=_CAUSE)
+
+
+def _fix(package: Package, name: str) -> Fix | None:
+    """Return the fix that writes a missing file which is the same in all packages of a license."""
+    if name != CONTRIBUTING or package.has(name):
+        return None
+    named = {element.text for element in package.manifest.all("license")}
+    texts = {contributing(item) for text in named for item in spdx_of(text) or (text,)}
+    text = texts.pop() if len(texts) == 1 else None
+    if text is None or identify_file(name, text.encode()) is None:
+        return None
+    return Fix(f"write the {name} of the license", (CreateFile(name, text),))
 
 
 def _is_repository(package: Package) -> bool:

@@ -180,6 +180,20 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             ),
         ),
         Example(
+            "after git init, under a license that package.xml names",
+            {
+                **FILES,
+                "package.xml": "<package><license>MIT</license></package>\n",
+                "LICENSE": MIT_TEXT,
+            },
+            Report(
+                "CONTRIBUTING.md:1:1",
+                "the repository has no CONTRIBUTING.md: ament_copyright fails",
+                fix="write the CONTRIBUTING.md of the license",
+            ),
+            fixed={"CONTRIBUTING.md": CONTRIBUTING},
+        ),
+        Example(
             "words of one's own",
             {**FILES, "LICENSE": MIT_TEXT, "CONTRIBUTING.md": "Please do.\n"},
             Report(

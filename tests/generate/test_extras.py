@@ -172,6 +172,15 @@ def test_ament_copyright_accepts_a_package_that_is_a_repository(
     assert [one.code for one in check(talker) if one.code == "LY022"] == ["LY022"]
 
 
+@oracles.needs_system_linter("ament_copyright")
+@pytest.mark.parametrize("license_", licenses.names(ROOTS))
+def test_a_package_that_becomes_a_repository_is_fixed(license_: str, tmp_path: Path) -> None:
+    talker = write(tmp_path / "talker", make(package="talker", license=license_))
+    assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
+    assert main(["check", "--fix", str(talker)]) == 0
+    assert oracles.ament_copyright(talker) == set()
+
+
 @pytest.mark.parametrize("extra", ["ci", "pre_commit", "devcontainer"])
 def test_add_brings_what_a_repository_needs(extra: str, tmp_path: Path) -> None:
     person = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.ament.codes.code import COPYRIGHT, AmentCode
 from scaffold.diagnostic import Severity
+from scaffold.edits import Safety
 
 ROWS = (
     AmentCode(
@@ -55,12 +56,14 @@ shows which are known.
         Severity.ERROR,
         other_severities={Severity.INFO: "no test of the package runs ament_copyright"},
         message=("the repository has no CONTRIBUTING.md: ament_copyright fails"),
+        fix=Safety.SAFE,
         documentation="""\
 **Why.** ``ament_copyright`` asks for both in the directory that has ``.git`` or ``.hg``, with
 the text it knows, and fails under ``colcon test``. A package inside of a repository is not
 asked.
 
-**Fix.** ``ament_copyright --add-missing "NAME" LICENSE`` writes both.
+**Fix.** ``--fix`` writes the CONTRIBUTING.md of the license that package.xml names, and
+``ament_copyright --add-missing "NAME" LICENSE`` both files.
 
 **Source.** ``ament_copyright/main.py`` and ``crawler.py``.
 """,
