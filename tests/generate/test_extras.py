@@ -198,3 +198,23 @@ def check(directory: Path) -> list[Diagnostic]:
     """Return what the checker says of a package."""
     session = Session(registry.load(content.roots("rules")), Selection())
     return session.check(Package.at(str(directory)))
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+def test_the_settings_of_type_checkers_find_the_types(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, build_type: str
+) -> None:
+    for path, text in make(package="talker", build_type=build_type, extras="types").items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    assert main(["stubs"]) == 0
+    node = tmp_path / "talker" / "minimal_publisher.py"
+    correct = node.read_text()
+    for checker, arguments in (("mypy", ["talker"]), ("pyright", [])):
+        pytest.importorskip(checker)
+        command = [sys.executable, "-m", checker, *arguments]
+        for text, code in ((correct, 0), (correct.replace("msg.data", "msg.text"), 1)):
+            node.write_text(text)
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            assert done.returncode == code, done.stdout
