@@ -74,9 +74,8 @@ class FoundUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         declared = manifest.declared_names
-        along = (
-            transitive_dependencies(declared) | requirements.declared(package, for_tests=True).along
-        )
+        there = requirements.declared(package, for_tests=True)
+        along = transitive_dependencies(declared) | there.along | there.direct
         reported: set[str] = set()
         for found_package in package.cmake.found_packages:
             name = found_package.name

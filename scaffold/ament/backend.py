@@ -15,6 +15,7 @@ from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
 from scaffold.ament.finding import CRASHED, TOO_LARGE, UNFOLLOWED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
+from scaffold.ament.flake8.options import AMENT
 from scaffold.ament.settings import Note, PackageSettings, Settings, settings_of
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
@@ -90,6 +91,7 @@ class StyleCheck:
         packages: The packages.
         is_wanted: Tells whether a file of a package is to be checked.
         is_reference: Whether the configuration of ament counts instead of a package's own.
+        line_length: The characters of a line where a package does not run flake8 itself.
     """
 
     def __init__(
@@ -98,9 +100,13 @@ class StyleCheck:
         is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
         *,
         is_reference: bool = False,
+        line_length: int | None = None,
     ) -> None:
         self._scratch = ""
         self._is_reference = is_reference
+        self._default = AMENT
+        if line_length is not None:
+            self._default = AMENT._replace(max_line_length=line_length)
         self._notes: dict[int, list[Diagnostic]] = {}
         self._is_wanted = is_wanted
         self._run: ruff.Run | None = None
@@ -190,7 +196,9 @@ class StyleCheck:
             self._notes[id(package)] = [_noted(note) for note in own.notes]
         links = getattr(package.tree, "broken_links", ())
         for path, linters in select((*package.tree.files, *links), own.named).items():
-            settings = own.of(path, linters) if self._is_wanted(package, path) else []
+            settings = (
+                own.of(path, linters, self._default) if self._is_wanted(package, path) else []
+            )
             if not settings:
                 continue
             try:

@@ -124,18 +124,21 @@ class PackageSettings:
                     return True
         return False
 
-    def of(self, path: str, linters: int = FLAKE8 | PEP257) -> list[Settings]:
+    def of(
+        self, path: str, linters: int = FLAKE8 | PEP257, default: Options = flake8.AMENT
+    ) -> list[Settings]:
         """Return what a file is judged by: a finding counts when any of it reports it.
 
         Args:
             path: The file.
             linters: Those that would look at it.
+            default: The options where no test of the package runs flake8.
         """
         full = os.path.join(self._directory, path)
         asked: dict[int, list[Options | frozenset[str]]] = {}
-        for linter, default in ((FLAKE8, flake8.AMENT), (PEP257, pep257.AMENT)):
+        for linter, usual in ((FLAKE8, default), (PEP257, pep257.AMENT)):
             runs = self._runs[linter]
-            asked[linter] = [run.asked for run in runs if run.covers(full)] if runs else [default]
+            asked[linter] = [run.asked for run in runs if run.covers(full)] if runs else [usual]
             if not linters & linter:
                 asked[linter] = []
         options = dict.fromkeys(

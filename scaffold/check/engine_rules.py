@@ -1,4 +1,4 @@
-"""SC: findings about the tool itself and about files that it cannot read."""
+"""SC: findings about the tool itself, its configuration, and files that it cannot read."""
 
 from __future__ import annotations
 
@@ -122,6 +122,29 @@ class PackageOfRos1(_Internal):
     name = "package-of-ros1"
 
 
+class LicenseNotAllowed(_Internal):
+    """A package has a license that the configuration does not allow.
+
+    **Why.** The key ``licenses`` says under which licenses packages of this project are published.
+
+    **Fix.** Choose one of these, or add the license to the configuration.
+    """
+
+    code = "SC008"
+    name = "license-not-allowed"
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        """Yield the licenses that are not allowed; raises ViewError without a manifest."""
+        from scaffold.model.manifest.spdx import spdx_of
+
+        allowed = package.workspace.policy.licenses
+        for element in package.manifest.all("license") if allowed else ():
+            if {element.text, *spdx_of(element.text)}.isdisjoint(allowed):
+                known = ", ".join(allowed)
+                message = f"license {element.text!r} is not allowed here; allowed: {known}"
+                yield self.report(element.text_location, message)
+
+
 INTERNAL_RULES: tuple[type[Rule], ...] = (
     UnparsableFile,
     RuleCrashed,
@@ -130,4 +153,5 @@ INTERNAL_RULES: tuple[type[Rule], ...] = (
     TooManyFindings,
     StyleNotJudged,
     PackageOfRos1,
+    LicenseNotAllowed,
 )

@@ -26,7 +26,9 @@ class Selection(NamedTuple):
     """Empty for everything."""
     ignore: tuple[str, ...] = ()
     per_path: Mapping[str, tuple[str, ...]] = {}
-    """Prefixes to ignore, by a pattern of paths relative to the package's root."""
+    """Prefixes to ignore, by a pattern of paths relative to a package or to ``origin``."""
+    origin: str = ""
+    """The configuration file with these patterns."""
 
     def wants(self, code: str) -> bool:
         """Tell whether a code is reported; the longer of two matching prefixes decides."""
@@ -34,12 +36,17 @@ class Selection(NamedTuple):
         ignored = _longest(self.ignore, code)
         return chosen is not None and chosen > (-1 if ignored is None else ignored)
 
-    def wants_at(self, code: str, path: str) -> bool:
-        """Tell whether a code is reported in a file."""
+    def wants_at(self, code: str, paths: Collection[str]) -> bool:
+        """Tell whether a code is reported in a file.
+
+        Args:
+            code: The code.
+            paths: The path of the file relative to its package, and to ``origin`` if it is below.
+        """
         return not any(
             code.startswith(prefixes)
             for pattern, prefixes in self.per_path.items()
-            if fnmatchcase(path, pattern)
+            if any(fnmatchcase(path, pattern.removeprefix("./")) for path in paths)
         )
 
 

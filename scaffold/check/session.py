@@ -12,6 +12,7 @@ from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
     INTERNAL_RULES,
     FileTooLarge,
+    LicenseNotAllowed,
     PackageOfRos1,
     RuleCrashed,
     TooManyFindings,
@@ -21,6 +22,7 @@ from scaffold.check.result import Earlier, Part, Result, Verdict
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
+from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
@@ -65,6 +67,7 @@ class Session:
         adjustments: What the configuration changes about findings.
         has_types: Whether the type checker runs.
         is_reference: Whether style is judged with the configuration that ament brings along.
+        line_length: The characters of a line where the tests of a package do not run flake8.
     """
 
     def __init__(
@@ -75,12 +78,14 @@ class Session:
         *,
         has_types: bool = False,
         is_reference: bool = False,
+        line_length: int | None = None,
     ) -> None:
         self._is_reference = is_reference
+        self._line_length = line_length
         self.selection = selection
         self.adjustments = adjustments or Adjustments()
         self._areas = {rule.code[:2] for rule in all_rules(rules)}
-        wanted = [*rules, *AMENT_RULES]
+        wanted: list[type[Rule]] = [*rules, *AMENT_RULES, LicenseNotAllowed]
         selected = [rule() for rule in wanted if selection.wants(rule.code)]
         self._rules = [rule for rule in selected if not isinstance(rule, TypeRule)]
         self._ran = {rule.code for rule in self._rules}
@@ -216,7 +221,12 @@ class Session:
                 return False
             return paths is None or path in paths
 
-        return StyleCheck(packages, is_wanted, is_reference=self._is_reference)
+        return StyleCheck(
+            packages,
+            is_wanted,
+            is_reference=self._is_reference,
+            line_length=None if self._is_reference else self._line_length,
+        )
 
     def _start_types(self, targets: Sequence[Target]) -> TypeCheck | None:
         """Start the type checker, unless nobody asks for types."""
@@ -274,6 +284,17 @@ class Session:
         foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
         return Ruled(count, said, verdict, foreign)
 
+    def _paths(self, package: Package, path: str) -> tuple[str, ...]:
+        """Return the paths of a file that the patterns of the configuration are compared with."""
+        origin = self.selection.origin
+        if not origin or not package.directory:
+            return (path,)
+        place = package.remember(
+            "relative to the selection",
+            lambda: Exclusion(("*",), origin).relative(package.outside, package.directory),
+        )
+        return (path,) if place is None else (path, f"{place}/{path}" if place else path)
+
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order, each thing once."""
         # flake8 has its own code for a Python file that does not parse.
@@ -285,7 +306,7 @@ class Session:
             if not (d.code in unreadable and d.location.path in reported)
             and (target.only is None or d.location.path in target.only)
             and (d.code == RuleCrashed.code or self.selection.wants(d.code))
-            and self.selection.wants_at(d.code, d.location.path)
+            and self.selection.wants_at(d.code, self._paths(target.package, d.location.path))
         ]
         named = [*conflicts.named(target.package, wanted)]
         return sorted(self.adjustments.apply(target.package, named), key=lambda d: d.sort_key)

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from scaffold.check.rule import Rule
     from scaffold.check.selection import Selection
     from scaffold.configuration.config import Config
+    from scaffold.model.workspace.policy import Policy
 
 
 class Choices:
@@ -52,7 +53,8 @@ class Choices:
             pattern: self._prefixes(words, f"{self._settings.origin(key)}: {pattern!r}")
             for pattern, words in self._settings.value(key).items()
         }
-        return Selection(chosen["select"], chosen["ignore"], per_path)
+        origin = self._settings.origin(key) if per_path else ""
+        return Selection(chosen["select"], chosen["ignore"], per_path, origin)
 
     def adjustments(self, *, is_release: bool = False, include_all: bool = False) -> Adjustments:
         """Return the other adjustments of findings by the configuration.
@@ -83,6 +85,19 @@ class Choices:
         refused = self._refused_at_release() if is_release else frozenset()
         kinds = () if include_all else self._settings.strings("check.leave-out")
         return Adjustments(severities, is_own, exclusion, refused, Foreign(kinds))
+
+    @property
+    def line_length(self) -> int | None:
+        """The characters of a line, where a package does not run flake8 itself."""
+        value: int = self._settings.value("check.line-length")
+        return value if "check.line-length" in self._settings.values else None
+
+    def policy(self) -> Policy:
+        """Return what rules have to know of the configuration."""
+        from scaffold.model.workspace.policy import Policy
+
+        implicit = self._settings.strings("check.implicit-dependencies")
+        return Policy(self._settings.strings("check.licenses"), implicit)
 
     def _refused_at_release(self) -> frozenset[str]:
         from scaffold.check.session import all_rules

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Package
+    from scaffold.model.workspace.policy import Policy
 
 WORD = "-"
 """Means standard input where a path is expected."""
@@ -41,12 +42,13 @@ def validate(options: argparse.Namespace) -> bool:
     return True
 
 
-def read(path: str, disk: Disk) -> Target:
+def read(path: str, disk: Disk, policy: Policy) -> Target:
     """Return the file of a package with what standard input holds.
 
     Args:
         path: The file; it need not be there.
         disk: Records what was accessed outside of the package.
+        policy: What the configuration says that rules have to know.
 
     Raises:
         InputError: the path is in no package and not one of a Python file, or there is too much.
@@ -60,7 +62,7 @@ def read(path: str, disk: Disk) -> Target:
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
         raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB are read at most")
-    (target,) = discovery.find([path], disk, are_saved=False)
+    (target,) = discovery.find([path], disk, are_saved=False, policy=policy)
     overlay = Overlay(target.package.tree)
     overlay.changed[_name(target)] = data
     target.package.change(overlay)

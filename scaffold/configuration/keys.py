@@ -6,6 +6,7 @@ come from here.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -91,6 +92,18 @@ def _refuse_severities(value: Any) -> str:  # noqa: ANN401  likewise
     return ""
 
 
+def _refuse_number(value: Any) -> str:  # noqa: ANN401  likewise
+    is_number = isinstance(value, int) and not isinstance(value, bool)
+    return "" if is_number and 1 <= value <= LONGEST_LINE else _must_be(_NUMBER_NOUN)
+
+
+def _refuse_distribution(value: Any) -> str:  # noqa: ANN401  likewise
+    if value in DISTRIBUTIONS:
+        return ""
+    known = ", ".join(DISTRIBUTIONS)
+    return f"is {value!r}: there is data of {known} only"
+
+
 def _refuse_kinds(value: Any) -> str:  # noqa: ANN401  likewise
     if not _is_list_of_strings(value):
         return _must_be(_KINDS_NOUN)
@@ -110,6 +123,15 @@ _STRINGS_NOUN = "a list of strings"
 _DIRECTORIES_NOUN = "a list of directories"
 _LISTS_BY_PATTERN_NOUN = "a table of patterns with lists of strings"
 _SEVERITIES_NOUN = "a table of rules with severities"
+LONGEST_LINE = 10_000
+_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data")
+_NAMES = "_names.txt"
+DISTRIBUTIONS = tuple(
+    sorted(name.removesuffix(_NAMES) for name in os.listdir(_DATA) if name.endswith(_NAMES))
+)
+"""Those that there is data of."""
+
+_NUMBER_NOUN = f"a number from 1 to {LONGEST_LINE}"
 _KINDS_NOUN = "a list of `submodules`, `ignored`, `vendored` and `copies`"
 _STRINGS = {"type": "array", "items": {"type": "string"}}
 
@@ -131,6 +153,14 @@ SEVERITIES_BY_RULE = Kind(
     {"type": "object", "additionalProperties": {"enum": [*SEVERITIES]}},
 )
 FOREIGN_KINDS = Kind(_KINDS_NOUN, _refuse_kinds, {"type": "array", "items": {"enum": [*FOREIGN]}})
+NUMBER = Kind(
+    _NUMBER_NOUN, _refuse_number, {"type": "integer", "minimum": 1, "maximum": LONGEST_LINE}
+)
+DISTRIBUTION = Kind(
+    " or ".join(f'`"{name}"`' for name in DISTRIBUTIONS),
+    _refuse_distribution,
+    {"enum": [*DISTRIBUTIONS]},
+)
 STYLE = Kind('`"all"` or `"own"`', _refuse_style, {"enum": [*STYLES]})
 
 KEYS = (
@@ -149,7 +179,8 @@ KEYS = (
         "per-path-ignores",
         LISTS_BY_PATTERN,
         {},
-        "Do not report these rules in files whose path in their package matches.",
+        "Do not report these rules in files whose path matches, relative to their package or to "
+        "the file.",
     ),
     Key(
         "check",
@@ -183,6 +214,36 @@ KEYS = (
         "all",
         "`own` reports style and docstrings only in files on which the tests of their package run "
         "that linter.",
+    ),
+    Key(
+        "check",
+        "line-length",
+        NUMBER,
+        99,
+        "The characters that a line may have (E501) in packages whose tests do not run "
+        "`ament_flake8`; the others say it themselves.",
+    ),
+    Key(
+        "check",
+        "licenses",
+        STRINGS,
+        [],
+        "The licenses that packages may have, as SPDX identifiers (SC008); empty for any.",
+    ),
+    Key(
+        "check",
+        "implicit-dependencies",
+        STRINGS,
+        [],
+        "Packages, rosdep keys and Python modules that are there without being declared: nobody is "
+        "asked to declare them.",
+    ),
+    Key(
+        "check",
+        "distribution",
+        DISTRIBUTION,
+        "jazzy",
+        "The distribution of ROS 2 that packages are checked for.",
     ),
 )
 """In the order of the documentation."""

@@ -226,6 +226,95 @@ def test_own_style_is_that_of_the_linters_that_the_package_runs(
     assert "F401" in check(capsys, "talker")[1]
 
 
+def test_patterns_count_from_the_file_and_from_packages(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("talker", "listener"):
+        (workspace / name / name / "extra.py").write_text(FLAWED)
+    words = ("--select", "F", "--no-types", "--quiet")
+    configuration = workspace / "ros2-scaffold.toml"
+    for pattern, reported in (
+        ("talker/talker/extra.py", ["listener"]),  # from the file
+        ("./talker/*", ["listener"]),
+        ("listener/extra.py", ["talker"]),  # from the package
+        ("*/extra.py", []),
+        ("extra.py", ["listener", "talker"]),
+    ):
+        configuration.write_text(f'[check.per-path-ignores]\n"{pattern}" = ["F401"]\n')
+        code, output = check(capsys, *words)
+        found = [line.partition("/")[0] for line in output.splitlines()]
+        assert (found, code) == (reported, 1 if reported else 0), pattern
+
+
+def test_line_length_counts_where_no_test_says_it(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("talker", "listener"):
+        (workspace / name / name / "extra.py").write_text(f"x = '{'x' * 101}'\n")
+    cmake = workspace / "talker" / "CMakeLists.txt"
+    cmake.write_text(cmake.read_text().replace("ament_lint_auto_find_test_dependencies", "foo"))
+    for length, reported in ((98, ["listener", "talker"]), (110, ["listener"])):
+        (workspace / "ros2-scaffold.toml").write_text(f"[check]\nline-length = {length}\n")
+        output = check(capsys, "--select", "E501", "--quiet")[1]
+        assert [line.partition("/")[0] for line in output.splitlines()] == reported
+    output = check(capsys, "--select", "E501", "--quiet", "--reference-config")[1]
+    assert len(output.splitlines()) == 2
+
+
+def test_licenses_that_are_not_allowed(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    configuration = workspace / "ros2-scaffold.toml"
+    configuration.write_text('[check]\nlicenses = ["MIT", "BSD-3-Clause"]\n')
+    code, output = check(capsys, "talker", "--select", "SC008", "--quiet")
+    assert (code, output.count("SC008")) == (1, 1)
+    said = "license 'Apache-2.0' is not allowed here; allowed: MIT, BSD-3-Clause"
+    assert said in output
+    assert output.startswith("talker/package.xml:")
+    configuration.write_text('[check]\nlicenses = ["MIT", "Apache-2.0"]\n')
+    assert check(capsys, "talker", "--select", "SC008", "--quiet") == (0, "")
+    manifest = workspace / "talker" / "package.xml"
+    manifest.write_text(manifest.read_text().replace("Apache-2.0", "Apache License 2.0"))
+    assert check(capsys, "talker", "--select", "SC008", "--quiet") == (0, "")
+
+
+def test_dependencies_that_are_known_to_be_there(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = "import numpy\nimport torch\nimport tf2_ros\n\nprint(numpy, torch, tf2_ros)\n"
+    (workspace / "talker" / "talker" / "extra.py").write_text(code)
+    words = ("talker", "--select", "import-undeclared", "--quiet")
+    before = check(capsys, *words)[1]
+    assert [name for name in ("numpy", "torch", "tf2_ros") if f"'{name}'" in before] == [
+        *("numpy", "torch", "tf2_ros")
+    ]
+    configuration = workspace / "ros2-scaffold.toml"
+    names = '["python3-numpy", "torch", "tf2_ros"]'
+    configuration.write_text(f"[check]\nimplicit-dependencies = {names}\n")
+    assert check(capsys, *words) == (0, "")
+    configuration.write_text('[check]\nimplicit-dependencies = ["torch"]\n')
+    after = check(capsys, *words)[1]
+    assert len(after.splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("distribution = 'humble'", "check.distribution is 'humble': there is data of jazzy only"),
+        (
+            "leave-out = ['vendor']",
+            "check.leave-out has 'vendor', which is no choice; did you mean",
+        ),
+        ("line-length = '99'", "check.line-length must be a number from 1 to 10000"),
+        ("licences = ['MIT']", "[check] has no key 'licences'; did you mean 'licenses'?"),
+        ("implicit-dependencies = 'x'", "check.implicit-dependencies must be a list of strings"),
+    ],
+)
+def test_wrong_values_are_explained(
+    workspace: Path, capsys: pytest.CaptureFixture[str], line: str, message: str
+) -> None:
+    (workspace / "ros2-scaffold.toml").write_text(f"[check]\n{line}\n")
+    assert message in refused(capsys)
+
+
 def test_config_shows_each_value_and_its_file(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -250,6 +339,10 @@ def test_config_shows_each_value_and_its_file(
         ("check.exclude", [], None),
         ("check.leave-out", [*keys.FOREIGN], None),
         ("check.style", "all", None),
+        ("check.line-length", 99, None),
+        ("check.licenses", [], None),
+        ("check.implicit-dependencies", [], None),
+        ("check.distribution", "jazzy", None),
         ("new.rate", 2.5, str(project)),
     ]
     assert main(["config", "talker"]) == 0
@@ -283,6 +376,12 @@ def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
         ("[check]\nselect = 'PX'\n", False),
         ("[check]\nexlude = []\n", False),
         ("[check.severity]\nPX020 = 'warn'\n", False),
+        ("[check]\nleave-out = ['ignore']\n", False),
+        ("[check]\nline-length = 0\n", False),
+        ("[check]\nline-length = true\n", False),
+        ("[check]\nlicenses = 'MIT'\n", False),
+        ("[check]\nimplicit-dependencies = [1]\n", False),
+        ("[check]\ndistribution = 'humble'\n", False),
         ("[check.per-path-ignores]\na = 'PX'\n", False),
         ("content = ['']\n", False),
         ("contnet = []\n", False),

@@ -179,6 +179,7 @@ def run(options: argparse.Namespace) -> int:
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
     session = _session(options, rules, choices)
+    options.policy = choices.policy()
     if is_unsaved:
         return _check_unsaved(options, session, disk)
     targets = _targets(options, session, disk)
@@ -239,6 +240,7 @@ def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choi
         choices.adjustments(is_release=options.release, include_all=options.include_all),
         has_types=not options.no_types,
         is_reference=options.reference_config,
+        line_length=choices.line_length,
     )
 
 
@@ -264,6 +266,7 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
         exclusion=adjustments.exclusion,
         left_out=left_out,
         foreign=adjustments.foreign,
+        policy=options.policy,
     )
     if adjustments.exclusion.patterns:
         packages = sum(map(os.path.isdir, left_out))
@@ -300,7 +303,7 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     """Check or fix standard input; a fixed text is all that standard output gets."""
     from scaffold.cli import reports, standard_input
 
-    target = standard_input.read(options.stdin_filename, disk)
+    target = standard_input.read(options.stdin_filename, disk, options.policy)
     if options.fix:
         result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
         (result,) = baselines.hide(options, [result], [target], session)

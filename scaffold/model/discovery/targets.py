@@ -13,6 +13,7 @@ from scaffold.model.discovery import colcon
 from scaffold.model.discovery.foreign import Foreign
 from scaffold.model.discovery.unchecked import UncheckedPackages
 from scaffold.model.package import Package
+from scaffold.model.workspace.policy import Policy
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.record import NamedTuple
 
@@ -49,6 +50,7 @@ def find(
     exclusion: Exclusion | None = None,
     left_out: set[str] | None = None,
     foreign: Foreign | None = None,
+    policy: Policy | None = None,
 ) -> list[Target]:
     """Return the packages at or below the paths, and those of single files and directories.
 
@@ -62,12 +64,13 @@ def find(
         left_out: Gets the packages that are skipped, and the files of ``paths``.
         foreign: Tells which packages are not the user's: they are skipped likewise, unless there
             are no others. It learns what the user names.
+        policy: What the configuration says that rules have to know.
 
     Raises:
         InputError: a path does not exist, or holds no package.
     """
     disk = disk or Disk()
-    workspace = Workspace(disk=disk)
+    workspace = Workspace(disk=disk, policy=policy)
     if whole_packages:
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]

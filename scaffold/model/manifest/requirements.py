@@ -45,7 +45,7 @@ class Declared(NamedTuple):
 def required_packages(package: Package) -> list[Requirement]:
     """Return what the package imports from others, once each; what is not known is skipped."""
     result: dict[str, Requirement] = {}
-    local = _local_names(package)
+    local = _local_names(package).union(package.workspace.policy.implicit)
     for module in package.modules():
         if not is_shipped(package, module):
             continue
@@ -75,6 +75,7 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
         if dependency.kind.startswith("buildtool")
     }
     direct |= {dependency.name for dependency in manifest.dependencies if dependency.is_optional}
+    direct |= {*package.workspace.policy.implicit}
     if for_tests:
         direct |= manifest.test_names | manifest.build_names
     along = transitive_dependencies(direct)

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.files.disk import Disk
+from scaffold.model.workspace.policy import Policy
 
 if TYPE_CHECKING:
     from scaffold.model.discovery.unchecked import UncheckedPackages
@@ -18,8 +19,15 @@ if TYPE_CHECKING:
 class Workspace:
     """What the packages around one declare and define."""
 
-    def __init__(self, packages: Iterable[Package] = (), disk: Disk | None = None) -> None:
+    def __init__(
+        self,
+        packages: Iterable[Package] = (),
+        disk: Disk | None = None,
+        policy: Policy | None = None,
+    ) -> None:
         self._packages = list(packages)
+        self.policy = policy or Policy()
+        """What the configuration says that rules have to know."""
         self.disk = disk or Disk()
         """What is accessed outside of the packages."""
         self.around: UncheckedPackages | None = None
@@ -100,6 +108,11 @@ class WorkspaceView:
         """The sorted names of the packages; these, a memory of verdicts knows for all."""
         around = self._workspace.around
         return sorted({*self._workspace.by_name, *(around.directories if around else ())})
+
+    @property
+    def policy(self) -> Policy:
+        """What the configuration says that rules have to know."""
+        return self._workspace.policy
 
     @property
     def disk(self) -> Disk:
