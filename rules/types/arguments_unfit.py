@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
-from scaffold.api.types import MARKED, TypeFinding, full_name, parameters
+from scaffold.api.types import MARKED, TypeFinding, full_name, keywords, parameters
 
 _CALLEE = rf"(?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
 _NODE = (
@@ -96,7 +96,9 @@ def _too_many(finding: TypeFinding) -> str:
     is_method = "." in matched["callee"]
     most, count = (int(matched[key]) - is_method for key in ("most", "count"))
     takes = "no positional argument" if not most else f"{most} positional arguments at most"
-    return f"{_shown(matched['callee'])} takes {takes}, not {count}"
+    names = keywords(finding.package, matched["callee"])
+    hint = f" (as keywords: {', '.join(names)})" if names else ""
+    return f"{_shown(matched['callee'])} takes {takes}, not {count}{hint}"
 
 
 def _unknown(finding: TypeFinding) -> str:
@@ -105,10 +107,11 @@ def _unknown(finding: TypeFinding) -> str:
     )
     if matched is None:
         return ""
-    known = parameters(finding.package, matched["callee"])
+    callee = matched["callee"]
+    known = [*parameters(finding.package, callee), *keywords(finding.package, callee)]
     near = closest_name(finding.package, matched["name"], known, 0.6)
     hint = f" (did you mean {near!r}?)" if near else ""
-    return f"{_shown(matched['callee'])} has no argument {matched['name']!r}{hint}"
+    return f"{_shown(callee)} has no argument {matched['name']!r}{hint}"
 
 
 def _repeated(finding: TypeFinding) -> str:

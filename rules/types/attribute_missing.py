@@ -26,6 +26,9 @@ _NODE = (
     "        self.client.{}()\n"
 )
 _CERTAIN = 0.85
+_OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
+_FEW = 6
+"""Names that a message can list."""
 
 
 class AttributeMissing(TypeRule):
@@ -58,6 +61,14 @@ class AttributeMissing(TypeRule):
                 "12:9", "rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError"
             ),
         ),
+        Example(
+            "a field of a message",
+            {
+                "say.py": "from std_msgs.msg import String\n\n"
+                "message = String()\nmessage.text = 'hello'\n"
+            },
+            Report("4:1", "std_msgs.msg.String has no 'text': AttributeError; it has data"),
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -85,6 +96,9 @@ class AttributeMissing(TypeRule):
                 return None
         near = closest_name(finding.package, name, known, 0.6)
         hint = f"; did you mean {near!r}?" if near else ""
+        known -= _OF_ALL_MESSAGES
+        if not near and len(known) <= _FEW:
+            hint = f"; it has {', '.join(sorted(known))}" if known else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
         return self.report(finding, message, _fix(finding, node, near) if near else None)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from scaffold.types.finding import TypeFinding
 from scaffold.types.marks import MARKED, full_name
-from scaffold.types.members import members, module_names, parameters
+from scaffold.types.members import keywords, members, module_names, parameters
 from scaffold.types.wording import (
     class_in,
     class_itself,
@@ -24,6 +24,7 @@ __all__ = [
     "in_words",
     "is_certain",
     "is_function",
+    "keywords",
     "members",
     "module_names",
     "name_of",

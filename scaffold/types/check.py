@@ -157,7 +157,8 @@ class TypeCheck:
             reported = self._run.results()
             for file in asked:
                 found = reported.get(file.source.place, ())
-                stubbed = self._stubbed - _made_here(file.reached)
+                stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
+                stubbed |= _roots(file.reached, are_stubs=True)
                 file.found = [item for item in found if _concerns(item, stubbed)]
             self._confirm([file for file in asked if any(map(_may_be_annotated, file.found or ()))])
         except (UnavailableError, OSError) as error:
@@ -214,12 +215,12 @@ def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
     )
 
 
-def _made_here(reached: Mapping[str, Source]) -> frozenset[str]:
-    """Return the importable packages that are code of the workspace."""
+def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
+    """Return the importable packages that are code of the workspace, or its interfaces."""
     return frozenset(
         place.split("/")[1]
         for place, source in reached.items()
-        if source.path and place.startswith(f"{ty.LIBRARY}/")
+        if bool(source.path) is not are_stubs and place.startswith(f"{ty.LIBRARY}/")
     )
 
 

@@ -9,6 +9,7 @@ import marshal
 import os
 import shutil
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 from scaffold.files import cache, temporary
 from scaffold.files.disk import digest
@@ -24,6 +25,7 @@ _MAGIC = b"scaffold-stubs-1\n"
 _SETTINGS = "home = /nonexistent\nversion = 3.12\n"
 
 
+@lru_cache(maxsize=1)
 def identity(distribution: str) -> str:
     """Return what changes with the stubs of a distribution, and with how they are written."""
     parts = [distribution]

@@ -16,8 +16,8 @@ from scaffold.types.ty import TyDiagnostic
 Node = TypeVar("Node", bound=ast.AST)
 
 _DECIDING = re.compile(
-    r"version|distro|hasattr|callable|isinstance|issubclass|TYPE_CHECKING|platform"
-    r"|_AVAILABLE|HAS_|HAVE_|is None|is not None|ImportError|environ|getenv",
+    r"\b(?:hasattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
+    r"|(?:^|[^a-z])version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_",
     re.IGNORECASE,
 )
 """Matches conditions that ask what there is: for a version, a module, or a kind of object."""
@@ -119,7 +119,7 @@ class TypeFinding:
         for parent in self.module.parents(node):
             match parent:
                 case ast.If() | ast.IfExp() | ast.While() if child is not parent.test:
-                    if _DECIDING.search(ast.unparse(parent.test)):
+                    if self._asks_what_there_is(parent.test):
                         return False
                 case ast.Try() if self._is_tried(parent, child):
                     return False
@@ -127,10 +127,28 @@ class TypeFinding:
                     if any(_expects(item.context_expr) for item in items):
                         return False
                 case ast.BoolOp() if child is not parent.values[0]:
-                    if _DECIDING.search(ast.unparse(parent)):
+                    if self._asks_what_there_is(parent):
                         return False
             child = parent
         return child not in self.module.passed_over
+
+    def _asks_what_there_is(self, test: ast.expr) -> bool:
+        """Tell whether a condition asks for a version, a kind of object, or what was imported."""
+        if _DECIDING.search(ast.unparse(test)):
+            return True
+        names = {node.id for node in ast.walk(test) if isinstance(node, ast.Name)}
+        return not names.isdisjoint(self._imported)
+
+    @cached_property
+    def _imported(self) -> frozenset[str]:
+        """The names that imports bind in the file, where an import may fail."""
+        return frozenset(
+            name
+            for item in self.module.imports
+            if item.guarded
+            for name in (item.asname, *(one.asname or one.name for one in item.names))
+            if name
+        )
 
     def _is_tried(self, node: ast.Try, child: ast.AST) -> bool:
         place = self.module.index.place(child)[0]

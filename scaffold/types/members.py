@@ -38,7 +38,10 @@ def members(package: Package, marked: str) -> frozenset[str]:
 def module_names(package: Package, module: str) -> frozenset[str]:
     """Return the public names of a module."""
     tree = _tree(package, module)
-    names = _names(tree.body) if tree is not None else ()
+    names = {*_names(tree.body)} if tree is not None else set()
+    start = f"{module.replace('.', '/')}/"
+    below = [path[len(start) :] for path in _stubs_of(package, module) if path.startswith(start)]
+    names.update(path.removesuffix(".pyi").partition("/")[0] for path in below)
     return frozenset(name for name in names if not name.startswith("_"))
 
 
@@ -49,10 +52,27 @@ def parameters(package: Package, callee: str) -> Sequence[str]:
         package: Whose code calls it.
         callee: Its name in a message: of a function, or of a method after that of its class.
     """
+    function = _function(package, callee)
+    if function is None:
+        return ()
+    names = [item.arg for item in (*function.args.posonlyargs, *function.args.args)]
+    decorators = function.decorator_list
+    is_static = any(isinstance(item, ast.Name) and item.id == "staticmethod" for item in decorators)
+    return names[1:] if "." in callee and not is_static else names
+
+
+def keywords(package: Package, callee: str) -> Sequence[str]:
+    """Return the names of the parameters that a function takes as keywords alone."""
+    function = _function(package, callee)
+    return [item.arg for item in function.args.kwonlyargs] if function is not None else ()
+
+
+def _function(package: Package, callee: str) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
+    """Return a function or method by its name in a message; ``None`` if it has overloads."""
     owner, _, method = callee.rpartition(".")
     found = _class(package, owner) if owner else None
     if owner and found is None:
-        return ()
+        return None
     if found is not None:
         body: Sequence[ast.stmt] = found[0].body
     else:
@@ -64,14 +84,7 @@ def parameters(package: Package, callee: str) -> Sequence[str]:
         for node in body
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == method
     ]
-    if len(named) != 1:
-        return ()
-    (node,) = named
-    names = [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
-    is_static = any(
-        isinstance(item, ast.Name) and item.id == "staticmethod" for item in node.decorator_list
-    )
-    return names[1:] if owner and not is_static else names
+    return named[0] if len(named) == 1 else None
 
 
 def _class(package: Package, marked: str) -> tuple[ast.ClassDef, str, ast.Module] | None:
@@ -126,24 +139,23 @@ def _names(body: Sequence[ast.stmt]) -> list[str]:
 
 
 def _tree(package: Package, module: str) -> ast.Module | None:
+    return _parsed(_stubs_of(package, module), module)
+
+
+def _stubs_of(package: Package, module: str) -> Mapping[str, str]:
+    """Return the stubs among which a module is: of a package of the workspace, or ours."""
     root = module.partition(".")[0]
     other = package if package.name == root else package.workspace.get(root)
     if other is not None:
-        made = other.remember("stubs", lambda: stubs.interface_stub_files(other))
-        return _parsed(made, module)
-    return _bundled(module)
-
-
-@lru_cache(maxsize=256)
-def _bundled(module: str) -> ast.Module | None:
-    from scaffold.types.check import DISTRIBUTION
-
-    return _parsed(_files(DISTRIBUTION), module)
+        return other.remember("stubs", lambda: stubs.interface_stub_files(other))
+    return _bundled()
 
 
 @lru_cache(maxsize=1)
-def _files(distribution: str) -> Mapping[str, str]:
-    return stubs.stub_files(distribution)
+def _bundled() -> Mapping[str, str]:
+    from scaffold.types.check import DISTRIBUTION
+
+    return stubs.stub_files(DISTRIBUTION)
 
 
 def _parsed(files: Mapping[str, str], module: str) -> ast.Module | None:

@@ -19,7 +19,7 @@ from scaffold.types.stubs import interface_stub_files
 from scaffold.types.ty import LIBRARY
 
 _IMPORT = re.compile(
-    rb"""(?:^|[;:])[ \t]*
+    rb"""^[ \t]*
     (?: from [ \t]+ (?P<base>[.\w]+) [ \t]+ import [ \t]* (?P<names>\([^)]*\)|[^\n#;]*)
       | from [ \t]* (?P<dots>\.+) [ \t]* import [ \t]* (?P<siblings>\([^)]*\)|[^\n#;]*)
       | import [ \t]+ (?P<modules>[^\n#;]+) )""",
@@ -27,6 +27,8 @@ _IMPORT = re.compile(
 )
 _OF_PYTHON = "_py"
 """The end of the name of a package whose Python package lacks it: ``tf2_ros_py``."""
+_LATER = re.compile(rb"[;:][ \t]*(?=(?:from|import)[ \t])")
+"""Matches what is before a second statement on a line."""
 _WORD = re.compile(rb"[\w.]+")
 
 
@@ -56,7 +58,7 @@ def _imports(data: bytes, module: str) -> Iterator[str]:
     """Yield all that may be imported, as absolute dotted names."""
     if b"import" not in data:
         return
-    text = data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
+    text = _LATER.sub(b"\n", data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" "))
     for found in _IMPORT.finditer(text):
         if found["modules"] is not None:
             for part in found["modules"].split(b","):

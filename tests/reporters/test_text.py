@@ -134,10 +134,10 @@ def test_a_terminal_shows_one_screen_and_says_what_is_left_out(crowded: Path) ->
     _, lines = on_terminal(crowded, "robot", lines=30)
     assert len(lines) <= 30
     assert any(re.match(r"not shown: \d+ errors.*; --all shows them", line) for line in lines)
-    assert any(re.match(r"    by code: ND047 \d+", line) for line in lines)
+    assert any(re.match(r"    by code: TY003 \d+", line) for line in lines)
     assert any(re.match(r"    by package: robot \d+", line) for line in lines)
     _, everything = on_terminal(crowded, "--all", "robot", lines=30)
-    assert len([line for line in findings(everything) if " ND047 " in line]) == 40
+    assert len([line for line in findings(everything) if " TY003 " in line]) == 40
 
 
 def test_another_size_of_the_terminal_is_another_report(crowded: Path) -> None:
@@ -163,7 +163,7 @@ def test_severity_hides_but_counts(capsys: pytest.CaptureFixture[str]) -> None:
     _, lines = check(capsys, "--severity", "error", "robot")
     assert {line.split()[1] for line in findings(lines)} == {"error"}
     assert re.search(r"\d+ warnings", lines[-1])
-    code, lines = check(capsys, "--severity", "error", "--ignore", "ND,MS,LY", "robot")
+    code, lines = check(capsys, "--severity", "error", "--ignore", "ND,MS,LY,TY", "robot")
     assert (code, findings(lines)) == (1, [])
 
 

@@ -101,19 +101,6 @@ def _places() -> Mapping[str, str]:
     return result
 
 
-def first_unknown(dotted: str) -> tuple[str, str] | None:
-    """Return the module or class of the table that lacks the next part of a dotted name."""
-    owner, *parts = dotted.split(".")
-    for part in parts:
-        owner = _places().get(owner, owner)
-        if owner not in known_names():
-            return None
-        if not has(owner, part):
-            return owner, part
-        owner = f"{owner}.{part}"
-    return None
-
-
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the class of rclpy, as the table calls it, that an expression is an object of."""
     known = file.classes_of
