@@ -61,13 +61,14 @@ def definitions(directory: str = ".") -> Definitions:
     """Return the definitions of the workspace around a directory, installed ones, common ones."""
     from scaffold.files.disk import Disk
     from scaffold.model.discovery import colcon
+    from scaffold.model.discovery.unchecked import MOST_DIRECTORIES
     from scaffold.model.package import Package
     from scaffold.model.workspace.workspace import Workspace
 
     disk = Disk()
-    sources = colcon.sources_at(disk, disk.real(directory))
     workspace = Workspace()
-    for package_directory in colcon.package_directories(disk, sources) if sources else ():
+    real = disk.real(directory)
+    for package_directory in colcon.packages_around(disk, real, most=MOST_DIRECTORIES):
         if _has_interfaces(package_directory):
             workspace.add(Package.at(package_directory, workspace))
     return Definitions.around(workspace)

@@ -100,6 +100,34 @@ def sources_at(disk: Disk, directory: str) -> str | None:
     return below if disk.is_directory(below) else sources_around(disk, directory)
 
 
+def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
+    """Return the packages of the workspace that somebody in a directory works on.
+
+    Without a directory ``src``, these are the packages side by side there, and all in the git
+    repository around it.
+
+    Args:
+        disk: Records what was accessed.
+        directory: An absolute path without links.
+        most: Directories of a repository to search at most; a larger one is taken to hold none.
+    """
+    sources = sources_at(disk, directory)
+    if sources is not None:
+        return package_directories(disk, sources)
+    around = package_around(disk, directory)
+    beside = os.path.dirname(around) if around is not None else directory
+    found = [
+        path
+        for path in (os.path.join(beside, name) for name in disk.names(beside)[1])
+        if disk.is_file(os.path.join(path, MANIFEST)) and _is_visible(disk, path)
+    ]
+    tops = (item for item in _upwards(directory) if disk.exists(os.path.join(item, ".git")))
+    top = next(tops, None)
+    if top is not None:
+        found += package_directories(disk, top, most=most)
+    return sorted({*found})
+
+
 def _upwards(directory: str) -> list[str]:
     result = [directory]
     while result[-1] != os.path.dirname(result[-1]):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from scaffold.cli.main import main
+from scaffold.generate import payload
 
 
 @pytest.fixture(autouse=True)
@@ -38,3 +39,29 @@ def test_messages_of_the_workspace(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_a_node_named_like_a_class_that_it_imports(capsys: pytest.CaptureFixture[str]) -> None:
     assert new("poses", "--node-name", "pose", "--message-type", "geometry_msgs/PoseArray") == 0
     assert "internal error" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", [".", "my_robot", "beat_interfaces"])
+def test_messages_of_packages_side_by_side(
+    place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A repository without `src`, from its top, from a directory and from a package."""
+    top = tmp_path / "repository"
+    top.mkdir()
+    monkeypatch.chdir(top)
+    assert main(["new", "beat_interfaces", "--add", "message:Beat fields='int32 count'"]) == 0
+    (top / ".git").mkdir()
+    (top / "my_robot").mkdir()
+    names = payload.definitions(str(top / place)).matches("Beat")
+    assert names == ["beat_interfaces/msg/Beat"]
+
+
+def test_messages_next_to_a_package_without_a_repository(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "beat_interfaces", "--add", "message:Beat fields='int32 count'"]) == 0
+    assert main(["new", "heart", "--message-type", "beat_interfaces/Beat"]) == 0
+    (tmp_path / "beat_interfaces" / "COLCON_IGNORE").touch()
+    assert payload.definitions(str(tmp_path)).matches("Beat") == []
+    assert payload.definitions(str(tmp_path / "nowhere")).matches("Beat") == []
