@@ -34,7 +34,7 @@ class Convention(NamedTuple):
 
 def of_message(full_name: str) -> Convention:
     """Return what is usual for messages of a type, such as ``sensor_msgs/msg/LaserScan``."""
-    known = _table().get((full_name, ""))
+    known = table().get((full_name, ""))
     if known is not None:
         return known
     package, _, name = full_name.split("/")
@@ -43,11 +43,11 @@ def of_message(full_name: str) -> Convention:
 
 def of_topic(full_name: str, topic: str) -> Convention:
     """Return what is usual for a topic with messages of a type."""
-    return _table().get((full_name, topic.strip("~/")), of_message(full_name))
+    return table().get((full_name, topic.strip("~/")), of_message(full_name))
 
 
 @cache
-def _table() -> Mapping[tuple[str, str], Convention]:
+def table() -> Mapping[tuple[str, str], Convention]:
     """Return the table by type, and the topic where that decides."""
     result: dict[tuple[str, str], Convention] = {}
     with open(_TABLE, encoding="utf-8") as file:

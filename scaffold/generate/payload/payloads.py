@@ -8,7 +8,8 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from scaffold.generate.payload import conventions, processing
+from scaffold.generate.payload import conventions, effects, processing
+from scaffold.generate.payload.effects import Effects
 from scaffold.generate.payload.processing import Process
 from scaffold.generate.questions.names import header_name
 from scaffold.record import NamedTuple
@@ -72,6 +73,11 @@ class Payload(NamedTuple):
         """Return the usual quality of service of who subscribes to them on a topic."""
         return conventions.of_topic(self.type, topic).requested
 
+    @property
+    def effects(self) -> Effects:
+        """What the statements do to the fields."""
+        return effects.of_statements(self.statements, "msg")
+
     def processed(self, published: Payload) -> Process | None:
         """Return how messages of another type are made of these; ``None`` if nobody knows."""
         return processing.of_pair(self, published)
@@ -131,6 +137,12 @@ class SectionPayload(NamedTuple):
     def check_imports(self) -> tuple[str, ...]:
         """Import statements that the checks need, except the one of the interface."""
         return _needed(self.imports, self.checks)
+
+    @property
+    def effects(self) -> Effects:
+        """What the statements do to the fields."""
+        target = self.statements[0].partition(".")[0] if self.statements else ""
+        return effects.of_statements(self.statements, target)
 
     @property
     def example(self) -> str:

@@ -59,7 +59,7 @@ class Process(NamedTuple):
 
 def of_pair(received: Payload, published: Payload) -> Process | None:
     """Return how messages of one type are made of those of another; ``None`` if nobody knows."""
-    known = _PROCESSES.get((_short(received.type), _short(published.type)))
+    known = PROCESSES.get((_short(received.type), _short(published.type)))
     return known or _of_values(received, published)
 
 
@@ -163,7 +163,7 @@ def _part(says: str, target: str, path: str) -> Process:
     )
 
 
-_PROCESSES: dict[tuple[str, str], Process] = {
+PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/LaserScan", "std_msgs/Float32"): _DISTANCE,
     ("sensor_msgs/LaserScan", "std_msgs/Float64"): _DISTANCE,
     ("sensor_msgs/LaserScan", "std_msgs/Bool"): Process(

@@ -229,7 +229,9 @@ def resolve(
     def add(question: Question, found: Given) -> None:
         value = answers.values[question.name] = parse(question, found, where)
         is_list = question.type == SEVERAL and question.choices
-        answers.written[question.name] = [*value] if is_list else found.value
+        is_derived_rate = question.type == "rate" and found.origin == "default"
+        written = value if is_derived_rate else found.value
+        answers.written[question.name] = [*value] if is_list else written
 
     later = [item for item in questions if item.name not in given and is_derived(item.default)]
     for question in questions:

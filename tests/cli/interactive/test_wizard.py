@@ -91,9 +91,9 @@ def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
     terminal.answer("Build system:", DOWN + ENTER)
     terminal.answer("What is in the package?", "publisher" + ENTER)
     terminal.answer("Name of the node", "\x15speaker" + ENTER)
-    terminal.answer("Topic to publish on:", "\x15chatter" + ENTER)
+    terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
     terminal.answer("What to publish:", "\x15sensor_msgs/msg/Temperature" + ENTER)
-    terminal.answer("Messages per second:", "\x155" + ENTER)
+    terminal.answer("Messages per second", "\x155" + ENTER)
     terminal.answer("Quality of service", ENTER)
     terminal.answer("What else is in the package?", then)
 
@@ -181,7 +181,7 @@ def test_message_types_are_completed(terminal: Terminal) -> None:
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "publisher" + ENTER)
     terminal.answer("Name of the node", ENTER)
-    terminal.answer("Topic to publish on:", ENTER)
+    terminal.answer("Topic to publish on", ENTER)
     terminal.answer("What to publish:", "\x15LaserSc")
     terminal.says("sensor_msgs/msg/LaserScan")
 
@@ -245,11 +245,12 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
     terminal.answer("Name of the node", ENTER)
-    terminal.answer("Topic to subscribe to:", "\x15chatter" + ENTER)
-    terminal.answer("Topic to publish on:", "\x15chatter" + ENTER)
+    terminal.answer("Topic to subscribe to", "\x15chatter" + ENTER)
+    terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
     terminal.answer("What to publish:", ENTER)
     terminal.answer("What to receive (default: the same as what is published):", ENTER)
     terminal.answer("Quality of service", ENTER)
+    terminal.answer("Quality of service of what is received", ENTER)
     terminal.says("both '/chatter'")
     terminal.answer("What is in the package?", "timer" + ENTER)
     terminal.answer("Name of the node", ENTER)
@@ -262,7 +263,7 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
 def test_the_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
     through_the_publisher(terminal, "subscriber" + ENTER)
     terminal.answer("Name of the node", ENTER)
-    terminal.answer("Topic to subscribe to:", "\x15/chatter" + ENTER)
+    terminal.answer("Topic to subscribe to", "\x15/chatter" + ENTER)
     terminal.says("sensor_msgs/msg/Temperature")
 
 

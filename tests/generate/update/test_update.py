@@ -93,7 +93,7 @@ def test_both_changes_come_together(
     merged = node.read_text()
     assert "Log and count the message" in merged
     assert "Declare what can change, and" in merged
-    assert "Date: 2023-11-14" in merged
+    assert "# Copyright 2023 Ada\n" in merged
     assert os.access(node, os.X_OK)
     assert (package / "NOTES.md").read_text() == "# talker\n"
     assert main(["update", "talker", "--content", str(team)]) == 0

@@ -1,0 +1,155 @@
+"""What statements do to the fields of a message: what a test of the node has to see."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+from scaffold.record import NamedTuple
+
+_CHANGING = frozenset({"count", "get_clock", "uuid4"})
+"""What gives another value each time: attributes of the node, and a function."""
+_FRAME = "frame_id"
+
+
+class Effects(NamedTuple):
+    """The fields that statements fill, each once and by its path, such as ``header.stamp``."""
+
+    constant: tuple[tuple[str, str], ...] = ()
+    """Fields with a value that never changes, and that value as code."""
+    changing: tuple[str, ...] = ()
+    """Fields that differ from one message to the next."""
+    filled: tuple[str, ...] = ()
+    """Other fields whose value is not the default."""
+    frames: tuple[str, ...] = ()
+    """Fields that hold the frame of the node's parameter."""
+
+
+def of_statements(statements: Iterable[str], target: str) -> Effects:
+    """Return what statements do to the fields of a variable."""
+    walk = _Walk(target)
+    walk.body(ast.parse("\n".join(statements)).body)
+    paths = dict.fromkeys(walk.order)
+    known = {*walk.constant, *walk.changing, *walk.frames}
+    return Effects(
+        tuple((path, walk.constant[path]) for path in paths if path in walk.constant),
+        tuple(path for path in paths if path in walk.changing),
+        tuple(path for path in paths if path in walk.filled - known),
+        tuple(path for path in paths if path in walk.frames),
+    )
+
+
+class _Walk:
+    """Follows what changes through the statements."""
+
+    def __init__(self, target: str) -> None:
+        self._target = target
+        self._changing_names: set[str] = set()
+        self.order: list[str] = []
+        self.constant: dict[str, str] = {}
+        self.changing: set[str] = set()
+        self.filled: set[str] = set()
+        self.frames: set[str] = set()
+
+    def body(self, statements: Iterable[ast.stmt], *, inside: bool = False) -> None:
+        """Follow statements; those inside a loop or a condition have no constant effect."""
+        for statement in statements:
+            match statement:
+                case ast.Assign(targets=[target], value=value):
+                    self._assign(target, value, inside=inside)
+                case ast.AugAssign(target=target, value=value):
+                    self._assign(target, value, inside=True)
+                case ast.Expr(value=ast.Call(func=ast.Attribute(value=owner), args=[value, *_])):
+                    self._assign(owner, value, inside=True)
+                case ast.For(iter=values, body=body, target=target):
+                    if self._is_changing(values):
+                        self._changing_names |= set(_names(target))
+                    self.body(body, inside=True)
+                case ast.If(test=test, body=body, orelse=orelse):
+                    if self._is_changing(test):
+                        self._depend([*body, *orelse])
+                    self.body([*body, *orelse], inside=True)
+
+    def _depend(self, statements: Iterable[ast.stmt]) -> None:
+        """Note that what statements assign depends on something that changes."""
+        for statement in statements:
+            if isinstance(statement, ast.Assign):
+                path = self._path(statement.targets[0])
+                if path:
+                    self.order.append(path)
+                    self.changing.add(path)
+
+    def _assign(self, target: ast.expr, value: ast.expr, *, inside: bool) -> None:
+        is_changing = self._is_changing(value)
+        path = self._path(target)
+        if not path:
+            if is_changing:
+                self._changing_names |= set(_names(target))
+            return
+        self.order.append(path)
+        is_whole = isinstance(target, ast.Attribute) and not inside
+        if is_changing:
+            self.changing.add(path)
+            self.constant.pop(path, None)
+        elif _is_frame(value) and is_whole:
+            self.frames.add(path)
+        elif is_whole and path not in self.changing and _is_literal(value):
+            self.constant[path] = ast.unparse(value)
+        else:
+            self.constant.pop(path, None)
+            if _differs(value):
+                self.filled.add(path)
+
+    def _path(self, node: ast.expr) -> str:
+        """Return which field of the target is meant; empty if it is something else."""
+        names: list[str] = []
+        while not isinstance(node, ast.Name):
+            if isinstance(node, ast.Attribute):
+                names.append(node.attr)
+                node = node.value
+            elif isinstance(node, ast.Subscript):
+                names.clear()
+                node = node.value
+            else:
+                return ""
+        return ".".join(reversed(names)) if node.id == self._target else ""
+
+    def _is_changing(self, node: ast.expr) -> bool:
+        for inner in ast.walk(node):
+            if isinstance(inner, ast.Attribute):
+                path = self._path(inner)
+                if inner.attr in _CHANGING or any(
+                    path == field or path.startswith(f"{field}.") for field in self.changing
+                ):
+                    return True
+            if isinstance(inner, ast.Name) and inner.id in self._changing_names | _CHANGING:
+                return True
+        return False
+
+
+def _names(target: ast.expr) -> Iterator[str]:
+    """Yield the names that an assignment gives a value, or whose object it changes."""
+    for node in ast.walk(target):
+        if isinstance(node, ast.Name):
+            yield node.id
+
+
+def _is_frame(value: ast.expr) -> bool:
+    return isinstance(value, ast.Attribute) and value.attr == _FRAME
+
+
+def _differs(value: ast.expr) -> bool:
+    """Tell whether a value is surely not the default of its field: constants of types may be."""
+    return not isinstance(value, ast.Attribute) and any(
+        bool(node.value) if isinstance(node, ast.Constant) else isinstance(node, ast.Name)
+        for node in ast.walk(value)
+    )
+
+
+def _is_literal(value: ast.expr) -> bool:
+    """Tell whether a value is a number, a text or a flag that is not the default of its field."""
+    try:
+        literal = ast.literal_eval(value)
+    except ValueError:
+        return False
+    return isinstance(literal, bool | int | float | str) and bool(literal)
