@@ -113,3 +113,34 @@ def test_building(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     said = capsys.readouterr().out
     assert "cpp_broken: alone, ament_cmake: does not build\n" in said
     assert "nothing" in said
+
+
+def test_one_file_of_a_template_is_overridden(tmp_path: Path) -> None:
+    own = tmp_path / "team" / "templates" / "package"
+    own.mkdir(parents=True)
+    (own / "README.md.jinja").write_text("# {{ package }} of our team\n")
+    (own / "NOTES.md.jinja").write_text("{{ maintainer_name }}\n")
+    words = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
+    words += ["--content", str(tmp_path / "team"), "--destination-directory", str(tmp_path)]
+    assert main(["new", "talker", *words]) == 0
+    talker = tmp_path / "talker"
+    assert (talker / "README.md").read_text() == "# talker of our team\n"
+    assert (talker / "NOTES.md").read_text() == "Ada\n"
+    assert (talker / "package.xml").exists()
+
+
+@pytest.mark.parametrize(
+    ("directory", "message"),
+    [
+        ("nodes/publishr", "has no template.yaml, and there is no 'publishr' to override"),
+        ("extras/publisher", "has no template.yaml, and there is no 'publisher' to override"),
+        ("node", "templates are in package and build_types, nodes, interfaces, programs, extras"),
+    ],
+)
+def test_what_overrides_nothing_is_refused(
+    directory: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = tmp_path / "templates" / directory
+    place.mkdir(parents=True)
+    assert main(["templates", "list", str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"ros2-scaffold: error: {place}: {message}\n"

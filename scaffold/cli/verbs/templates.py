@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
         templates_of = [
             name
             for name, item in templates.items()
-            if os.path.realpath(item.directory).startswith(within)
+            if any(os.path.realpath(place).startswith(within) for place in item.directories)
         ]
     else:
         templates_of = list(templates)

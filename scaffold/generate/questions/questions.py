@@ -98,10 +98,17 @@ def _help(question: Question) -> str:
         details.append(", ".join(question.choices))
     if question.default not in (None, []) and "{" not in str(question.default):
         default = question.default
-        shown = ", ".join(map(str, default)) if isinstance(default, list) else default
+        shown = _listed(question, default) if isinstance(default, list) else default
         details.append(f"default: {shown}")
     text = f"{question.help} ({'; '.join(details)})" if details else question.help
     return text.replace("%", "%%")
+
+
+def _listed(question: Question, default: Sequence[object]) -> str:
+    """Return several answers as the flag takes them: fields have spaces, so they need quotes."""
+    if question.type == "fields":
+        return " ".join(f"'{item}'" for item in default)
+    return ", ".join(map(str, default))
 
 
 def _metavar(question: Question) -> str:

@@ -44,12 +44,12 @@ class LocalEngine:
 
     Args:
         roots: The ``templates`` directories; a later one wins.
-        directories: The directories of the templates in them, by name.
+        directories: The directories of the templates in them, by name; the first one wins.
         is_tutorial: Whether the lines for learners are kept.
     """
 
     def __init__(
-        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+        self, roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
     ) -> None:
         self._is_tutorial = is_tutorial
         self._loader = _Loader(roots, directories, is_tutorial=is_tutorial)
@@ -125,7 +125,7 @@ class _Loader(BaseLoader):
     """
 
     def __init__(
-        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+        self, roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
     ) -> None:
         self._roots = roots
         self._templates = directories
@@ -164,7 +164,7 @@ class _Loader(BaseLoader):
 
     def _directories(self, first: str) -> list[str]:
         if first in self._templates:
-            return [self._templates[first]]
+            return list(self._templates[first])
         return [os.path.join(root, first) for root in reversed(self._roots)]
 
     def _with_comments(self, text: str) -> str:

@@ -44,7 +44,7 @@ class ForeignEngine:
     """Renders in another process; see `scaffold.generate.templates.engine.LocalEngine`."""
 
     def __init__(
-        self, roots: Sequence[str], directories: Mapping[str, str], *, is_tutorial: bool
+        self, roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
     ) -> None:
         self._directories = directories
         self._setup = [os.path.abspath(root) for root in roots], directories, is_tutorial
@@ -97,11 +97,12 @@ class ForeignEngine:
         """Return the file of a template, or of the manifest that a short text is from."""
         first, _, rest = name.partition("/")
         if first in self._directories and rest:
-            return os.path.join(self._directories[first], rest)
+            places = [os.path.join(place, rest) for place in self._directories[first]]
+            return next(filter(os.path.exists, places), places[-1])
         short = name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}..."
         inner = name.removeprefix("{% if ").removesuffix(" %}true{% endif %}")
-        for directory in self._directories.values():
-            manifest = os.path.join(directory, "template.yaml")
+        for directories in self._directories.values():
+            manifest = os.path.join(directories[-1], "template.yaml")
             with open(manifest, encoding="utf-8", errors="replace") as file:
                 if inner in file.read():
                     return f"{manifest}: {short!r}"

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
+from itertools import chain
 from typing import Any
 
 from scaffold.configuration import content
@@ -44,7 +45,7 @@ class Renderer:
     def __init__(
         self, roots: Sequence[str], templates: Mapping[str, Template], *, is_tutorial: bool
     ) -> None:
-        directories = {name: template.directory for name, template in templates.items()}
+        directories = {name: template.directories for name, template in templates.items()}
         make = LocalEngine if _are_built_in(roots) else ForeignEngine
         self._engine: Engine = make(roots, directories, is_tutorial=is_tutorial)
 
@@ -101,7 +102,7 @@ class Renderer:
         notes: dict[str, str] = {}
         unread: list[str] = []
         for layer, scope in scopes:
-            for source in _sources(layer.directory):
+            for source in dict.fromkeys(chain(*map(_sources, layer.directories))):
                 if not self._is_included(layer, source, scope):
                     continue
                 path = self._path(layer, source, scope)

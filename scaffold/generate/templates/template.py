@@ -108,6 +108,13 @@ class Template(NamedTuple):
     """What a file is for, by path pattern."""
     examples: Mapping[str, Mapping[str, Any]]
     """Answers by title: tests, and documentation."""
+    overrides: Sequence[str] = ()
+    """Directories with some files instead of its own; a later one wins."""
+
+    @property
+    def directories(self) -> list[str]:
+        """Where its files are, the one that wins first."""
+        return [*reversed(self.overrides), self.directory]
 
     @property
     def name_question(self) -> str:
@@ -158,11 +165,16 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
             templates ask different questions under one name.
     """
     places: dict[str, tuple[str, Role]] = {}
+    overrides: dict[str, list[str]] = {}
     for root in roots:
-        places |= _places(root)
+        own = _places(root)
+        places |= own
+        overrides |= {name: [] for name in own}
+        for name, directory in _overrides(root, places):
+            overrides[name].append(directory)
     manifests = _manifests([places[name][0] for name in sorted(places)])
     found = {
-        name: _load_one(name, *places[name], manifest)
+        name: _load_one(name, *places[name], manifest)._replace(overrides=overrides[name])
         for name, manifest in zip(sorted(places), manifests, strict=True)
     }
     if found[BASE].role is not Role.PACKAGE if BASE in found else True:
@@ -195,6 +207,33 @@ def _places(root: str) -> dict[str, tuple[str, Role]]:
                 raise ContentError(f"{directory}: {result[name][0]} has the same name")
             result[name] = directory, FOLDERS[folder]
     return result
+
+
+def _overrides(root: str, places: Mapping[str, tuple[str, Role]]) -> Iterator[tuple[str, str]]:
+    """Yield the templates that a directory overrides some files of, and where those are.
+
+    Raises:
+        ContentError: it has files of a template that does not exist.
+    """
+    for folder in sorted(os.listdir(root)):
+        place = os.path.join(root, folder)
+        if folder.startswith(("_", ".")) or not os.path.isdir(place):
+            continue
+        if folder == BASE:
+            if not os.path.isfile(os.path.join(place, MANIFEST)):
+                yield BASE, place
+            continue
+        if folder not in FOLDERS:
+            raise ContentError(f"{place}: templates are in {BASE} and {', '.join(FOLDERS)}")
+        for name in sorted(os.listdir(place)):
+            directory = os.path.join(place, name)
+            if not os.path.isdir(directory) or os.path.isfile(os.path.join(directory, MANIFEST)):
+                continue
+            if places.get(name, ("", None))[1] is not FOLDERS[folder]:
+                raise ContentError(
+                    f"{directory}: has no {MANIFEST}, and there is no {name!r} to override"
+                )
+            yield name, directory
 
 
 def _templates(place: str) -> Iterator[str]:
