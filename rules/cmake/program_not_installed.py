@@ -113,20 +113,20 @@ class ProgramNotInstalled(Rule):
         known = {program.path for program in programs(package)}
         at = next((install.command for install in installs if install.kind == "PROGRAMS"), None)
         used = tuple(f"/{path}" for path in paths_imported_by(package, known))
-        for module in package.modules():
-            if module.path in known or not is_started(package, module):
+        for path in package.python_files:
+            if path in known or not is_started(package, path):
                 continue
-            if f"/{module.path}".endswith(used):
+            if f"/{path}".endswith(used):
                 continue
-            if is_used_by_build(package, module.path) or self._is_misspelled(package, module.path):
+            if is_used_by_build(package, path) or self._is_misspelled(package, path):
                 continue
             place = at.name_location if at else cmake.find("ament_package")[0].name_location
             message = (
-                f"{module.path} is a node with a main function, but not installed: `ros2 "
+                f"{path} is a node with a main function, but not installed: `ros2 "
                 "run` does not find it"
             )
-            directory = module.path.rpartition("/")[0]
-            has_neighbor = any(path.rpartition("/")[0] == directory for path in known)
+            directory = path.rpartition("/")[0]
+            has_neighbor = any(other.rpartition("/")[0] == directory for other in known)
             severity = Severity.ERROR if has_neighbor else Severity.WARNING
             yield self.report(place, message, severity=severity)
 

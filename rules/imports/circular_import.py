@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import Import, PythonModule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, fact
+from scaffold.api.python import Import, imports_by_path
 
 _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
 
@@ -48,39 +48,46 @@ class CircularImport(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         edges: dict[tuple[str, str], Import] = {}
-        for module in package.modules():
-            for one in module.imports:
+        for where, imports in imports_by_path(package):
+            for one in imports:
                 if one.top_level and one.names and not one.guarded:
-                    path = _file_of(package, module, one)
-                    if path and path != module.path:
-                        edges.setdefault((module.path, path), one)
+                    path = _file_of(package, where, one)
+                    if path and path != where:
+                        edges.setdefault((where, path), one)
         for (path, other), one in edges.items():
             back = edges.get((other, path))
-            if back is None or not self._takes_names(package, one, other):
+            if back is None or not _takes_names(package, one, other):
                 continue
-            if self._takes_names(package, back, path):
+            if _takes_names(package, back, path):
                 message = (
                     f"circular import: {other}:{back.location.line} imports from this module as "
                     "well, so one of them fails with ImportError"
                 )
                 yield self.report(one, message)
 
-    def _takes_names(self, package: Package, node: Import, path: str) -> bool:
-        """Tell whether an import takes what the module makes after its own imports."""
-        module = package.module(path)
-        last = max((other.location.line for other in module.imports if other.top_level), default=0)
-        lines = [
-            getattr(binding.node, "lineno", 0)
-            for name in node.names
-            for binding in module.index.bindings(module.tree).get(name.name, ())
-            if binding.kind != "import"
-        ]
-        return any(line > last for line in lines)
+
+def _takes_names(package: Package, node: Import, path: str) -> bool:
+    """Tell whether an import takes what the module makes after its own imports."""
+    late = _late_names(package, path)
+    return any(name.name in late for name in node.names)
 
 
-def _file_of(package: Package, module: PythonModule, node: Import) -> str:
+@fact
+def _late_names(package: Package, path: str) -> frozenset[str]:
+    """Return the names that a module makes after its own imports."""
+    module = package.module(path)
+    last = max((other.location.line for other in module.imports if other.top_level), default=0)
+    return frozenset(
+        name
+        for name, bindings in module.index.bindings(module.tree).items()
+        for binding in bindings
+        if binding.kind != "import" and getattr(binding.node, "lineno", 0) > last
+    )
+
+
+def _file_of(package: Package, where: str, node: Import) -> str:
     parts = node.module.split(".") if node.module else []
     if node.level:
-        parts = [*module.path.split("/")[: -node.level], *parts]
+        parts = [*where.split("/")[: -node.level], *parts]
     base = "/".join(parts)
     return next((path for path in (f"{base}.py", f"{base}/__init__.py") if package.has(path)), "")

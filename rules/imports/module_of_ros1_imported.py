@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import imports_by_path
 
 _NEW = {
     "actionlib": "rclpy.action",
@@ -45,14 +46,12 @@ class ModuleOfRos1Imported(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if not (package.manifest.build_type or "").startswith("ament"):
             return
-        for module in package.modules():
-            if "rclpy" not in module.imports_by_root or module.in_tests:
+        for _, imports in imports_by_path(package):
+            if all(item.root != "rclpy" or item.in_tests for item in imports):
                 continue
-            for root, new in _NEW.items():
-                for item in module.imports_by_root.get(root, ()):
-                    if (
-                        not item.guarded
-                        and not item.conditional
-                        and not package.has_directory(root)
-                    ):
-                        yield self.report(item, f"{root!r} belongs to ROS 1; use {new}")
+            for item in imports:
+                if item.root not in _NEW or item.guarded or item.conditional:
+                    continue
+                if not package.has_directory(item.root):
+                    message = f"{item.root!r} belongs to ROS 1; use {_NEW[item.root]}"
+                    yield self.report(item, message)

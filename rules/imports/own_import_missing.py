@@ -14,7 +14,7 @@ from scaffold.api.install import (
     own_roots,
     uninstalled_import,
 )
-from scaffold.api.python import Import, PythonModule
+from scaffold.api.python import Import, exports_of, imports_by_path
 
 _SETUP = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
@@ -121,18 +121,18 @@ class OwnImportMissing(Rule):
         if package.has("CMakeLists.txt") and package.cmake.find(*makers):
             return  # modules of the package are generated
         roots = own_roots(package)
-        for module in package.modules():
-            for item in module.imports if module.path != "setup.py" else ():
+        for where, imports in imports_by_path(package):
+            for item in imports if where != "setup.py" else ():
                 if not (item.guarded or item.conditional or item.type_checking):
-                    yield from self._check(package, module, item, roots)
+                    yield from self._check(package, where, item, roots)
 
     def _check(
-        self, package: Package, module: PythonModule, node: Import, roots: set[str]
+        self, package: Package, where: str, node: Import, roots: set[str]
     ) -> Iterator[Diagnostic]:
-        name = absolute_name(module, node)
+        name = absolute_name(where, node)
         root = name.partition(".")[0]
         path = file_of(package, name)
-        missing = "" if node.level else uninstalled_import(package, module, name)
+        missing = "" if node.level else uninstalled_import(package, where, name)
         if missing:
             message = f"{missing} is not installed with this program: ModuleNotFoundError"
             yield self.report(node, message)
@@ -145,7 +145,7 @@ class OwnImportMissing(Rule):
                 hint = f"; closest: {near!r}" if near else ""
                 yield self.report(node, f"the package has no module {name!r}{hint}")
         elif not node.level:
-            meant = meant_module(package, module, name)
+            meant = meant_module(package, where, name)
             if meant:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
                 yield self.report(node, f"{message}; closest: {meant!r}")
@@ -154,15 +154,15 @@ class OwnImportMissing(Rule):
         self, package: Package, node: Import, name: str, path: str
     ) -> Iterator[Diagnostic]:
         try:
-            module = package.module(path)
+            exports = exports_of(package, path)
         except ViewError:
             return
         for imported in node.names:
-            if imported.name == "*" or module.defines(imported.name) is not False:
+            if imported.name == "*" or exports.defines(imported.name) is not False:
                 continue
             below = f"{name}.{imported.name}"
             if file_of(package, below) or may_be_made(package, below):
                 continue
-            near = closest_name(package, imported.name, [*module.functions, *module.classes], 0.6)
+            near = closest_name(package, imported.name, [*exports.functions, *exports.classes], 0.6)
             hint = f"; closest: {near!r}" if near else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import Import
+from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
+from scaffold.api.python import Import, PythonModule
 
 _NAMES: Mapping[str, str] = {
     "launch": "LaunchContext LaunchDescription LaunchDescriptionSource LaunchService actions "
@@ -47,7 +47,7 @@ _NAMES: Mapping[str, str] = {
 _LAUNCH = "from {} import Node\nfrom launch.actions import {}\n"
 
 
-class ImportFromWrongModule(Rule):
+class ImportFromWrongModule(PythonRule):
     """A name of launch is imported from a module that does not have it.
 
     **Why.** ``ros2 launch`` stops: ``ImportError: cannot import name 'Node' from
@@ -77,17 +77,19 @@ class ImportFromWrongModule(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the Python files of a package that does not define these modules."""
+        roots = {module.partition(".")[0] for module in _NAMES}
+        return () if package.name in roots else super().paths(package)
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         known = {module: frozenset(names.split()) for module, names in _NAMES.items()}
         places = {name: module for module, names in known.items() for name in names}
         roots = {module.partition(".")[0] for module in known}
-        if package.name in roots:
-            return
-        for module in package.modules():
-            for root in roots:
-                for item in module.imports_by_root.get(root, ()):
-                    if not item.guarded and not item.conditional:
-                        yield from self._check(item, known, places)
+        for root in roots:
+            for item in module.imports_by_root.get(root, ()):
+                if not item.guarded and not item.conditional:
+                    yield from self._check(item, known, places)
 
     def _check(
         self, node: Import, known: Mapping[str, frozenset[str]], places: Mapping[str, str]

@@ -56,22 +56,22 @@ class NamespaceNotInFile(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         installed = share_of(package).files
         for node in consumers(package):
-            if node.is_scoped or node.full_name is None or not node.namespace:
+            if node.is_scoped or node.full_name(package) is None or not node.namespace:
                 continue
             for named, _ in node.parameter_files:
                 path = installed.get(named, named)
                 file = parameter_file(package, path) if package.has(path) else None
-                message = _complaint(node, file) if file is not None else None
+                message = _complaint(package, node, file) if file is not None else None
                 if message is not None:
                     yield self.report(node.namespace_location, message)
 
 
-def _complaint(node: StartedNode, file: ParameterFile) -> str | None:
-    full = node.full_name or ""
+def _complaint(package: Package, node: StartedNode, file: ParameterFile) -> str | None:
+    full = node.full_name(package) or ""
     if any(section.fits(full) for section in file.sections):
         return None
     for section in file.sections:
-        if section.node.rpartition("/")[2] == node.name:
+        if section.node.rpartition("/")[2] == node.name(package):
             return (
                 f"the node runs as {full}, but {file.path}:{section.key.location.line} is for "
                 f"{section.node}: it is ignored"

@@ -55,7 +55,7 @@ class NodeNameRepeated(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         first: dict[tuple[str, str], int] = {}
         for node in started_nodes(package):
-            full = node.full_name if node.is_certain else None
+            full = node.full_name(package) if node.is_certain else None
             if full is None:
                 continue
             at = node.name_location

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import consumers
+from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api.launch import NODES, LaunchFile, parameters_given
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -19,7 +19,7 @@ def _launch(value: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(value)}
 
 
-class ParameterRefusedByLaunch(Rule):
+class ParameterRefusedByLaunch(LaunchRule):
     """A parameter in a launch file is ``None``, an empty list or a list of mixed types.
 
     **Why.** ``ros2 launch`` stops: ``Unexpected type for parameter value None``, ``Expected a
@@ -52,13 +52,12 @@ class ParameterRefusedByLaunch(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for started in consumers(package):
-            for name, _, node in started.parameter_dicts:
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES, "ComposableNode"):
+            for name, _, node in parameters_given(launch, call):
                 problem = _problem(node)
                 if problem:
-                    message = f"the parameter {name!r} {problem}"
-                    yield self.report(started.launch.location(node), message)
+                    yield self.report(launch.location(node), f"the parameter {name!r} {problem}")
 
 
 def _problem(node: ast.expr) -> str:

@@ -6,8 +6,18 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, Severity
-from scaffold.api.launch import LaunchFile, consumers, markup_files
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    fact,
+)
+from scaffold.api.launch import NODES, LaunchFile, launch_paths, markup_files, parameter_items
 
 _HOME = (
     r"(?:file://)?(?:/(?:home|Users)/[^/\s]+/|/root/|~?/[\w/]*(?:_ws|workspaces?)/(?:src|install)/)"
@@ -76,26 +86,57 @@ class PathOfAuthor(Rule):
             if matched:
                 message = f"{text!r} exists on one machine only; build it from the share directory"
                 yield self.report(at, message)
-        for node in consumers(package):
-            for item in node.parameters:
-                value = node.launch.evaluator.evaluate(item)
-                if not isinstance(value, str) or value.startswith(("/", "~")):
-                    continue
-                if package.has(value) or value.startswith("src/"):
-                    message = (
-                        f"{value!r} is relative to the directory of `ros2 launch`, not to this file"
-                    )
-                    yield self.report(node.launch.location(item), message)
+        for at, text in _parameters(package):
+            if package.has(text) or text.startswith("src/"):
+                message = (
+                    f"{text!r} is relative to the directory of `ros2 launch`, not to this file"
+                )
+                yield self.report(at, message)
 
 
 def _texts(package: Package) -> Iterator[tuple[Location, str]]:
     """Yield the strings of launch files that may be paths."""
-    for launch in LaunchFile.of_package(package):
-        if launch.function is None:
+    for path in launch_paths(package):
+        try:
+            yield from _texts_in(package, path)
+        except ViewError:
             continue
-        for node in launch.module.walk(ast.Constant):
-            if isinstance(node.value, str) and "/" in node.value and "\n" not in node.value:
-                yield launch.location(node), node.value
     for file in markup_files(package):
         for attribute in file.attributes:
             yield attribute.location, attribute.value
+
+
+@fact
+def _texts_in(package: Package, path: str) -> tuple[tuple[Location, str], ...]:
+    launch = LaunchFile.of(package, path)
+    if launch.function is None:
+        return ()
+    return tuple(
+        (launch.location(node), node.value)
+        for node in launch.module.walk(ast.Constant)
+        if isinstance(node.value, str) and "/" in node.value and "\n" not in node.value
+    )
+
+
+def _parameters(package: Package) -> Iterator[tuple[Location, str]]:
+    """Yield the relative paths that launch files give as parameters."""
+    for path in launch_paths(package):
+        try:
+            yield from _parameters_in(package, path)
+        except ViewError:
+            continue
+
+
+@fact
+def _parameters_in(package: Package, path: str) -> tuple[tuple[Location, str], ...]:
+    launch = LaunchFile.of(package, path)
+    values = [
+        (launch.location(item), launch.evaluator.evaluate(item))
+        for call in launch.find(*NODES, "ComposableNode")
+        for item in parameter_items(launch, call)
+    ]
+    return tuple(
+        (at, value)
+        for at, value in values
+        if isinstance(value, str) and not value.startswith(("/", "~"))
+    )

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import LaunchCall, LaunchFile, started_nodes, value_given
+from scaffold.api.launch import started_nodes
 from scaffold.api.parameters import declared_by
 
 _LAUNCH = (
@@ -74,40 +73,15 @@ class TextReadAsYaml(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
-            owner = node.owner
+            given = [x for x in node.parameters if x.is_configuration and not x.has_choices]
+            owner = node.owner(package) if given else None
             declared = declared_by(owner, package) if owner is not None else None
-            for name, _, value in node.parameter_dicts if declared else ():
-                call = node.launch.call_of(value)
-                if call is None or call.kind != "LaunchConfiguration":
+            for item in given if declared is not None else ():
+                if declared is None or declared.types.get(item.name) != "string":
                     continue
-                if _has_choices(node.launch, call):
-                    continue
-                given = value_given(node.launch, value)
-                if declared is None or declared.types.get(name) != "string":
-                    continue
-                if given is None or given.type == "string":
+                if item.value is None or item.value.type == "string":
                     message = (
-                        f"{name} is a string, and launch reads a value such as 42 or on as YAML: "
-                        "wrap it in ParameterValue(..., value_type=str)"
+                        f"{item.name} is a string, and launch reads a value such as 42 or on as "
+                        "YAML: wrap it in ParameterValue(..., value_type=str)"
                     )
-                    yield self.report(node.launch.location(value), message)
-
-
-def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
-    """Return whether an argument takes certain texts alone, none of them something else in YAML."""
-    name = launch.evaluator.evaluate(configuration.given.get("variable_name"))
-    for call in launch.calls:
-        if call.kind == "DeclareLaunchArgument" and "choices" in call.given:
-            choices = launch.evaluator.evaluate(call.given["choices"])
-            if launch.evaluator.evaluate(call.given.get("name")) == name:
-                return isinstance(choices, list | tuple) and all(map(_is_text, choices))
-    return False
-
-
-def _is_text(value: object) -> bool:
-    """Return whether YAML reads a word as text."""
-    return (
-        isinstance(value, str)
-        and re.fullmatch(r"[A-Za-z_][\w-]*", value) is not None
-        and value.lower() not in {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
-    )
+                    yield self.report(item, message)

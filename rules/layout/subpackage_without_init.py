@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.api.python import UNKNOWN, Import
+from scaffold.api.python import UNKNOWN, Import, imports_by_path
 from scaffold.api.setup_py import FindPackages
 
 _TESTS = frozenset({"test", "tests"})
@@ -60,9 +60,9 @@ class SubpackageWithoutInit(Rule):
         if package.build_type != "ament_python" or packages is UNKNOWN:
             return
         reported: set[str] = set()
-        for module in package.modules():
-            for item in module.imports:
-                for directory in _directories(package, module.path, item):
+        for path, imports in imports_by_path(package):
+            for item in imports:
+                for directory in _directories(package, path, item):
                     init = f"{directory}/__init__.py"
                     if (
                         init in reported

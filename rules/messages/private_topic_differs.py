@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.programs import is_private, is_remapped, one_sided
-from scaffold.api.rclpy import Endpoint, Publisher, rclpy_files
+from scaffold.api.programs import (
+    NamedEndpoint,
+    is_private,
+    is_remapped,
+    named_endpoints,
+    one_sided,
+)
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -67,26 +72,27 @@ class PrivateTopicDiffers(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         sent, awaited = one_sided(package)
-        for file in rclpy_files(package):
-            for private in (*file.publishers, *file.subscriptions):
-                if not is_private(private) or is_remapped(package, private):
-                    continue
-                is_sent = isinstance(private, Publisher)
-                for topic in awaited if is_sent else sent:
-                    other = topic.subscriptions[0] if is_sent else topic.publishers[0]
-                    if topic.is_plain and _is_same_but_private(other, private):
-                        here, there = (other, private) if is_sent else (private, other)
-                        place = f"{there.location.path}:{there.location.line}"
-                        message = (
-                            f"no publisher for {here.name!r}: {place} publishes {there.name!r}, "
-                            "and ~ expands to the node name"
-                        )
-                        yield self.report(here.name_argument or here, message)
-                        break
+        for private in named_endpoints(package):
+            is_sent = private.kind == "Publisher"
+            if not is_sent and private.kind != "Subscription":
+                continue
+            if not is_private(private) or is_remapped(package, private):
+                continue
+            for topic in awaited if is_sent else sent:
+                other = topic.subscriptions[0] if is_sent else topic.publishers[0]
+                if topic.is_plain and _is_same_but_private(other, private):
+                    here, there = (other, private) if is_sent else (private, other)
+                    place = f"{there.location.path}:{there.location.line}"
+                    message = (
+                        f"no publisher for {here.name!r}: {place} publishes {there.name!r}, "
+                        "and ~ expands to the node name"
+                    )
+                    yield self.report(here.name_location, message)
+                    break
 
 
-def _is_same_but_private(here: Endpoint, there: Endpoint) -> bool:
+def _is_same_but_private(here: NamedEndpoint, there: NamedEndpoint) -> bool:
     """Return whether two names of the same type differ only by a ``~/`` before the second."""
     if here.interface is None or here.interface != there.interface:
         return False
-    return str(here.name).strip("/") == str(there.name).removeprefix("~/")
+    return here.name.strip("/") == there.name.removeprefix("~/")

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.programs import one_sided
-from scaffold.api.rclpy import Endpoint
+from scaffold.api.programs import NamedEndpoint, one_sided
 
 _SHORTEST = 5
 _NODE = (
@@ -60,13 +59,13 @@ class TopicNameDiffers(Rule):
                     message = (
                         f"no publisher for {here.name!r}; did you mean {there.name!r} ({place})?"
                     )
-                    yield self.report(here.name_argument or here, message)
+                    yield self.report(here.name_location, message)
                     break
 
 
-def _is_slip(here: Endpoint, there: Endpoint) -> bool:
+def _is_slip(here: NamedEndpoint, there: NamedEndpoint) -> bool:
     """Return whether two names of the same type differ by one letter or in case."""
-    name, other = str(here.name).strip("/"), str(there.name).strip("/")
+    name, other = here.name.strip("/"), there.name.strip("/")
     if here.interface is None or here.interface != there.interface or name == other:
         return False
     if name.lower() == other.lower():

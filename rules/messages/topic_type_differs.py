@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.messages import MessageTypes
+from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
-from scaffold.api.programs import services_of, topics_of
-from scaffold.api.rclpy import Endpoint
+from scaffold.api.programs import NamedEndpoint, services_of, topics_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Bool, String\n"
@@ -101,21 +100,20 @@ class TopicTypeDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        definitions = next(MessageTypes.of_package(package), None)
-        if definitions is None:
+        if not message_paths(package):
             return
         for name, topic in topics_of(package).items():
             sides = topic.publishers, topic.subscriptions
-            if not topic.is_plain_by_default or not _are_known(definitions, *sides):
+            if not topic.is_plain_by_default or not _are_known(package, *sides):
                 continue
             if all(keeps_default_name(package, x) for side in sides for x in side):
                 yield from self._check(name, *sides)
         for name, service in services_of(package).items():
-            if service.is_plain and _are_known(definitions, service.services, service.clients):
+            if service.is_plain and _are_known(package, service.services, service.clients):
                 yield from self._check(name, service.services, service.clients)
 
     def _check(
-        self, name: str, side: Sequence[Endpoint], other_side: Sequence[Endpoint]
+        self, name: str, side: Sequence[NamedEndpoint], other_side: Sequence[NamedEndpoint]
     ) -> Iterator[Diagnostic]:
         for here, others in ((side, other_side), (other_side, side)):
             for endpoint in here:
@@ -123,11 +121,10 @@ class TopicTypeDiffers(Rule):
                 if differing:
                     message = f"{name!r} has type {endpoint.interface} here, but"
                     message = f"{message} {_listed(differing)}: they never connect"
-                    at = endpoint.type_argument or endpoint
-                    yield self.report(at, message, cause=f"types of {name}")
+                    yield self.report(endpoint.type_location, message, cause=f"types of {name}")
 
 
-def _listed(endpoints: Sequence[Endpoint]) -> str:
+def _listed(endpoints: Sequence[NamedEndpoint]) -> str:
     """Return types with the places that use them: ``std_msgs/msg/Bool in a.py:1, b.py:2``."""
     places: dict[str, list[str]] = {}
     for endpoint in endpoints:
@@ -136,7 +133,7 @@ def _listed(endpoints: Sequence[Endpoint]) -> str:
     return " and ".join(f"{type_} in {', '.join(items)}" for type_, items in places.items())
 
 
-def _are_known(types: MessageTypes, *sides: Sequence[Endpoint]) -> bool:
+def _are_known(package: Package, *sides: Sequence[NamedEndpoint]) -> bool:
     """Return whether all types are defined; another rule reports those that are not."""
     names = {endpoint.interface for side in sides for endpoint in side}
-    return all(name is not None and types.definitions.find(name) for name in names)
+    return all(name is not None and package.workspace.interfaces.find(name) for name in names)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, closest_name
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import (
     NODE,
@@ -16,7 +16,6 @@ from scaffold.api.rclpy import (
     is_read_in_full,
     known_names,
     names_of_bases,
-    rclpy_files,
     used_by_classes,
 )
 
@@ -44,7 +43,7 @@ _ELSEWHERE = {
 """Names in other libraries, and their names in rclpy."""
 
 
-class AttributeOfNodeUnknown(Rule):
+class AttributeOfNodeUnknown(RclpyRule):
     """A node uses an attribute or method of itself that is not defined.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'create_subscriber'`` when the line
@@ -78,13 +77,12 @@ class AttributeOfNodeUnknown(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         bases, given = names_of_bases(package), given_from_outside(package)
-        for file in rclpy_files(package):
-            used = used_by_classes(file) if file.classes else {}
-            for node in file.classes:
-                if node.node in used and node.name not in bases and is_read_in_full(node):
-                    yield from self._check(package, node, given, used[node.node])
+        used = used_by_classes(file) if file.classes else {}
+        for node in file.classes:
+            if node.node in used and node.name not in bases and is_read_in_full(node):
+                yield from self._check(package, node, given, used[node.node])
 
     def _check(
         self, package: Package, node: NodeClass, given: frozenset[str], used: list[ast.Attribute]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError, fact
 from scaffold.api.programs import (
     Execution,
     calls_others,
@@ -76,20 +76,26 @@ class InitMissing(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        reported: set[ast.Call] = set()
+        reported: set[Location] = set()
         for start in starts_of(package):
             try:
-                run = run_of(package, start)
+                problem = _problem_of(package, start.path, start.function)
             except ViewError:
                 continue
-            first = next(iter(run.nodes()), None)
-            if first is None or run.facts.module.in_tests or first[0] in reported:
-                continue
-            call = first[0]
-            problem = _problem(package, run, call)
-            if problem:
-                reported.add(call)
-                yield self.report(run.facts.module.location(call), problem)
+            if problem is not None and problem[0] not in reported:
+                reported.add(problem[0])
+                yield self.report(*problem)
+
+
+@fact
+def _problem_of(package: Package, path: str, function: str | None) -> tuple[Location, str] | None:
+    """Return place and message of what is wrong about a program; raises ViewError."""
+    run = run_of(package, path, function)
+    first = next(iter(run.nodes()), None)
+    if first is None or run.facts.module.in_tests:
+        return None
+    problem = _problem(package, run, first[0])
+    return (run.facts.module.location(first[0]), problem) if problem else None
 
 
 def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:

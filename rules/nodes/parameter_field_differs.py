@@ -114,5 +114,5 @@ def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str,
 def _of_empty_list(declared: Declared, name: str) -> str:
     """Return the type that rclpy infers from an empty default list, else nothing."""
     place = declared.places.get(name)
-    is_empty = place is not None and place.default == [] and place.descriptor_node is None
+    is_empty = place is not None and place.default == [] and not place.has_descriptor
     return "byte_array" if is_empty else ""

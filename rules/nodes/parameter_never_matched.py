@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, closest_name
 from scaffold.api.parameters import declared_alone, declared_by, has_always
 from scaffold.api.rclpy import (
     NodeClass,
@@ -13,7 +13,6 @@ from scaffold.api.rclpy import (
     is_listed_parameter,
     name_asked,
     names_compared,
-    rclpy_files,
     types_compared,
 )
 
@@ -32,7 +31,7 @@ _NODE = (
 )
 
 
-class ParameterNeverMatched(Rule):
+class ParameterNeverMatched(RclpyRule):
     """A parameter callback compares with a name or type that the node does not declare.
 
     **Why.** No error: the condition is never true, and setting the parameter changes nothing.
@@ -61,17 +60,16 @@ class ParameterNeverMatched(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        alone = {node: {str(p.name) for p in own} for node, own in declared_alone(package)}
-        for file in rclpy_files(package):
-            for attribute in file.module.index.attributes("name"):
-                node = _owner(file, attribute)
-                if node is not None and node in alone:
-                    yield from self._named(package, file, attribute, alone[node])
-            for attribute in file.module.index.attributes("type_"):
-                node = _owner(file, attribute)
-                if node is not None:
-                    yield from self._typed(package, file, attribute, node)
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        alone = {node: {str(p.name) for p in own} for node, own in declared_alone(file)}
+        for attribute in file.module.index.attributes("name"):
+            node = _owner(file, attribute)
+            if node is not None and node in alone:
+                yield from self._named(package, file, attribute, alone[node])
+        for attribute in file.module.index.attributes("type_"):
+            node = _owner(file, attribute)
+            if node is not None:
+                yield from self._typed(package, file, attribute, node)
 
     def _named(
         self, package: Package, file: RclpyFile, attribute: ast.Attribute, known: set[str]

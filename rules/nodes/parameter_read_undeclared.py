@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, closest_name
 from scaffold.api.parameters import declared_alone, has_always
 from scaffold.api.python import is_handled
-from scaffold.api.rclpy import Parameter, ParameterRead, names_used_by
+from scaffold.api.rclpy import Parameter, ParameterRead, RclpyFile, names_used_by
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -25,7 +25,7 @@ _OTHERS = (
 )
 
 
-class ParameterReadUndeclared(Rule):
+class ParameterReadUndeclared(RclpyRule):
     """A node reads or sets a parameter that it has not declared, or not yet.
 
     **Why.** ``rclpy.exceptions.ParameterNotDeclaredException`` when the line is reached.
@@ -84,8 +84,8 @@ class ParameterReadUndeclared(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for node, declared in declared_alone(package):
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node, declared in declared_alone(file):
             by_name: dict[str, list[Parameter]] = {}
             for parameter in declared:
                 by_name.setdefault(str(parameter.name), []).append(parameter)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.python import Unknown
 from scaffold.api.rclpy import RclpyFile
 
@@ -58,7 +58,7 @@ class PublisherNeverUsed(RclpyRule):
             name = _kept_in(file, publisher.call)
             if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
                 continue
-            if _mentions(package, name) == 1:
+            if package.occurrences(name) == 1:
                 message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
                 yield self.report(publisher, message)
 
@@ -71,14 +71,3 @@ def _kept_in(file: RclpyFile, call: ast.Call) -> str:
         case ast.AnnAssign(target=ast.Attribute(value=ast.Name(), attr=name)):
             return name
     return ""
-
-
-def _mentions(package: Package, name: str) -> int:
-    """Count the occurrences of a word in the Python files of a package."""
-    count = 0
-    for path in package.python_files:
-        try:
-            count += package.source(path).text.count(name)
-        except ViewError:
-            continue
-    return count

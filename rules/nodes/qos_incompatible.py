@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.parameters import keeps_default_name
-from scaffold.api.programs import topics_of
-from scaffold.api.rclpy import Endpoint, Publisher, conflict_of
+from scaffold.api.programs import NamedEndpoint, topics_of
+from scaffold.api.rclpy import conflict_of
 
 _NODE = (
     "from rclpy.node import Node\n"
@@ -129,8 +129,9 @@ class QosIncompatible(Rule):
                         f"{_kind(here)} {name!r} {has}, but the {_kind(there)} in "
                         f"{there.location.path}:{there.location.line} {other}: nothing arrives"
                     )
-                    yield self.report(here.qos or here, message, cause=f"QoS of {name}")
+                    at = here.qos.location if here.qos is not None else here.location
+                    yield self.report(at, message, cause=f"QoS of {name}")
 
 
-def _kind(endpoint: Endpoint) -> str:
-    return "publisher" if isinstance(endpoint, Publisher) else "subscription"
+def _kind(endpoint: NamedEndpoint) -> str:
+    return endpoint.kind.lower()

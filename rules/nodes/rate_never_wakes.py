@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.programs import waits_alone
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, fact
+from scaffold.api.programs import Waits, waits_alone, waits_in
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -69,9 +69,13 @@ class RateNeverWakes(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts, call, where, _ in waits_alone(package, "sleep", _is_sleep):
-            message = f"sleep() never returns: the thread that would wake it {where}"
-            yield self.report(facts.module.location(call), message)
+        for at, where in waits_alone(package, "sleep", _sleeps):
+            yield self.report(at, f"sleep() never returns: the thread that would wake it {where}")
+
+
+@fact
+def _sleeps(package: Package, path: str, function: str | None) -> Waits:
+    return waits_in(package, (path, function), "sleep", _is_sleep)
 
 
 def _is_sleep(file: RclpyFile, call: ast.Call) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
 from scaffold.api.rclpy import Service
@@ -22,7 +22,7 @@ _NODE = (
 )
 
 
-class ResponseNotReturned(Rule):
+class ResponseNotReturned(MessageRule):
     """A service callback returns nothing, or another value than the response.
 
     **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request: the node dies,
@@ -95,18 +95,17 @@ class ResponseNotReturned(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[FunctionNode] = set()
-        for types in MessageTypes.of_package(package):
-            for service in types.facts.services:
-                callback = service.callback
-                function = callback.function if callback else None
-                if function is None or isinstance(function, ast.Lambda) or function in seen:
-                    continue
-                if callback and (callback.is_called or function.decorator_list):
-                    continue
-                seen.add(function)
-                yield from self._check(types, service, function)
+        for service in types.facts.services:
+            callback = service.callback
+            function = callback.function if callback else None
+            if function is None or isinstance(function, ast.Lambda) or function in seen:
+                continue
+            if callback and (callback.is_called or function.decorator_list):
+                continue
+            seen.add(function)
+            yield from self._check(types, service, function)
 
     def _check(
         self, types: MessageTypes, service: Service, function: FunctionNode

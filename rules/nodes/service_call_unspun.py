@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.programs import in_callbacks, in_constructors, waits_alone
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, fact
+from scaffold.api.programs import Waits, in_callbacks, in_constructors, waits_alone, waits_in
 from scaffold.api.rclpy import RclpyFile
 
 _CODE = (
@@ -83,17 +83,21 @@ class ServiceCallUnspun(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for facts, call, where, _ in waits_alone(package, "call", _is_call):
-            inside = (*in_callbacks(facts), *in_constructors(facts))
-            if facts.function_of(call) not in {executed.function for executed in inside}:
-                message = (
-                    f"call() never returns: the thread that would receive the response {where}"
-                )
-                yield self.report(facts.module.location(call), message)
+        for at, where in waits_alone(package, "call", _calls):
+            message = f"call() never returns: the thread that would receive the response {where}"
+            yield self.report(at, message)
+
+
+@fact
+def _calls(package: Package, path: str, function: str | None) -> Waits:
+    return waits_in(package, (path, function), "call", _is_call)
 
 
 def _is_call(file: RclpyFile, call: ast.Call) -> bool:
     if len(call.args) != 1 or call.keywords or not isinstance(call.func, ast.Attribute):
         return False
     client = file.evaluator.single_value(call.func.value)
-    return any(x.call is client and x.owner is not None for x in file.clients)
+    if not any(x.call is client and x.owner is not None for x in file.clients):
+        return False
+    inside = (*in_callbacks(file), *in_constructors(file))
+    return file.function_of(call) not in {executed.function for executed in inside}

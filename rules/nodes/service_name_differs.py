@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.programs import is_private, is_remapped
-from scaffold.api.rclpy import Endpoint, rclpy_files
+from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -56,9 +55,9 @@ class ServiceNameDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        files = list(rclpy_files(package))
-        offered = [x for file in files for x in (*file.services, *file.action_servers)]
-        wanted = [x for file in files for x in (*file.clients, *file.action_clients)]
+        endpoints = list(named_endpoints(package))
+        offered = [x for x in endpoints if x.kind in {"Service", "ActionServer"}]
+        wanted = [x for x in endpoints if x.kind in {"Client", "ActionClient"}]
         served = {item.name for item in offered}
         clients = {item.name for item in wanted}
         for client in wanted:
@@ -67,25 +66,22 @@ class ServiceNameDiffers(Rule):
                 if service.name not in clients and _is_slip(client, service):
                     if any(is_private(x) and is_remapped(package, x) for x in (client, service)):
                         continue
-                    at = client.name_argument.location if client.name_argument else client.location
                     place = f"{service.location.path}:{service.location.line}"
                     message = (
                         f"no service {client.name!r}; did you mean {service.name!r} ({place})?"
                     )
                     if "~" in f"{client.name}{service.name}":
                         message += " ~ expands to the node name"
-                    yield self.report(at, message)
+                    yield self.report(client.name_location, message)
                     break
 
 
-def _is_slip(client: Endpoint, service: Endpoint) -> bool:
+def _is_slip(client: NamedEndpoint, service: NamedEndpoint) -> bool:
     """Return whether two names of the same type differ by one letter.
 
     Or only by ``~/``, which makes a name private.
     """
     name, other = client.name, service.name
-    if not isinstance(name, str) or not isinstance(other, str):
-        return False
     if client.interface is None or client.interface != service.interface:
         return False
     if name.startswith("~") is not other.startswith("~"):

@@ -61,12 +61,13 @@ class ListEmpty(Rule):
                     if not isinstance(entry.value, Sequence) or entry.value.items:
                         continue
                     for owner in nodes_for(package, path, section):
-                        read = _read(owner, entry.name)
+                        read = _read(owner.definition(package), entry.name)
                         if read is None or not declared_by(owner, package).types.get(entry.name):
                             continue
+                        where = place_of(owner.package, read.location, package)
                         message = (
                             f"empty list leaves {entry.name!r} unset, and "
-                            f"{place_of(read, package)} reads it: ParameterUninitializedException"
+                            f"{where} reads it: ParameterUninitializedException"
                         )
                         yield self.report(entry.value, message)
                         break

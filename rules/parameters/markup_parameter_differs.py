@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
 from scaffold.api.launch import MarkupNode, code_of, is_known, markup_files
 from scaffold.api.parameters import declared_by, place_of
-from scaffold.api.rclpy import NodeClass, NodeDefinition
+from scaffold.api.programs import KnownNode
 
 _WORDS = {
     r"[+-]?(?:0|[1-9]\d*)": "integer",
@@ -96,7 +96,7 @@ class MarkupParameterDiffers(Rule):
                     continue
                 declared = declared_by(owner, package)
                 # A program that constructs a node in passing may construct another.
-                is_all = declared.complete and isinstance(owner, NodeClass)
+                is_all = declared.complete and owner.is_class
                 for name, value in node.parameters:
                     if not is_known(name):
                         continue
@@ -109,14 +109,15 @@ class MarkupParameterDiffers(Rule):
                         yield self.report(name, message)
                     kind, given = declared.types.get(name.value), _type(value.value)
                     if kind and given and kind != given:
-                        where = place_of(declared.places[name.value], package)
+                        place = declared.places[name.value]
+                        where = place_of(place.package, place.location, package)
                         article = "an" if given == "integer" else "a"
                         message = f"{name.value!r} is declared as {kind} ({where}), but this is "
                         message += f"{article} {given}: InvalidParameterTypeException"
                         yield self.report(value, message)
 
 
-def _owner(package: Package, node: MarkupNode) -> NodeDefinition | None:
+def _owner(package: Package, node: MarkupNode) -> KnownNode | None:
     if node.package is None or node.executable is None:
         return None
     return code_of(package, node.package.value, node.executable.value)

@@ -93,8 +93,9 @@ class NodeUnknown(Rule):
     def _for_started(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
         """Check a file against the nodes that launch files pass it to."""
         use = use_of(package, file.path)
-        names = {node.name for node in use.nodes if isinstance(node.name, str)}
-        if any(not isinstance(node.name, str) for node in use.nodes):
+        given = [node.name(package) for node in use.nodes]
+        names = {name for name in given if isinstance(name, str)}
+        if any(not isinstance(name, str) for name in given):
             return
         useless = not any(s.is_pattern or s.name in names for s in file.sections)
         everywhere = node_names(package)
@@ -106,7 +107,7 @@ class NodeUnknown(Rule):
                 continue
             alike = names_alike(file, names, name)
             if alike or (useless and use.complete and name not in everywhere):
-                first = use.nodes[0].call.location
+                first = use.nodes[0].location
                 message = (
                     f"no node is named {name!r}: the section is ignored; "
                     f"{first.path}:{first.line} starts {', '.join(alike or sorted(names))}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import nodes_for, started_nodes, value_given
+from scaffold.api.launch import nodes_for, started_nodes
 from scaffold.api.parameters import (
     Declared,
     declared_by,
@@ -69,13 +69,14 @@ class ParameterOutOfRange(Rule):
                     if message:
                         yield self.report(entry.value, message)
         for node in started_nodes(package):
-            owner = node.owner
-            for name, _, given in node.parameter_dicts if owner is not None else ():
-                setting = value_given(node.launch, given)
-                if owner is not None and setting is not None and setting.number is not None:
-                    message = _message(package, [declared_by(owner, package)], name, setting.number)
-                    if message:
-                        yield self.report(node.launch.location(given), message)
+            numbers = [x for x in node.parameters if x.value and x.value.number is not None]
+            owner = node.owner(package) if numbers else None
+            known = [declared_by(owner, package)] if owner is not None else []
+            for given in numbers:
+                number = given.value.number if given.value is not None else None
+                message = _message(package, known, given.name, number)
+                if message:
+                    yield self.report(given, message)
 
 
 def _message(package: Package, known: list[Declared], name: str, value: float | None) -> str:
@@ -88,8 +89,9 @@ def _message(package: Package, known: list[Declared], name: str, value: float | 
             continue
         for limits in descriptor.ranges:
             if value is not None and limits.type == kind and not limits.allows(value):
+                where = place_of(place.package, place.location, package)
                 return (
                     f"{value} is outside the range {limits.text} of {name!r} "
-                    f"({place_of(place, package)}): InvalidParameterValueException"
+                    f"({where}): InvalidParameterValueException"
                 )
     return ""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.api.formats import Scalar
-from scaffold.api.launch import consumers, nodes_for, value_given
+from scaffold.api.launch import consumers, nodes_for
 from scaffold.api.parameters import (
     Entry,
     a_type,
@@ -126,14 +126,15 @@ class ParameterTypeDiffers(Rule):
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in consumers(package):
-            known = [declared_by(node.owner, package)] if node.owner is not None else []
-            for name, _, value in node.parameter_dicts:
-                kind, where = agreed_type(package, known, name)
-                given = value_given(node.launch, value)
+            owner = node.owner(package) if node.parameters else None
+            known = [declared_by(owner, package)] if owner is not None else []
+            for item in node.parameters:
+                kind, where = agreed_type(package, known, item.name)
+                given = item.value
                 if kind and given and given.type != kind:
                     actual = f"{given.text} is {a_type(given.type)}"
                     message = f"{where} is {a_type(kind)}, but {actual}: {_ERROR}"
-                    yield self.report(node.launch.location(value), message)
+                    yield self.report(item, message)
 
 
 def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:

@@ -90,24 +90,24 @@ class ParameterUndeclared(Rule):
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
-            owner = node.owner
+            owner = node.owner(package)
             declared = declared_by(owner, package) if owner is not None else None
             if declared is None or not declared.complete:
                 continue
-            for name, key, _ in node.parameter_dicts:
-                if not declared.has(name) and not _is_shared(package, node, name):
-                    message = _message(package, name, [declared], node.name)
-                    at = node.launch.location(key)
-                    yield self.report(at, message, cause=_cause(node.name))
+            known_as = node.name(package)
+            for given in node.parameters:
+                if not declared.has(given.name) and not _is_shared(package, node, given.name):
+                    message = _message(package, given.name, [declared], known_as)
+                    yield self.report(given.key_location, message, cause=_cause(known_as))
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
     """Return whether another program that runs under the same name takes the parameter."""
     return any(
-        other.launch is node.launch
-        and other.name == node.name
+        other.launch == node.launch
         and other.executable != node.executable
-        and any(given == name for given, _, _ in other.parameter_dicts)
+        and any(given.name == name for given in other.parameters)
+        and other.name(package) == node.name(package)
         for other in started_nodes(package)
     )
 

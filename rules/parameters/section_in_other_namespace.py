@@ -58,28 +58,27 @@ class SectionInOtherNamespace(Rule):
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             nodes = use_of(package, path).nodes if file is not None else []
-            if any(not isinstance(node.name, str) for node in nodes):
+            if any(not isinstance(node.name(package), str) for node in nodes):
                 continue
             in_one_process = any(node.package == _CONTROL for node in nodes)
             for section in file.sections if file is not None else ():
                 # The controller manager names the nodes that it creates after its controllers.
                 if section.is_pattern or (in_one_process and section.name != _CONTROL):
                     continue
-                other = _other_node(section, nodes)
+                other = _other_node(package, section, nodes)
                 if other is not None:
-                    at = other.call.location
+                    at = other.location
                     message = (
                         f"section for {section.node!r} is ignored: {at.path}:{at.line} starts "
-                        f"{other.full_name!r}"
+                        f"{other.full_name(package)!r}"
                     )
                     yield self.report(section.key, message)
 
 
-def _other_node(section: Section, nodes: list[StartedNode]) -> StartedNode | None:
+def _other_node(package: Package, section: Section, nodes: list[StartedNode]) -> StartedNode | None:
     """Return the node of the same name that certainly runs in no namespace."""
-    named = [node for node in nodes if node.name == section.name]
-    if any(node.is_scoped or node.full_name is None or node.namespace for node in named):
+    named = [node for node in nodes if node.name(package) == section.name]
+    names = [node.full_name(package) for node in named]
+    if None in names or any(node.is_scoped or node.namespace for node in named):
         return None
-    return (
-        named[0] if named and not any(section.fits(str(node.full_name)) for node in named) else None
-    )
+    return named[0] if named and not any(section.fits(str(name)) for name in names) else None

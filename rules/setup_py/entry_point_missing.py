@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api.python import exports_of
 from scaffold.api.setup_py import EntryPoint
 
 _SETUP = (
@@ -90,13 +91,13 @@ class EntryPointMissing(Rule):
             hint = f"; closest: {near[0]}" if near else ""
             return f"there is no {base}.py{hint}"
         try:
-            module = package.module(path)
+            exports = exports_of(package, path)
         except ViewError:
             return None
         function = entry.function.partition(".")[0]
-        if module.defines(function) is not False:
+        if exports.defines(function) is not False:
             return None
-        near = get_close_matches(function, list(module.functions), n=1)
+        near = get_close_matches(function, exports.functions, n=1)
         hint = f"; it has {near[0]}()" if near else ""
         return f"{path} has no {function!r}{hint}"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError, fact
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
 
@@ -90,25 +90,34 @@ class EntryPointUnusable(Rule):
         self, package: Package, entry: EntryPoint, path: str
     ) -> Iterator[Diagnostic]:
         try:
-            module = package.module(path)
+            at, required, is_node_class = _function(package, path, str(entry.function))
         except ViewError:
             return
-        function = module.functions.get(entry.function)
-        if function is not None and not function.node.decorator_list:
-            arguments = function.node.args
-            positional = [*arguments.posonlyargs, *arguments.args]
-            count = len(positional) - len(arguments.defaults)
-            if count:
-                message = (
-                    f"the entry point {entry.name!r} of setup.py calls {entry.function}() without "
-                    f"arguments: TypeError; give {positional[0].arg} a default"
-                )
-                yield self.report(function, message)
-            return
-        file = rclpy_file(package, path)
-        if any(node.name == entry.function for node in file.classes):
+        if required:
+            message = (
+                f"the entry point {entry.name!r} of setup.py calls {entry.function}() without "
+                f"arguments: TypeError; give {required} a default"
+            )
+            yield self.report(at, message)
+        if is_node_class:
             message = f"{entry.function} is a node class: a program needs a function that spins it"
             yield self.report(entry, message)
+
+
+@fact
+def _function(package: Package, path: str, name: str) -> tuple[Location, str, bool]:
+    """Return the place of a function, a parameter that it needs, and whether it is a node class.
+
+    Raises ViewError.
+    """
+    function = package.module(path).functions.get(name)
+    if function is None or function.node.decorator_list:
+        classes = rclpy_file(package, path).classes
+        return package.start_of(path), "", any(node.name == name for node in classes)
+    arguments = function.node.args
+    positional = [*arguments.posonlyargs, *arguments.args]
+    count = len(positional) - len(arguments.defaults)
+    return function.location, positional[0].arg if count else "", False
 
 
 def _file_of(package: Package, name: str) -> str:

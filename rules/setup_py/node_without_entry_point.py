@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, fact
 from scaffold.api.install import names_imported
-from scaffold.api.python import PythonModule
-from scaffold.api.rclpy import rclpy_files
+from scaffold.api.rclpy import rclpy_file, rclpy_paths
 from scaffold.api.setup_py import SetupPy
 
 _SETUP = (
@@ -71,25 +70,36 @@ class NodeWithoutEntryPoint(Rule):
         started = {entry.module for entry in setup.entry_points}
         used = names_imported(package)
         copied = _started_classes(package, started)
-        for file in rclpy_files(package):
-            module = file.module
-            name = module.path.removesuffix(".py").replace("/", ".")
-            if name in started or name in used or not file.classes or not _is_program(module):
+        for path, classes, is_program in _nodes(package):
+            name = path.removesuffix(".py").replace("/", ".")
+            if name in started or name in used or not classes or not is_program:
                 continue
-            if copied.issuperset(node.name for node in file.classes) or not _is_module(name):
+            if copied.issuperset(classes) or not _is_module(name):
                 continue
-            root = module.path.partition("/")[0]
-            if module.path.count("/") == 1 and root in {item.partition(".")[0] for item in started}:
-                stem = module.path.rpartition("/")[2].removesuffix(".py")
+            root = path.partition("/")[0]
+            if path.count("/") == 1 and root in {item.partition(".")[0] for item in started}:
+                stem = path.rpartition("/")[2].removesuffix(".py")
                 message = (
-                    f"{module.path} is a node with a main function, but no entry point starts it; "
+                    f"{path} is a node with a main function, but no entry point starts it; "
                     f"add '{stem} = {name}:main'"
                 )
                 yield self.report(keyword, message)
 
 
-def _is_program(module: PythonModule) -> bool:
-    return module.has_main_guard and "main" in module.functions
+def _nodes(package: Package) -> Iterator[tuple[str, tuple[str, ...], bool]]:
+    """Yield the files that use rclpy, each with its node classes and whether it is a program."""
+    for path in rclpy_paths(package):
+        try:
+            yield path, *_node_classes(package, path)
+        except ViewError:
+            continue
+
+
+@fact
+def _node_classes(package: Package, path: str) -> tuple[tuple[str, ...], bool]:
+    file = rclpy_file(package, path)
+    is_program = file.module.has_main_guard and "main" in file.module.functions
+    return tuple(node.name for node in file.classes), is_program
 
 
 def _is_module(name: str) -> bool:
@@ -100,10 +110,10 @@ def _is_module(name: str) -> bool:
 def _started_classes(package: Package, started: set[str]) -> set[str]:
     """Return the names of the nodes that entry points start; others of the name are copies."""
     return {
-        node.name
-        for file in rclpy_files(package)
-        if file.module.path.removesuffix(".py").replace("/", ".") in started
-        for node in file.classes
+        name
+        for path, classes, _ in _nodes(package)
+        if path.removesuffix(".py").replace("/", ".") in started
+        for name in classes
     }
 
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.tests import Fixture, arguments, fixtures, own_fixtures
+from scaffold.api.tests import Fixture, arguments, files_of_tests, fixtures, own_fixtures
 
 _SCOPES = ("function", "class", "module", "package", "session")
 """From the narrowest to the widest."""
@@ -54,8 +54,8 @@ class FixtureMadeWrongly(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            if not module.in_tests or "pytest" not in module.imports_by_root:
+        for module in package.modules(files_of_tests(package)):
+            if "pytest" not in module.imports_by_root:
                 continue
             known = fixtures(package, module)
             for fixture in own_fixtures(module):

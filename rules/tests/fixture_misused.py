@@ -12,6 +12,7 @@ from scaffold.api.tests import (
     LAUNCH,
     Fixture,
     arguments,
+    files_of_tests,
     fixtures,
     own_fixtures,
     test_functions,
@@ -68,8 +69,8 @@ class FixtureMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            if not module.in_tests or "pytest" not in module.imports_by_root:
+        for module in package.modules(files_of_tests(package)):
+            if "pytest" not in module.imports_by_root:
                 continue
             for call in module.walk(ast.Call):
                 name = _called(module, call)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import PythonModule, is_generator, may_end, returned
+from scaffold.api.python import PythonModule, is_generator, may_end, paths_importing, returned
 from scaffold.api.tests import LAUNCH, is_test_case, marks, may_start, methods
 
 _MARKS = ("launch_test", "rostest")
@@ -79,10 +79,10 @@ class LaunchTestMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
+        for module in package.modules(paths_importing(package, "launch_testing")):
             function = module.functions.get(LAUNCH)
             roots = module.imports_by_root
-            if function is None or "launch_testing" not in roots or "launch_pytest" in roots:
+            if function is None or "launch_pytest" in roots:
                 continue
             for problem in _problems(package, module):
                 yield self.report(function, problem)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import Import, PythonModule
-from scaffold.api.tests import test_modules
+from scaffold.api.tests import settings_or_tests_mention, test_modules
 
 _PATHS = ("import-mode", "importmode", "pythonpath", "sys.path", "rootdir", "site.addsitedir")
 _TEST = "{}\n\n\ndef test_make():\n    assert make()\n"
@@ -60,10 +60,7 @@ class TestImportFails(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
-        texts = [package.source(name).text for name in names if package.has(name)]
-        texts += [module.source.text for module in package.modules() if module.in_tests]
-        if any(word in text for text in texts for word in _PATHS):
+        if settings_or_tests_mention(package, _PATHS):
             return
         for module in test_modules(package):
             directory = module.path.rpartition("/")[0]

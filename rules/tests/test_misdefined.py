@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.api.python import FunctionNode, PythonModule
+from scaffold.api.tests import files_of_tests
 
 _TEST = (
     "import pytest\n\n\n"
@@ -61,7 +62,7 @@ class TestMisdefined(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        modules = [module for module in package.modules() if module.in_tests]
+        modules = [*package.modules(files_of_tests(package))]
         taken = {name for module in modules for name in _taken(module)}
         for module in modules:
             functions: list[FunctionNode] = [*module.walk(ast.FunctionDef)]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Location, Report, Severity, TestRule
 from scaffold.api.python import PythonModule
 
 _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
 
 
-class TestWithoutTests(Rule):
+class TestWithoutTests(TestRule):
     """A file of tests has no test that pytest collects, or one that never fails.
 
     **Why.** pytest collects functions that begin with ``test`` and classes that begin with
@@ -48,18 +48,17 @@ class TestWithoutTests(Rule):
         ),
     )
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules():
-            directory, _, name = module.path.rpartition("/")
-            if directory not in {"test", "tests"} or not name.startswith("test_"):
-                continue
-            yield from self._check_returns(module)
-            for class_ in _refused(module):
-                message = f"pytest does not collect {class_.name}: it has a constructor"
-                yield self.report(module.name_location(class_), message)
-            if not _has_tests(module) and _asserts(module):
-                message = "pytest collects no test here: names begin with test_ or Test"
-                yield self.report(package.start_of(module.path), message)
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        directory, _, name = module.path.rpartition("/")
+        if directory not in {"test", "tests"} or not name.startswith("test_"):
+            return
+        yield from self._check_returns(module)
+        for class_ in _refused(module):
+            message = f"pytest does not collect {class_.name}: it has a constructor"
+            yield self.report(module.name_location(class_), message)
+        if not _has_tests(module) and _asserts(module):
+            message = "pytest collects no test here: names begin with test_ or Test"
+            yield self.report(Location.start_of(module.path), message)
 
     def _check_returns(self, module: PythonModule) -> Iterator[Diagnostic]:
         for function in module.functions.values():

@@ -10,6 +10,7 @@ from scaffold.check.rule import Example, Report, Rule
 from scaffold.check.type_rules import TypeRule
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
+from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.source import Location, ParseError, Source, ViewError
 from scaffold.suggestions import closest_name, listed_names
@@ -39,6 +40,7 @@ __all__ = [
     "TypeRule",
     "ViewError",
     "closest_name",
+    "fact",
     "listed_names",
 ]
 

@@ -15,7 +15,15 @@ from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
 from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
-from scaffold.model.launch.nodes import StartedNode, code_of, consumers, started_nodes
+from scaffold.model.launch.nodes import (
+    GivenParameter,
+    StartedNode,
+    code_of,
+    consumers,
+    parameter_items,
+    parameters_given,
+    started_nodes,
+)
 from scaffold.model.launch.parameter_files import (
     is_loaded,
     names_alike,
@@ -23,13 +31,13 @@ from scaffold.model.launch.parameter_files import (
     nodes_for,
     use_of,
 )
-from scaffold.model.launch.parameter_values import value_given
 from scaffold.model.launch.python_file import (
     FUNCTION,
     NODES,
     SHARE,
     LaunchCall,
     LaunchFile,
+    launch_paths,
     returns,
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
@@ -48,6 +56,7 @@ __all__ = [
     "NODES",
     "SHARE",
     "Entity",
+    "GivenParameter",
     "Included",
     "LaunchCall",
     "LaunchFile",
@@ -71,6 +80,7 @@ __all__ = [
     "is_named",
     "later_declarations",
     "launch_files",
+    "launch_paths",
     "markup_files",
     "may_be_set_elsewhere",
     "meant_package",
@@ -79,6 +89,8 @@ __all__ = [
     "node_names",
     "nodes_for",
     "package_uses",
+    "parameter_items",
+    "parameters_given",
     "paths_of",
     "remapped_nodes",
     "returns",
@@ -89,6 +101,5 @@ __all__ = [
     "text_uses",
     "truth_tests",
     "use_of",
-    "value_given",
     "why_missing",
 ]

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from scaffold.model.messages.fields import TypeMismatches, ValueTypes, rclpy_time
-from scaffold.model.messages.inference import PARTS, MessageClass, MessageTypes, interfaces_named
+from scaffold.model.messages.inference import (
+    PARTS,
+    MessageClass,
+    MessageTypes,
+    interfaces_named,
+    message_paths,
+)
 from scaffold.model.messages.stamps import unstamped
 
 __all__ = [
@@ -13,6 +19,7 @@ __all__ = [
     "TypeMismatches",
     "ValueTypes",
     "interfaces_named",
+    "message_paths",
     "rclpy_time",
     "unstamped",
 ]

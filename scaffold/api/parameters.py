@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.model.parameters.declared import (
     Declared,
+    DeclaredParameter,
     declared_alone,
     declared_by,
     has_always,
@@ -30,6 +31,7 @@ from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 __all__ = [
     "KEY",
     "Declared",
+    "DeclaredParameter",
     "Entry",
     "Misplaced",
     "ParameterFile",

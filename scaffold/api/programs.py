@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from scaffold.model.programs.blocking import (
     Executed,
+    Waits,
     in_callbacks,
     in_constructors,
     in_goal_callbacks,
     may_run_meanwhile,
     waits_alone,
+    waits_in,
 )
 from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
 from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
+from scaffold.model.programs.known_nodes import KnownNode
 from scaffold.model.programs.publishing import publish_calls
 from scaffold.model.programs.threads import (
     names_other_executor,
@@ -22,8 +25,10 @@ from scaffold.model.programs.threads import (
     spins_in_one_thread,
 )
 from scaffold.model.programs.topics import (
+    NamedEndpoint,
     is_private,
     is_remapped,
+    named_endpoints,
     one_sided,
     services_of,
     topics_of,
@@ -32,7 +37,10 @@ from scaffold.model.programs.topics import (
 __all__ = [
     "Executed",
     "Execution",
+    "KnownNode",
+    "NamedEndpoint",
     "Shutdowns",
+    "Waits",
     "calls_others",
     "files_of",
     "in_callbacks",
@@ -43,6 +51,7 @@ __all__ = [
     "late_init",
     "may_init",
     "may_run_meanwhile",
+    "named_endpoints",
     "names_other_executor",
     "nodes_of",
     "one_sided",
@@ -57,4 +66,5 @@ __all__ = [
     "topics_of",
     "used_of_executor",
     "waits_alone",
+    "waits_in",
 ]

@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from scaffold.model.python.facts import (
+    Exports,
+    exports_of,
+    imports_by_path,
+    paths_importing,
+)
 from scaffold.model.python.guards import is_for_ros1, is_guarded_by, is_handled
 from scaffold.model.python.module import Import, PythonModule
 from scaffold.model.python.returns import (
@@ -17,6 +23,7 @@ from scaffold.model.python.values import UNKNOWN, Glob, PathValue, Unknown, is_k
 
 __all__ = [
     "UNKNOWN",
+    "Exports",
     "FunctionNode",
     "Glob",
     "Import",
@@ -24,6 +31,8 @@ __all__ = [
     "PythonModule",
     "Unknown",
     "argument_error",
+    "exports_of",
+    "imports_by_path",
     "is_for_ros1",
     "is_generator",
     "is_guarded_by",
@@ -33,6 +42,7 @@ __all__ = [
     "may_end",
     "may_end_with_items",
     "misfit_of_context",
+    "paths_importing",
     "returned",
     "value_set_before",
 ]

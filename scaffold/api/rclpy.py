@@ -37,7 +37,7 @@ from scaffold.model.rclpy.entities import (
     Subscription,
     Timer,
 )
-from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_files
+from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_paths
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
@@ -115,7 +115,7 @@ __all__ = [
     "parameter_read",
     "parameters_set",
     "rclpy_file",
-    "rclpy_files",
+    "rclpy_paths",
     "topic_problem",
     "types_compared",
     "use_as_value",

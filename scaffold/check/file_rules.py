@@ -108,12 +108,17 @@ class RclpyRule(FileRule):
 class MessageRule(FileRule):
     """Reads the Python files that use classes of messages, services or actions."""
 
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that import such classes."""
+        from scaffold.model.messages.inference import message_paths
+
+        return message_paths(package)
+
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file; raises ViewError if it cannot be read."""
         from scaffold.model.messages.inference import MessageTypes
 
-        types = MessageTypes.of(package, path)
-        return self.check_in(package, types) if types.is_relevant else iter(())
+        return self.check_in(package, MessageTypes.of(package, path))
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file."""

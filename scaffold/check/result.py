@@ -9,6 +9,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.model.facts import FactId, StoredFact
     from scaffold.model.package import Package
 
 
@@ -17,8 +18,8 @@ class Part(NamedTuple):
 
     files: frozenset[str]
     """The Python files that it depends on, by ``Package.full_path``."""
-    imports: frozenset[str]
-    """The files of which it depends only on what they import."""
+    facts: frozenset[FactId]
+    """The facts of this and other packages that it depends on."""
     diagnostics: tuple[Diagnostic, ...]
 
 
@@ -36,8 +37,8 @@ class Verdict(NamedTuple):
     """What the linters of Python style find, by path."""
     unparsable: Sequence[Diagnostic]
     """The files that could not be read, each with the reason."""
-    imports: Mapping[str, frozenset[str]]
-    """The top-level packages that files import, by path."""
+    facts: Mapping[FactId, StoredFact]
+    """The facts that the parts depend on, also through others."""
     configuring: frozenset[str] = frozenset()
     """The files that say by what style is judged, by ``Package.full_path``."""
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 
 from scaffold import time_limit
+from scaffold.check.cache.facts import EarlierFacts
 from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.file_rules import FileRule
 from scaffold.check.result import Earlier, Part, Verdict
@@ -13,6 +14,7 @@ from scaffold.check.rule import Rule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
+from scaffold.model.facts import Fact, FactId, StoredFact
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.source import Location, TooLargeError, ViewError
@@ -43,6 +45,9 @@ class Check:
         self._reads: dict[str, Reads] = {}
         self._found: dict[str, list[Diagnostic]] = {}
         self._unparsable: list[Diagnostic] = []
+        self._earlier_facts: EarlierFacts | None = None
+        self._facts: dict[FactId, Fact] = {}
+        """The facts of the package: what files there are to check may depend on them."""
         self._is_whole = True
         """Whether each finding belongs to a part."""
         if earlier is not None:
@@ -51,22 +56,11 @@ class Check:
     def _take_over(self, earlier: Earlier) -> None:
         package, verdict = self._package, earlier.verdict
         edited = frozenset(earlier.edited)
-        package.assume_imports(
-            {
-                path: imports
-                for path, imports in verdict.imports.items()
-                if package.full_path(path) not in edited
-            }
-        )
-        same = {
-            package.full_path(path)
-            for path, imports in verdict.imports.items()
-            if package.full_path(path) in edited and _imports(package, path) == imports
-        }
+        facts = self._earlier_facts = EarlierFacts(package, verdict.facts, edited)
         self._kept = {
             key: part
             for key, part in verdict.parts.items()
-            if part.files.isdisjoint(edited) and (edited - same).isdisjoint(part.imports)
+            if part.files.isdisjoint(edited) and all(map(facts.fact, part.facts))
         }
         self._unparsable = [
             item
@@ -81,6 +75,9 @@ class Check:
                 continue
             for key, found in self._run(rule).items():
                 self._found.setdefault(key, []).extend(found)
+        self._facts = {fact.id: fact for fact in self._package.facts}
+        if self._earlier_facts is not None:
+            self._earlier_facts.end()
         self._unparsable = [*dict.fromkeys([*self._unparsable, *_unparsable(self._package)])]
         said = [item for part in self._kept.values() for item in part.diagnostics]
         said += [item for found in self._found.values() for item in found]
@@ -96,12 +93,31 @@ class Check:
         exhausted_here = any(item.message in EXHAUSTION for item in self._unparsable)
         if exhausted_here or not self._is_whole:
             return None  # files may have been refused because of others
-        made = {
-            key: Part(*reads.all(), tuple(self._found.get(key, ())))
-            for key, reads in self._reads.items()
-        }
-        imports = self._package.known_imports
-        return Verdict({**self._kept, **made}, style, self._unparsable, imports)
+        parts = dict(self._kept)
+        facts = dict(self._facts)
+        for key, reads in self._reads.items():
+            files, used = reads.all()
+            facts.update((fact.id, fact) for fact in used)
+            ids = frozenset(fact.id for fact in used)
+            parts[key] = Part(files, ids, tuple(self._found.get(key, ())))
+        return Verdict(parts, style, self._unparsable, self._stored(facts))
+
+    def _stored(self, facts: dict[FactId, Fact]) -> Mapping[FactId, StoredFact]:
+        """Return some facts, those of the parts that are taken over, and what all depend on."""
+        if self._earlier_facts is not None:
+            wanted = {wanted for part in self._kept.values() for wanted in part.facts}
+            for known in map(self._earlier_facts.fact, wanted):
+                if known is not None:
+                    facts.setdefault(known.id, known)
+        pending = list(facts.values())
+        result: dict[FactId, StoredFact] = {}
+        while pending:
+            fact = pending.pop()
+            if fact.id not in result:
+                stored, used = fact.stored()
+                result[fact.id] = stored
+                pending += used
+        return result
 
     def _run(self, rule: Rule) -> Mapping[str, list[Diagnostic]]:
         """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
@@ -150,13 +166,6 @@ class Check:
             if key not in self._kept:
                 self._reads.setdefault(key, Reads()).files.add(package.full_path(path))
                 yield key, lambda path=path: rule.check_path(package, path)  # type: ignore[misc]
-
-
-def _imports(package: Package, path: str) -> Collection[str] | None:
-    try:
-        return package.imports(path)
-    except ViewError:
-        return None
 
 
 def _crash(rule: Rule, package: Package, error: Exception) -> Diagnostic:

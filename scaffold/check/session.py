@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from scaffold.types.check import TypeCheck
 
 
-WORTH_PARTS = 10
-"""Python files from which on it pays to keep findings in parts; small packages are checked anew."""
+WORTH_PARTS = 2
+"""Python files from which on it pays to keep findings in parts; others are checked anew."""
 
 
 _TYPES = "types"

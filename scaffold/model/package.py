@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, TypeVar, cast
 
@@ -19,6 +20,7 @@ from scaffold.files.tree import (
     Tree,
 )
 from scaffold.model import reads
+from scaffold.model.facts import Fact, fact
 from scaffold.model.reads import Reads
 from scaffold.record import NamedTuple
 from scaffold.source import Location, MissingFileError, ParseError, Source, TooLargeError, ViewError
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from scaffold.files.disk import Disk
     from scaffold.formats.ini import IniFile
     from scaffold.model.cmake.lists import CMakeLists
+    from scaffold.model.facts import Key
     from scaffold.model.manifest.manifest import Manifest
     from scaffold.model.python.module import PythonModule
     from scaffold.model.setup_py.setup_py import SetupPy
@@ -74,6 +77,8 @@ class Package:
         self._views: dict[object, object] = {}
         self._reads: dict[object, Reads] = {}
         """What the remembered views were made of."""
+        self._facts: dict[Key, Fact] = {}
+        self._recalls: list[Callable[[Key], Fact | None]] = []
         self._refused: dict[str, ParseError] = {}
 
     @classmethod
@@ -162,7 +167,7 @@ class Package:
         if path == MANIFEST:
             return self.manifest.source
         try:
-            return self.module(path).source if path.endswith(".py") else self.source(path)
+            return self._decoded(path) if path.endswith(".py") else self.source(path)
         except ParseError:
             return self.source(path)
 
@@ -239,31 +244,12 @@ class Package:
         return None if isinstance(known, ViewError) else cast("PythonModule | None", known)
 
     def imports(self, path: str) -> frozenset[str]:
-        """Return the top-level packages that a Python file imports; raises ViewError.
+        """Return the top-level packages that a Python file imports, a fact; raises ViewError."""
+        return imports(self, path)
 
-        Of a file that has not changed since an earlier run this is known without parsing it, and
-        what was made of this alone holds until the imports change.
-        """
-
-        def find() -> frozenset[str]:
-            with reads.recorded(Reads()):  # the caller's own
-                return frozenset(self.module(path).imports_by_root)
-
-        reads.note_imports(self.full_path(path))
-        return self._view(("imports", path), find)
-
-    def assume_imports(self, imports: Mapping[str, frozenset[str]]) -> None:
-        """Take over what an earlier run found out about files that have not changed since."""
-        self._views.update((("imports", path), names) for path, names in imports.items())
-
-    @property
-    def known_imports(self) -> Mapping[str, frozenset[str]]:
-        """What files import, as far as somebody asked."""
-        return {
-            key[1]: value
-            for key, value in self._views.items()
-            if isinstance(key, tuple) and key[0] == "imports" and isinstance(value, frozenset)
-        }
+    def occurrences(self, word: str) -> int:
+        """Return how often a word occurs in the Python files, a fact."""
+        return occurrences(self, word)
 
     def modules(
         self, paths: Iterable[str] | None = None, mentioning: Sequence[str] = ()
@@ -274,10 +260,9 @@ class Package:
             paths: Only these.
             mentioning: Words without which a file is of no interest; it is not even parsed.
         """
-        words = [word.encode() for word in mentioning]
         for path in self.python_files if paths is None else paths:
             try:
-                if all(word in self.data(path) for word in words):
+                if not mentioning or mentions(self, path, *mentioning):
                     yield self.module(path)
             except ViewError:
                 continue
@@ -376,6 +361,44 @@ class Package:
         with reads.recorded(made_of):
             return self._view(("derived", key), build)
 
+    def fact(self, key: Key, make: Callable[[], View]) -> View:
+        """Return a fact; see `scaffold.model.facts.fact`."""
+        known = self._facts.get(key) or self._recall(key)
+        if known is None:
+            known = Fact(self.directory, key)
+            known.make(make)
+            self._facts[key] = known
+        reads.note_fact(known)
+        if known.error is not None:
+            raise known.error
+        return cast("View", known.value)
+
+    def known_fact(self, key: Key) -> Fact | None:
+        """Return a fact that was asked for, or that is known from an earlier run."""
+        return self._facts.get(key) or self._recall(key)
+
+    @property
+    def facts(self) -> Sequence[Fact]:
+        """The facts that were asked for."""
+        return [*self._facts.values()]
+
+    def assume_facts(self, recall: Callable[[Key], Fact | None]) -> None:
+        """Take over what an earlier run found out, as far as it is the same."""
+        self._recalls.append(recall)
+
+    def forget_facts(self) -> None:
+        """Drop the facts, and what an earlier run knew of them."""
+        self._facts.clear()
+        self._recalls.clear()
+
+    def _recall(self, key: Key) -> Fact | None:
+        for recall in self._recalls:
+            known = recall(key)
+            if known is not None:
+                self._facts[key] = known
+                return known
+        return None
+
     def refuse(self, path: str, message: str) -> bool:
         """Count a file as unparsable from now on, for what only a look at its contents shows.
 
@@ -387,12 +410,14 @@ class Package:
         self._refused[path] = ParseError(Location.start_of(path), message)
         errors = {key: view for key, view in self._views.items() if isinstance(view, ViewError)}
         self._views = {**errors, ("source", path): self._refused[path]}
+        self.forget_facts()
         return True
 
     def forget(self) -> None:
         """Drop the views and the list of files: they are made again when asked for."""
         self._views.clear()
         self._reads.clear()
+        self._facts.clear()
         self._refused.clear()
         if self._workspace is None:
             self._neighbourhood = None
@@ -403,9 +428,16 @@ class Package:
         """Put other files in place of those of the package; see `Workspace.forget`."""
         self.tree = tree
         self._identity = None
+        self._recalls.clear()
         self.forget()
 
     # -- inside
+
+    def _decoded(self, path: str) -> Source:
+        from scaffold.model.python.parsing import decode
+
+        self._note(path)
+        return self._view(("decoded", path), lambda: decode(path, self._read(path)))
 
     def full_path(self, path: str) -> str:
         """Return how a file is called where there are several packages."""
@@ -497,3 +529,26 @@ class Package:
         if isinstance(found, ViewError):
             raise found
         return cast("View", found)
+
+
+@fact
+def imports(package: Package, path: str) -> frozenset[str]:
+    """Return the top-level packages that a Python file imports; raises ViewError."""
+    return frozenset(package.module(path).imports_by_root)
+
+
+@fact
+def mentions(package: Package, path: str, *words: str) -> bool:
+    """Tell whether a file contains all of some words; raises ViewError."""
+    data = package.data(path)
+    return all(word.encode() in data for word in words)
+
+
+@fact
+def occurrences(package: Package, word: str) -> int:
+    """Count a word in the Python files of a package: in calls, imports, arguments, texts."""
+    count = 0
+    for path in package.python_files:
+        with suppress(ViewError):
+            count += package.data(path).count(word.encode())
+    return count

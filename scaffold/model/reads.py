@@ -8,6 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.facts import Fact
 
 
 class Reads:
@@ -17,17 +21,17 @@ class Reads:
     that was before.
     """
 
-    __slots__ = ("files", "imports", "views")
+    __slots__ = ("facts", "files", "views")
 
     def __init__(self) -> None:
         self.files: set[str] = set()
         """The files whose content was accessed."""
-        self.imports: set[str] = set()
-        """The files of which it was only asked what they import."""
+        self.facts: set[Fact] = set()
+        """What was asked of files without looking at them."""
         self.views: set[Reads] = set()
 
-    def all(self) -> tuple[frozenset[str], frozenset[str]]:
-        """Return files and imports, those of the views included."""
+    def all(self) -> tuple[frozenset[str], frozenset[Fact]]:
+        """Return files and facts, those of the views included."""
         seen = {self}
         pending = [self]
         while pending:
@@ -36,7 +40,8 @@ class Reads:
                     seen.add(view)
                     pending.append(view)
         files = frozenset[str]().union(*(reads.files for reads in seen))
-        return files, frozenset[str]().union(*(reads.imports for reads in seen)) - files
+        facts = {fact.id: fact for reads in seen for fact in reads.facts}
+        return files, frozenset(facts.values())
 
 
 _recorders: list[Reads] = []
@@ -63,10 +68,10 @@ def note_file(path: str) -> None:
         _recorders[-1].files.add(path)
 
 
-def note_imports(path: str) -> None:
-    """Note that it was asked what a file imports."""
+def note_fact(fact: Fact) -> None:
+    """Note that a fact was used."""
     if _recorders:
-        _recorders[-1].imports.add(path)
+        _recorders[-1].facts.add(fact)
 
 
 def note_view(reads: Reads) -> None:

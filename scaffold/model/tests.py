@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.facts import paths_importing
 from scaffold.model.python.module import is_in_tests
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -39,6 +42,11 @@ class TestFunction(NamedTuple):
     class_: ast.ClassDef | None
 
 
+def files_of_tests(package: Package) -> list[str]:
+    """Return the Python files that are tests or belong to them."""
+    return [path for path in package.python_files if is_in_tests(path)]
+
+
 def test_modules(package: Package) -> list[PythonModule]:
     """Return the files of tests that pytest collects."""
     return list(package.modules(test_paths(package)))
@@ -46,11 +54,7 @@ def test_modules(package: Package) -> list[PythonModule]:
 
 def test_paths(package: Package) -> list[str]:
     """Return the paths of the same, whether they can be parsed or not."""
-    return [
-        path
-        for path in package.python_files
-        if is_in_tests(path) and _is_collected(path.rpartition("/")[2])
-    ]
+    return [path for path in files_of_tests(package) if _is_collected(path.rpartition("/")[2])]
 
 
 def _is_collected(name: str) -> bool:
@@ -127,14 +131,20 @@ def fixtures(package: Package, module: PythonModule) -> Mapping[str, Fixture]:
     """Return the fixtures of a file of tests and of the conftest.py files around it, by name."""
     result: dict[str, Fixture] = {}
     directory = module.path.rpartition("/")[0]
-    for other in package.modules():
-        place, _, name = other.path.rpartition("/")
-        near = name == "conftest.py" and f"{directory}/".startswith(f"{place}/" if place else "")
-        if near or other is module:
-            for fixture in own_fixtures(other):
-                if other is module or fixture.name not in result:
-                    result[fixture.name] = fixture
+    paths = [
+        path for path in package.python_files if path == module.path or _is_near(path, directory)
+    ]
+    for other in package.modules(paths):
+        for fixture in own_fixtures(other):
+            if other is module or fixture.name not in result:
+                result[fixture.name] = fixture
     return result
+
+
+def _is_near(path: str, directory: str) -> bool:
+    """Tell whether a file is a conftest.py for the tests in a directory."""
+    place, _, name = path.rpartition("/")
+    return name == "conftest.py" and f"{directory}/".startswith(f"{place}/" if place else "")
 
 
 def own_fixtures(module: PythonModule) -> Iterator[Fixture]:
@@ -168,10 +178,21 @@ def marks(
 
 def uses_pytest_plugins(package: Package) -> bool:
     """Tell whether plugins or settings of pytest may run what it does not run by itself."""
+    return settings_or_tests_mention(package, _PLUGINS)
+
+
+def settings_or_tests_mention(package: Package, words: Sequence[str]) -> bool:
+    """Tell whether the settings of pytest, or a test, contain one of some words."""
     names = ("pytest.ini", "setup.cfg", "pyproject.toml", "tox.ini")
     texts = [package.source(name).text for name in names if package.has(name)]
-    texts += [module.source.text for module in package.modules() if module.in_tests]
-    return any(word in text for text in texts for word in _PLUGINS)
+    if any(word in text for text in texts for word in words):
+        return True
+    return any(
+        word.encode() in data
+        for path, data in _python_data(package)
+        if is_in_tests(path)
+        for word in words
+    )
 
 
 def may_start(package: Package, name: str) -> bool:
@@ -182,16 +203,22 @@ def may_start(package: Package, name: str) -> bool:
         name: The name of the file that describes the launch.
     """
     return any(
-        name in module.source.text or "'launch_test'" in module.source.text
-        for module in package.modules()
-        if module.path.rpartition("/")[2] != name
+        name.encode() in data or b"'launch_test'" in data
+        for path, data in _python_data(package)
+        if path.rpartition("/")[2] != name
     )
 
 
 def is_named_elsewhere(package: Package, name: str) -> bool:
     """Tell whether a name occurs anywhere else: in a call, an import, an argument, a text."""
-    count = sum(module.source.text.count(name) for module in package.modules())
-    return count > 1
+    return package.occurrences(name) > 1
+
+
+def _python_data(package: Package) -> Iterator[tuple[str, bytes]]:
+    """Yield the bytes of the Python files; a name in them needs no parser."""
+    for path in package.python_files:
+        with suppress(ViewError):
+            yield path, package.data(path)
 
 
 def constructed_class(module: PythonModule, node: ast.expr) -> str:
@@ -209,9 +236,12 @@ def node_tests(package: Package) -> Iterator[tuple[PythonModule, str]]:
 
     Tests with launch_testing, and files that run themselves, are skipped.
     """
-    around = [item for item in package.modules() if item.path.endswith("conftest.py")]
-    for module in test_modules(package):
-        if "rclpy" not in module.imports_by_root or LAUNCH in module.functions:
+    conftests = [path for path in package.python_files if path.endswith("conftest.py")]
+    around = [*package.modules(conftests)]
+    for module in package.modules(
+        set(test_paths(package)) & set(paths_importing(package, "rclpy"))
+    ):
+        if LAUNCH in module.functions:
             continue
         if not module.has_main_guard and "launch_pytest" not in module.imports_by_root:
             yield module, "\n".join(item.source.text for item in [module, *around])

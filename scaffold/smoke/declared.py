@@ -34,7 +34,7 @@ def expectations(package: Package) -> dict[str, Expectation]:
 
 def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
     try:
-        run = run_of(package, start)
+        run = run_of(package, start.path, start.function)
     except ViewError:
         return None
     owners = [owner for _, owner in run.nodes()]

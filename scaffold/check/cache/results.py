@@ -15,6 +15,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Change, Fix, Safety
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
+from scaffold.model.facts import StoredFact
 from scaffold.model.reads import is_followed
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -24,7 +25,12 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
+    from scaffold.model.facts import FactId
     from scaffold.model.package import Identity, Package
+
+
+_NOTHING = Part(frozenset(), frozenset(), ())
+"""Of rules that looked at no Python file and found nothing: most rules, in most packages."""
 
 
 class _Known(NamedTuple):
@@ -180,11 +186,10 @@ def _is_beside(package: Package, known: _Known, edited: frozenset[str]) -> bool:
     """Tell whether nothing that was found in a package depends on the edited files."""
     if known.verdict is None or any(path.startswith(package.full_path("")) for path in edited):
         return False
-    paths, parts, *_ = known.verdict
+    paths, parts, *_, facts, _ = known.verdict
     places = {at for at, path in enumerate(paths) if path in edited}
-    return all(
-        places.isdisjoint(files) and places.isdisjoint(imports) for _, files, imports, _ in parts
-    )
+    made_of = [files for _, files, *_ in (*parts, *facts)]
+    return all(map(places.isdisjoint, made_of))
 
 
 def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[str]) -> bool:
@@ -267,31 +272,49 @@ def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
     def places(files: Iterable[str]) -> tuple[int, ...]:
         return tuple(paths.setdefault(path, len(paths)) for path in files)
 
+    numbers = {wanted: at for at, wanted in enumerate(verdict.facts)}
+
+    def numbered(facts: Iterable[FactId]) -> tuple[int, ...]:
+        return tuple(numbers[wanted] for wanted in facts)
+
     parts = [
-        (key, places(part.files), places(part.imports), tuple(map(encode, part.diagnostics)))
+        (key, places(part.files), numbered(part.facts), tuple(map(encode, part.diagnostics)))
         for key, part in verdict.parts.items()
+        if part != _NOTHING
     ]
+    silent = " ".join(key for key, part in verdict.parts.items() if part == _NOTHING)
     style = [(path, tuple(map(encode, item))) for path, item in verdict.style.items()]
-    imports = [(path, tuple(sorted(names))) for path, names in verdict.imports.items()]
+    facts = [
+        (wanted, places(fact.files), numbered(fact.facts), fact.encoded)
+        for wanted, fact in verdict.facts.items()
+    ]
     unparsable = tuple(map(encode, verdict.unparsable))
     configuring = places(sorted(verdict.configuring))
-    return tuple(paths), parts, style, unparsable, imports, configuring
+    return tuple(paths), parts, silent, style, unparsable, facts, configuring
 
 
 def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
-    paths, parts, style, unparsable, imports, configuring = stored
+    paths, parts, silent, style, unparsable, facts, configuring = stored
+    names = [wanted for wanted, *_ in facts]
 
     def files(places: Iterable[int]) -> frozenset[str]:
         return frozenset(paths[at] for at in places)
 
+    def ids(numbers: Iterable[int]) -> Iterator[FactId]:
+        return (names[number] for number in numbers)
+
     return Verdict(
         {
-            key: Part(files(read), files(imported), tuple(map(_decode, item)))
-            for key, read, imported, item in parts
-        },
+            key: Part(files(read), frozenset(ids(used)), tuple(map(_decode, item)))
+            for key, read, used, item in parts
+        }
+        | dict.fromkeys(silent.split(), _NOTHING),
         {path: list(map(_decode, item)) for path, item in style},
         list(map(_decode, unparsable)),
-        {path: frozenset(names) for path, names in imports},
+        {
+            wanted: StoredFact(files(read), tuple(ids(used)), encoded)
+            for wanted, read, used, encoded in facts
+        },
         files(configuring),
     )
 

@@ -43,7 +43,7 @@ ENVIRONMENT = (
 )
 """The variables that a verdict, or how it is shown, depends on."""
 
-_MAGIC = b"scaffold-run-3\n"
+_MAGIC = b"scaffold-run-4\n"
 
 
 class CachedRun:
@@ -111,8 +111,8 @@ class CacheEntry:
     def __init__(self, kept: str, words: Sequence[str]) -> None:
         where = os.getcwd()
         variables = [os.environ.get(name) for name in ENVIRONMENT]
-        key = marshal.dumps((list(words), where, variables, _screen()))
-        self._path = os.path.join(kept, digest(key))
+        key = repr((list(words), where, variables, _screen()))
+        self._path = os.path.join(kept, digest(key.encode("utf-8", "surrogateescape")))
         self._head = _MAGIC + tool().encode()
         data = cache.read_sealed(self._path, self._head)
         self.last = None if data is None else CachedRun(*marshal.loads(data))  # noqa: S302  own files

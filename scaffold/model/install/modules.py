@@ -7,37 +7,41 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
 from scaffold.model.cmake.ament import has_unknown_commands, programs
+from scaffold.model.facts import fact
+from scaffold.model.python.facts import imports_by_path, imports_of
+from scaffold.model.python.module import is_in_tests
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.python.module import Import, PythonModule
+    from scaffold.model.python.module import Import
 
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on Python's path in another way."""
 
 
-def absolute_name(module: PythonModule, node: Import) -> str:
+def absolute_name(path: str, node: Import) -> str:
     """Return the full name of what an import means, without the dots in front."""
     if not node.level:
         return node.module
-    directory = module.path.split("/")[: -node.level]
+    directory = path.split("/")[: -node.level]
     return ".".join([*directory, *([node.module] if node.module else [])])
 
 
 def names_imported(package: Package) -> set[str]:
     """Return the full names of what modules of the package import: modules and what is in them."""
     result: set[str] = set()
-    for module in package.modules():
-        for item in module.imports:
-            base = absolute_name(module, item)
+    for path, imports in imports_by_path(package):
+        for item in imports:
+            base = absolute_name(path, item)
             result |= {base, *(f"{base}.{name.name}" for name in item.names)}
     return result
 
 
 def paths_imported_by(package: Package, files: set[str]) -> list[str]:
     """Return where modules lie that some files import, relative to a directory on Python's path."""
-    modules = [package.module(path) for path in sorted(files & set(package.python_files))]
-    names = {item.module for module in modules for item in module.imports}
+    paths = sorted(files & set(package.python_files))
+    names = {item.module for path in paths for item in imports_of(package, path)}
     return [f"{name.replace('.', '/')}.py" for name in sorted(names) if name]
 
 
@@ -79,10 +83,10 @@ def modules_of(package: Package, root: str) -> list[str]:
     ]
 
 
-def meant_module(package: Package, module: PythonModule, name: str) -> str:
-    """Return the module of the package that a name means which is not on Python's path."""
-    own = module.path.partition("/")[0]
-    if module.path.count("/") != 1 or not package.has(f"{own}/__init__.py") or module.in_tests:
+def meant_module(package: Package, path: str, name: str) -> str:
+    """Return the module of the package that a name in a file means and that is not on the path."""
+    own = path.partition("/")[0]
+    if path.count("/") != 1 or not package.has(f"{own}/__init__.py") or is_in_tests(path):
         return ""
     root, _, rest = name.partition(".")
     if root in ROS_PACKAGES or root in sys.stdlib_module_names:
@@ -90,27 +94,27 @@ def meant_module(package: Package, module: PythonModule, name: str) -> str:
     if rest.startswith(f"{own}.") and not package.has_directory(root) and file_of(package, rest):
         return rest if root == "src" else ""
     if package.build_type == "ament_python":
-        return f"{own}.{name}" if _lacks_package(package, module, own, name) else ""
+        return f"{own}.{name}" if _lacks_package(package, path, own, name) else ""
     installed = {program.path: program.destination for program in programs(package)}
-    path = file_of(package, f"{own}.{name}")
-    if module.path in installed and path and path not in installed:
+    meant = file_of(package, f"{own}.{name}")
+    if path in installed and meant and meant not in installed:
         others = [install for install in package.cmake.installs if install.kind == "FILES"]
-        mended = "sys.path" in module.source.text or bool(others)
-        return "" if mended else f"{own}.{name}"
+        changes_path = b"sys.path" in package.data(path) or bool(others)
+        return "" if changes_path else f"{own}.{name}"
     return ""
 
 
-def uninstalled_import(package: Package, module: PythonModule, name: str) -> str:
+def uninstalled_import(package: Package, where: str, name: str) -> str:
     """Return the file of the package that a program of CMake imports and that is not installed.
 
     It is next to the program, or named from the root of the package. Empty where the module may be
     installed in another way, or come from elsewhere.
     """
-    if package.build_type != "ament_cmake" or "sys.path" in module.source.text:
+    if package.build_type != "ament_cmake" or b"sys.path" in package.data(where):
         return ""
-    if module.path not in {program.path for program in programs(package)}:
+    if where not in {program.path for program in programs(package)}:
         return ""
-    directory = module.path.rpartition("/")[0]
+    directory = where.rpartition("/")[0]
     root = name.partition(".")[0]
     path = file_of(package, f"{directory}/{name}".strip("/")) or file_of(package, name)
     known = {root, path.partition("/")[0]} & _python_packages(package)
@@ -137,41 +141,40 @@ def _python_packages(package: Package) -> set[str]:
     return names | {package.name, cmake.project_name or ""}
 
 
-def _lacks_package(package: Package, module: PythonModule, own: str, name: str) -> bool:
+def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
     """Tell whether a module that an entry point starts imports without its package's name."""
     root = name.partition(".")[0]
     setup = package.setup_py
     started = {script.module for script in setup.console_scripts}
-    if module.path.removesuffix(".py").replace("/", ".") not in started:
+    if path.removesuffix(".py").replace("/", ".") not in started:
         return False
     if package.has_directory(root) or package.has(f"{root}.py"):
         return False
-    mended = "sys.path" in module.source.text or "-packages" in setup.module.source.text
-    return not mended and bool(file_of(package, f"{own}.{name}"))
+    changes_path = b"sys.path" in package.data(path)
+    changes_path |= "-packages" in setup.module.source.text
+    return not changes_path and bool(file_of(package, f"{own}.{name}"))
 
 
-def shows_itself(package: Package, module: PythonModule) -> bool:
-    """Tell a module of a CMake package that, when it is started, only shows what it can do.
+@fact
+def is_started(package: Package, path: str) -> bool:
+    """Tell whether a file is a node of its own: a shebang, a main guard, rclpy.
 
-    It lies in a Python package, and has neither a ``main`` nor a node that is spun: others import
-    it.
+    A module of a CMake package that lies in a Python package, and has neither a ``main`` nor a node
+    that is spun, only shows what it can do when it is started: others import it.
     """
-    directory = module.path.rpartition("/")[0]
-    return (
+    if is_in_tests(path) or path.startswith(("examples/", "doc/", "docs/", "tools/")):
+        return False
+    try:
+        if "rclpy" not in package.imports(path):
+            return False
+        module = package.module(path)
+    except ViewError:
+        return False
+    directory = path.rpartition("/")[0]
+    shows_itself = (
         bool(package.cmake.find("ament_python_install_package"))
         and package.has(f"{directory}/__init__.py")
         and "main" not in module.functions
         and "spin" not in module.source.text
     )
-
-
-def is_started(package: Package, module: PythonModule) -> bool:
-    """Tell whether a file is a node of its own: a shebang, a main guard, rclpy."""
-    return (
-        module.is_script
-        and module.has_main_guard
-        and "rclpy" in module.imports_by_root
-        and not module.in_tests
-        and not module.path.startswith(("examples/", "doc/", "docs/", "tools/"))
-        and not shows_itself(package, module)
-    )
+    return module.is_script and module.has_main_guard and not shows_itself

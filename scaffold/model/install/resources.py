@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.module import is_in_tests
 from scaffold.model.python.values import UNKNOWN, PathValue
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -89,10 +93,16 @@ class _FileEvaluator(Evaluator):
 
 def own_files(package: Package) -> Iterator[OwnFile]:
     """Yield the files of the package that its modules read, with where they name them."""
-    for module in package.modules():
-        if module.in_tests or not any(word in module.source.text for word in _MENTIONS):
-            continue
-        yield from _named_in(package, module)
+    words = [word.encode() for word in _MENTIONS]
+    for path in package.python_files:
+        with suppress(ViewError):
+            if not is_in_tests(path) and any(word in package.data(path) for word in words):
+                yield from _files_named_in(package, path)
+
+
+@fact
+def _files_named_in(package: Package, path: str) -> tuple[OwnFile, ...]:
+    return tuple(_named_in(package, package.module(path)))
 
 
 def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:

@@ -3,145 +3,110 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
-from functools import cached_property
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile, share_path
+from scaffold.model.facts import fact
+from scaffold.model.launch.parameter_values import GivenValue, value_given
+from scaffold.model.launch.python_file import (
+    NODES,
+    LaunchCall,
+    LaunchFile,
+    launch_paths,
+    share_path,
+)
 from scaffold.model.programs.executables import nodes_of
 from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.record import NamedTuple
+from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.nodes import NodeDefinition
-    from scaffold.source import Location
+    from scaffold.model.programs.known_nodes import KnownNode
 
 _SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace", "OpaqueFunction")
 _LISTS = ("LaunchDescription", "add_action")
 
 
-class StartedNode:
-    """A node that a launch file starts."""
+class GivenParameter(NamedTuple):
+    """A parameter that a launch file gives a node by itself."""
 
-    def __init__(self, package: Package, launch: LaunchFile, call: LaunchCall) -> None:
-        self.launch = launch
-        self.call = call
-        self.package = launch.text(call, "package")
-        self.executable = launch.text(call, "executable")
-        self.namespace = launch.text(call, "namespace")
-        self._given_name = launch.text(call, "name")
-        self._own = package
+    name: str
+    key_location: Location
+    location: Location
+    """The place of the value."""
+    value: GivenValue | None
+    is_configuration: bool
+    """The value is a launch configuration."""
+    has_choices: bool
+    """It takes certain texts alone, none of which YAML reads as something else."""
 
-    @property
-    def owner(self) -> NodeDefinition | None:
-        """The code of the node, when it is Python of this package or one of the workspace."""
+
+class StartedNode(NamedTuple):
+    """A node that a launch file starts, as the file says it."""
+
+    launch: str
+    """The path of the launch file."""
+    location: Location
+    """The place of what is called."""
+    package: str | Unknown | None
+    executable: str | Unknown | None
+    namespace: str | Unknown | None
+    given_name: str | Unknown | None
+    name_location: Location
+    """The place of the name; without one, of the action."""
+    namespace_location: Location
+    """The place of the namespace; without one, of the action."""
+    is_component: bool
+    is_scoped: bool
+    """Whether something in the file may put it into another namespace."""
+    is_certain: bool
+    """Whether it is started whenever the file is: under no condition, in no group."""
+    has_parameters: bool
+    parameter_files: tuple[tuple[str, bool], ...]
+    """The parameter files of the own package, relative to its share directory.
+
+    The default of a launch argument counts too. With whether the launch file gives it to a file
+    that it includes, too.
+    """
+    parameters: tuple[GivenParameter, ...]
+    """Those that are given one by one."""
+    has_more_parameters: bool
+    """Whether files give some, or expressions that are not known."""
+    remappings: tuple[tuple[str, Location], ...]
+    """The names that are remapped, as far as they are known, with their places."""
+
+    def owner(self, package: Package) -> KnownNode | None:
+        """Return its code, when it is Python of the package or of one of the workspace."""
         if not isinstance(self.executable, str) or not isinstance(self.package, str):
             return None
-        return code_of(self._own, self.package, self.executable)
+        return code_of(package, self.package, self.executable)
 
-    @property
-    def _own_code(self) -> NodeDefinition | None:
-        return self.owner if self.package == self._own.name else None
+    def _own_code(self, package: Package) -> KnownNode | None:
+        return self.owner(package) if self.package == package.name else None
 
-    @property
-    def name(self) -> str | Unknown:
-        """The name as given, or as the code of the node gives it."""
-        if self._given_name is not None:
-            return self._given_name
-        owner = self._own_code
+    def name(self, package: Package) -> str | Unknown:
+        """Return the name as given, or as the code of the node gives it."""
+        if self.given_name is not None:
+            return self.given_name
+        owner = self._own_code(package)
         return owner.node_name if owner is not None else UNKNOWN
 
-    @property
-    def full_name(self) -> str | None:
-        """Name and namespace, ``/robot1/talker``; ``None`` when one of them is not known."""
-        name = self.name
-        if not isinstance(name, str) or self.namespace is UNKNOWN:
+    def full_name(self, package: Package) -> str | None:
+        """Return name and namespace, ``/robot1/talker``; ``None`` when one is not known."""
+        name = self.name(package)
+        if not isinstance(name, str) or isinstance(self.namespace, Unknown):
             return None
         namespace = (self.namespace or "").strip("/")
-        owner = self._own_code if self.namespace is None else None
-        if owner is not None and owner.namespace is not None:
+        owner = self._own_code(package) if self.namespace is None else None
+        if owner is not None and owner.has_namespace:
             return None
         return f"/{namespace}/{name}" if namespace else f"/{name}"
 
-    @property
-    def name_location(self) -> Location:
-        """The place of the name; without one, of the action."""
-        node = self.call.given.get("name")
-        return self.launch.location(node) if node is not None else self.call.location
 
-    @property
-    def namespace_location(self) -> Location:
-        """The place of the namespace; without one, of the action."""
-        node = self.call.given.get("namespace")
-        return self.launch.location(node) if node is not None else self.call.location
-
-    @property
-    def is_scoped(self) -> bool:
-        """Whether something in the file may put it into another namespace."""
-        return bool(self.launch.find(*_SCOPES))
-
-    @property
-    def is_certain(self) -> bool:
-        """Whether it is started whenever the file is: under no condition, in no group."""
-        if self.is_scoped or "condition" in self.call.given or self.call.is_open:
-            return False
-        return _is_listed(self.launch, self.call.call)
-
-    @cached_property
-    def parameters(self) -> Sequence[ast.expr]:
-        """The items of ``parameters=``, where they are written; see ``parameters_complete``."""
-        node = self.call.given.get("parameters")
-        if node is None:
-            return ()
-        return [item.node for item in self.launch.evaluator.elements(node).items]
-
-    @cached_property
-    def parameter_files(self) -> Sequence[tuple[str, ast.expr]]:
-        """The parameter files of the own package, relative to its share directory.
-
-        The default of a launch argument counts too.
-        """
-        result: list[tuple[str, ast.expr]] = []
-        for node in self.parameters:
-            path = share_path(self._file_of(node))
-            if path is not None and path[0] == self._own.name:
-                result.append((path[1], node))
-        return result
-
-    def _file_of(self, node: ast.expr) -> str | Unknown:
-        call = self.launch.call_of(node)
-        if call is not None and call.kind == "ParameterFile":
-            inner = call.given.get("param_file")
-            return UNKNOWN if inner is None else self._file_of(inner)
-        if call is not None and call.kind == "LaunchConfiguration":
-            return self.launch.default_of(node)
-        return self.launch.evaluator.joined_text(node)
-
-    @property
-    def parameter_dicts(self) -> Iterator[tuple[str, ast.expr, ast.expr]]:
-        """Yield name, name's place and value of the parameters that are given one by one."""
-        for node in self.parameters:
-            literal: ast.expr | None = node
-            if isinstance(node, ast.Name):
-                found = self.launch.module.index.lookup(node.id, node)
-                values = [binding.value for binding in found[1]] if found else []
-                literal = values[0] if len(values) == 1 else None
-            if isinstance(literal, ast.Dict):
-                yield from self._given_in(literal, "")
-
-    def _given_in(self, literal: ast.Dict, prefix: str) -> Iterator[tuple[str, ast.expr, ast.expr]]:
-        """Yield what a dictionary gives; launch joins the names of those inside with points."""
-        for key, value in zip(literal.keys, literal.values, strict=True):
-            name = self.launch.evaluator.text(key)
-            if key is None or not isinstance(name, str):
-                continue
-            if isinstance(value, ast.Dict):
-                yield from self._given_in(value, f"{prefix}{name}.")
-            else:
-                yield f"{prefix}{name}", key, value
-
-
-def code_of(package: Package, name: str, program: str) -> NodeDefinition | None:
+def code_of(package: Package, name: str, program: str) -> KnownNode | None:
     """Return the code of a node if it is Python in this package or one of the workspace.
 
     Args:
@@ -156,29 +121,174 @@ def code_of(package: Package, name: str, program: str) -> NodeDefinition | None:
 
 def started_nodes(package: Package) -> list[StartedNode]:
     """Return the nodes that the Python launch files of a package start."""
-
-    def find() -> list[StartedNode]:
-        return [
-            StartedNode(package, launch, call)
-            for launch in LaunchFile.of_package(package)
-            for call in launch.find(*NODES)
-        ]
-
-    return package.remember("started_nodes", find)
+    return [node for node in _all_started(package) if not node.is_component]
 
 
 def consumers(package: Package) -> list[StartedNode]:
     """Return the nodes and components that the Python launch files give parameters."""
+    return [node for node in _all_started(package) if node.has_parameters]
 
-    def find() -> list[StartedNode]:
-        return [
-            StartedNode(package, launch, call)
-            for launch in LaunchFile.of_package(package)
-            for call in launch.find(*NODES, "ComposableNode")
-            if "parameters" in call.given
-        ]
 
-    return package.remember("parameter_consumers", find)
+def _all_started(package: Package) -> list[StartedNode]:
+    def find() -> Iterator[StartedNode]:
+        for path in launch_paths(package):
+            with suppress(ViewError):
+                yield from _started_by(package, path)
+
+    return package.remember("started_nodes", lambda: [*find()])
+
+
+@fact
+def _started_by(package: Package, path: str) -> tuple[StartedNode, ...]:
+    launch = LaunchFile.of(package, path)
+    return tuple(_started(launch, call) for call in launch.find(*NODES, "ComposableNode"))
+
+
+def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
+    is_scoped = bool(launch.find(*_SCOPES))
+    is_doubtful = is_scoped or "condition" in call.given or call.is_open
+
+    def place(name: str) -> Location:
+        node = call.given.get(name)
+        return launch.location(node) if node is not None else call.location
+
+    return StartedNode(
+        launch.path,
+        call.location,
+        launch.text(call, "package"),
+        launch.text(call, "executable"),
+        launch.text(call, "namespace"),
+        launch.text(call, "name"),
+        place("name"),
+        place("namespace"),
+        call.kind == "ComposableNode",
+        is_scoped,
+        not is_doubtful and _is_listed(launch, call.call),
+        "parameters" in call.given,
+        tuple(_parameter_files(launch, call)),
+        tuple(_given(launch, *item) for item in parameters_given(launch, call)),
+        not all(_is_dictionary(launch, item) for item in parameter_items(launch, call)),
+        tuple(_remappings(launch, call)),
+    )
+
+
+# -- parameters
+
+
+def parameter_items(launch: LaunchFile, call: LaunchCall) -> Sequence[ast.expr]:
+    """Return the items of ``parameters=``, where they are written."""
+    node = call.given.get("parameters")
+    if node is None:
+        return ()
+    return [item.node for item in launch.evaluator.elements(node).items]
+
+
+def parameters_given(
+    launch: LaunchFile, call: LaunchCall
+) -> Iterator[tuple[str, ast.expr, ast.expr]]:
+    """Yield name, name's place and value of the parameters that are given one by one."""
+    for node in parameter_items(launch, call):
+        literal: ast.expr | None = node
+        if isinstance(node, ast.Name):
+            found = launch.module.index.lookup(node.id, node)
+            values = [binding.value for binding in found[1]] if found else []
+            literal = values[0] if len(values) == 1 else None
+        if isinstance(literal, ast.Dict):
+            yield from _given_in(launch, literal, "")
+
+
+def _given_in(
+    launch: LaunchFile, literal: ast.Dict, prefix: str
+) -> Iterator[tuple[str, ast.expr, ast.expr]]:
+    """Yield what a dictionary gives; launch joins the names of those inside with points."""
+    for key, value in zip(literal.keys, literal.values, strict=True):
+        name = launch.evaluator.text(key)
+        if key is None or not isinstance(name, str):
+            continue
+        if isinstance(value, ast.Dict):
+            yield from _given_in(launch, value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", key, value
+
+
+def _given(launch: LaunchFile, name: str, key: ast.expr, value: ast.expr) -> GivenParameter:
+    call = launch.call_of(value)
+    is_configuration = call is not None and call.kind == "LaunchConfiguration"
+    return GivenParameter(
+        name,
+        launch.location(key),
+        launch.location(value),
+        value_given(launch, value),
+        is_configuration,
+        call is not None and is_configuration and _has_choices(launch, call),
+    )
+
+
+def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether an item of ``parameters=`` is a dictionary, also one with a name."""
+    values: list[ast.expr] = [node]
+    if isinstance(node, ast.Name):
+        found = launch.module.index.lookup(node.id, node)
+        values = [x.value for x in (found[1] if found else ()) if x.value is not None]
+    return bool(values) and all(isinstance(value, ast.Dict) for value in values)
+
+
+def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, Location]]:
+    given = call.given.get("remappings")
+    elements = launch.evaluator.elements(given).items if given is not None else ()
+    for element in elements:
+        match element.node:
+            case ast.Tuple(elts=[source, _]) | ast.List(elts=[source, _]):
+                text = launch.evaluator.text(source)
+                if isinstance(text, str):
+                    yield text, launch.location(source)
+
+
+def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:
+    """Tell whether an argument takes certain texts alone, none of them something else in YAML."""
+    name = launch.evaluator.evaluate(configuration.given.get("variable_name"))
+    for call in launch.calls:
+        if call.kind == "DeclareLaunchArgument" and "choices" in call.given:
+            choices = launch.evaluator.evaluate(call.given["choices"])
+            if launch.evaluator.evaluate(call.given.get("name")) == name:
+                return isinstance(choices, list | tuple) and all(map(_is_text, choices))
+    return False
+
+
+def _is_text(value: object) -> bool:
+    """Tell whether YAML reads a word as text."""
+    return (
+        isinstance(value, str)
+        and re.fullmatch(r"[A-Za-z_][\w-]*", value) is not None
+        and value.lower() not in {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
+    )
+
+
+def _parameter_files(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, bool]]:
+    for node in parameter_items(launch, call):
+        path = share_path(_file_of(launch, node))
+        if path is not None and path[0] == launch.package_name:
+            yield path[1], _is_handed_on(launch, node)
+
+
+def _file_of(launch: LaunchFile, node: ast.expr) -> str | Unknown:
+    call = launch.call_of(node)
+    if call is not None and call.kind == "ParameterFile":
+        inner = call.given.get("param_file")
+        return UNKNOWN if inner is None else _file_of(launch, inner)
+    if call is not None and call.kind == "LaunchConfiguration":
+        return launch.default_of(node)
+    return launch.evaluator.joined_text(node)
+
+
+def _is_handed_on(launch: LaunchFile, expression: ast.expr) -> bool:
+    """Tell whether a launch file gives a parameter file to a file that it includes, too."""
+    text = launch.module.text(expression)
+    return any(
+        text in launch.module.text(given)
+        for call in launch.find("IncludeLaunchDescription")
+        if (given := call.given.get("launch_arguments")) is not None
+    )
 
 
 def _is_listed(launch: LaunchFile, call: ast.Call) -> bool:

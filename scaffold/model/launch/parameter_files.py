@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import contextlib
 from collections.abc import Iterator
 from difflib import SequenceMatcher
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
+from scaffold.model.package import mentions
 from scaffold.model.parameters.declared import own_nodes
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -17,7 +17,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.parameters.files import ParameterFile, Section
-    from scaffold.model.rclpy.nodes import NodeDefinition
+    from scaffold.model.programs.known_nodes import KnownNode
 
 _ALIKE = 0.75
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
@@ -40,30 +40,34 @@ def use_of(package: Package, path: str) -> FileUse:
 def _use_of(package: Package, path: str) -> FileUse:
     installed = share_of(package).files
     result: list[StartedNode] = []
-    named_by: list[tuple[StartedNode, ast.expr]] = []
+    passed = False
     for node in consumers(package):
-        for named, expression in node.parameter_files:
+        for named, is_handed_on in node.parameter_files:
             if installed.get(named, named) == path:
                 result.append(node)
-                named_by.append((node, expression))
-    known = {node.launch.path for node in result}
-    passed = any(_is_handed_on(node, expression) for node, expression in named_by)
+                passed = passed or is_handed_on
+    known = {node.launch for node in result}
     return FileUse(result, not passed and not _is_mentioned(package, path, known))
 
 
-def nodes_for(package: Package, path: str, section: Section) -> list[NodeDefinition]:
+def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
     """Return the code of the node that a section is for; none when that is not sure."""
     use = use_of(package, path)
     name = section.name
+    owners: list[KnownNode | None]
     if section.is_pattern:
         if not use.nodes:
             return []
-        owners = [node.owner for node in use.nodes]
+        owners = [node.owner(package) for node in use.nodes]
     else:
-        owners = [node.owner for node in use.nodes if node.name == name]
+        owners = [node.owner(package) for node in use.nodes if node.name(package) == name]
         if not owners:
             nodes, complete = own_nodes(package)
-            renamed = {node.name for node in started_nodes(package) if node.package != package.name}
+            renamed = {
+                node.name(package)
+                for node in started_nodes(package)
+                if node.package != package.name
+            }
             owners = [node for node in nodes if node.node_name == name]
             owners = owners if complete and name not in renamed and len(owners) == 1 else []
     result = [owner for owner in owners if owner is not None]
@@ -75,25 +79,29 @@ def is_loaded(package: Package, path: str) -> bool:
 
     Then it may hold what is for that code alone.
     """
-
-    def find() -> list[str]:
-        return [text for text in _python_texts(package) if "yaml.safe_load" in text]
-
     name = path.rpartition("/")[2]
-    return any(name in text for text in package.remember("code_loading_yaml", find))
+    return any(
+        mentions(other, code, name)
+        for other in package.workspace
+        for code in _code_loading_yaml(other)
+    )
 
 
-def _python_texts(package: Package) -> Iterator[str]:
-    for other in package.workspace:
-        for path in other.python_files:
+def _code_loading_yaml(package: Package) -> list[str]:
+    def find() -> Iterator[str]:
+        for path in package.python_files:
             with contextlib.suppress(ViewError):
-                yield other.source(path).text
+                if mentions(package, path, "yaml.safe_load"):
+                    yield path
+
+    return package.remember("code_loading_yaml", lambda: [*find()])
 
 
 def node_names(package: Package) -> set[str]:
     """Return all names of nodes that the package mentions: in its code, in its launch files."""
     names = {str(node.node_name) for node in own_nodes(package)[0]}
-    return names | {str(node.name) for node in (*started_nodes(package), *consumers(package))}
+    started = (*started_nodes(package), *consumers(package))
+    return names | {str(node.name(package)) for node in started}
 
 
 def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
@@ -110,16 +118,6 @@ def _is_alike(name: str, other: str) -> bool:
     if one in {two + "node", "node" + two} or two in {one + "node", "node" + one}:
         return True
     return SequenceMatcher(None, one, two).ratio() >= _ALIKE
-
-
-def _is_handed_on(node: StartedNode, expression: ast.expr) -> bool:
-    """Tell whether a launch file gives a parameter file to a file that it includes, too."""
-    text = node.launch.module.text(expression)
-    return any(
-        text in node.launch.module.text(given)
-        for call in node.launch.find("IncludeLaunchDescription")
-        if (given := call.given.get("launch_arguments")) is not None
-    )
 
 
 def _is_mentioned(package: Package, path: str, known: set[str]) -> bool:

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.nodes import code_of, started_nodes
-from scaffold.model.parameters.declared import escapes, home_of
+from scaffold.model.parameters.declared import escapes
 from scaffold.model.programs.entry_points import files_of
+from scaffold.model.rclpy.file import rclpy_file
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
-    from scaffold.model.launch.nodes import StartedNode
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.entities import Endpoint
+    from scaffold.model.programs.known_nodes import KnownNode
     from scaffold.model.rclpy.nodes import NodeDefinition
     from scaffold.source import Location
 
@@ -29,11 +30,11 @@ _OTHER_ENDPOINTS = ("message_filters", "wait_for_message", "image_transport", "c
 class Remapped(NamedTuple):
     """A node of the workspace that a launch file gives remappings."""
 
-    owner: NodeDefinition
+    owner: KnownNode
     program: str
     name: object
     """The name that it runs under."""
-    remappings: list[tuple[str, Location]]
+    remappings: Collection[tuple[str, Location]]
     """The names that are remapped, as far as they are known."""
     parameters: Collection[str] | None
     """The parameters that the launch file gives; ``None`` if not all are known."""
@@ -42,11 +43,16 @@ class Remapped(NamedTuple):
 def remapped_nodes(package: Package) -> Iterator[Remapped]:
     """Yield the nodes that launch files of a package give remappings."""
     for started in started_nodes(package):
-        names = list(_remapped_by(started))
-        owner = started.owner if names else None
+        owner = started.owner(package) if started.remappings else None
         if owner is not None:
-            program, given = str(started.executable), _parameters_given(started)
-            yield Remapped(owner, program, started.name, names, given)
+            given = {item.name for item in started.parameters}
+            yield Remapped(
+                owner,
+                str(started.executable),
+                started.name(package),
+                started.remappings,
+                None if started.has_more_parameters else given,
+            )
     for file in markup_files(package):
         for node in file.nodes:
             attributes = [attribute for attribute in node.remappings if is_known(attribute)]
@@ -64,41 +70,43 @@ def remapped_nodes(package: Package) -> Iterator[Remapped]:
                 )
 
 
-def _remapped_by(started: StartedNode) -> Iterator[tuple[str, Location]]:
-    """Yield the names that a launch file in Python remaps, with their places."""
-    given = started.call.given.get("remappings")
-    elements = started.launch.evaluator.elements(given).items if given is not None else ()
-    for element in elements:
-        match element.node:
-            case ast.Tuple(elts=[source, _]) | ast.List(elts=[source, _]):
-                text = started.launch.evaluator.text(source)
-                if isinstance(text, str):
-                    yield text, started.launch.location(source)
-
-
 def names_of(node: Remapped, package: Package) -> set[str] | None:
     """Return the topics, services and actions of a node as written; ``None`` if not all are known.
 
     A parameter that the launch file gives may name any of them.
     """
     owner = node.owner
-    if not isinstance(owner, NodeClass):
+    if not owner.is_class:
         return None  # a program that makes a node in passing may make another
-    home = home_of(owner, package)
-    names: set[str] = set()
-    current: NodeDefinition | None = owner
+    try:
+        names = _names_at(owner.home(package), owner.path, owner.number)
+    except ViewError:
+        return None
+    for _, parameter in names or ():
+        if parameter is not None and (node.parameters is None or parameter in node.parameters):
+            return None
+    return None if names is None else {name for name, _ in names}
+
+
+@fact
+def _names_at(
+    package: Package, path: str, number: int
+) -> tuple[tuple[str, str | None], ...] | None:
+    """Return the names, each with the parameter whose default it is; ``None`` if one is unknown."""
+    current: NodeDefinition | None = rclpy_file(package, path).nodes[number]
     while current is not None:
         if escapes(current) or current.is_lifecycle:
             return None
         current = current.base if isinstance(current, NodeClass) else None
-    for file in files_of(home, owner.facts.module.path):
+    names: list[tuple[str, str | None]] = []
+    for file in files_of(package, path):
         if file.module.mentions(*_OTHER_ENDPOINTS):
             return None
         for endpoint in file.endpoints:
-            if not isinstance(endpoint.name, str) or _may_be_set(endpoint, node.parameters):
+            if not isinstance(endpoint.name, str):
                 return None
-            names.add(endpoint.name)
-    return names
+            names.append((endpoint.name, endpoint.from_parameter))
+    return tuple(names)
 
 
 def has_name(names: set[str], source: str, node: object) -> bool:
@@ -113,20 +121,3 @@ def has_name(names: set[str], source: str, node: object) -> bool:
         name == wanted or name.endswith(f"/{wanted}") or wanted.endswith(f"/{name}")
         for name in plain
     )
-
-
-def _may_be_set(endpoint: Endpoint, given: Collection[str] | None) -> bool:
-    parameter = endpoint.from_parameter
-    return parameter is not None and (given is None or parameter in given)
-
-
-def _parameters_given(started: StartedNode) -> set[str] | None:
-    """Return the parameters that a launch file gives by name; ``None`` if files give some."""
-    for node in started.parameters:
-        values = [node]
-        if isinstance(node, ast.Name):
-            found = started.launch.module.index.lookup(node.id, node)
-            values = [x.value for x in (found[1] if found else ()) if x.value is not None]
-        if not values or not all(isinstance(value, ast.Dict) for value in values):
-            return None
-    return {name for name, _, _ in started.parameter_dicts}

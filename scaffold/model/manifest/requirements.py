@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, transitive_dependencies
 from scaffold.model.cmake.rosidl import generations
+from scaffold.model.python.facts import imports_by_path
+from scaffold.model.python.module import is_in_tests
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.python.module import Import, PythonModule
+    from scaffold.model.python.module import Import
     from scaffold.source import Location
 
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
@@ -46,15 +48,15 @@ def required_packages(package: Package) -> list[Requirement]:
     """Return what the package imports from others, once each; what is not known is skipped."""
     result: dict[str, Requirement] = {}
     local = _local_names(package).union(package.workspace.policy.implicit)
-    for module in package.modules():
-        if not is_shipped(package, module):
+    for path, imports in imports_by_path(package):
+        if not is_shipped(package, path):
             continue
-        for item in module.imports:
+        for item in imports:
             keys = _keys(package, item, local)
             if not keys:
                 continue
             known = result.get(item.root)
-            for_tests = module.in_tests or _is_named_for_tests(package, module.path)
+            for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
             if known is None or (known.for_tests and not for_tests):
                 result[item.root] = Requirement(keys, item.root, item.location, for_tests)
     return sorted(result.values(), key=lambda need: need.location)
@@ -94,18 +96,17 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
     return Declared(direct, along | transitive_dependencies(along))
 
 
-def is_shipped(package: Package, module: PythonModule) -> bool:
+def is_shipped(package: Package, path: str) -> bool:
     """Tell whether a file is installed or is a test; helper scripts and documentation are not.
 
     A module of a Python package, a launch file, a test, or a script that a build file names.
     """
-    path = module.path
     if path.startswith(_NOT_SHIPPED) or path.endswith("/setup.py"):
         return False
     if path.endswith("launch.py") or not path.endswith(".py"):
         return True
     directory, _, name = path.rpartition("/")
-    if module.in_tests and (_is_collected(name) or _is_imported_by_tests(package, name)):
+    if is_in_tests(path) and (_is_collected(name) or _is_imported_by_tests(package, name)):
         return True
     if directory and package.has(f"{directory}/requirements.txt"):
         return False  # a tool for itself
@@ -128,7 +129,10 @@ def _is_collected(name: str) -> bool:
 def _is_imported_by_tests(package: Package, name: str) -> bool:
     def find() -> set[str]:
         imports = [
-            item for module in package.modules() if module.in_tests for item in module.imports
+            item
+            for path, imports in imports_by_path(package)
+            if is_in_tests(path)
+            for item in imports
         ]
         words = {part for item in imports for part in item.module.split(".")}
         return words | {name.name for item in imports for name in item.names}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 
+from scaffold.model.facts import fact
 from scaffold.model.interfaces.definitions import KINDS, Definitions, Interface
 from scaffold.model.interfaces.syntax import Field, Section
 from scaffold.model.interfaces.types import FieldType
@@ -71,6 +73,30 @@ class Assigned(NamedTuple):
     value: ast.expr
 
 
+def message_paths(package: Package) -> Sequence[str]:
+    """Return the Python files that import interfaces, except those of ROS 1."""
+
+    def find() -> Iterator[str]:
+        for path in package.python_files:
+            with suppress(ViewError):
+                if _uses_interfaces(package, path):
+                    yield path
+
+    return package.remember("message_paths", lambda: [*find()])
+
+
+@fact
+def _uses_interfaces(package: Package, path: str) -> bool:
+    """Tell whether a file imports interfaces and is not of ROS 1; raises ViewError."""
+    module = package.module(path)
+    if "rospy" in module.imports_by_root:
+        return False
+    return module.mentions("get_parameter_value(") or any(
+        not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
+        for import_ in module.imports
+    )
+
+
 class MessageTypes:
     """What is known about the messages in one Python file."""
 
@@ -94,23 +120,8 @@ class MessageTypes:
     @classmethod
     def of_package(cls, package: Package) -> Iterator[MessageTypes]:
         """Yield the views of all files that import interfaces, except those of ROS 1."""
-        for path in package.python_files:
-            try:
-                types = cls.of(package, path)
-            except ViewError:
-                continue
-            if types.is_relevant:
-                yield types
-
-    @cached_property
-    def is_relevant(self) -> bool:
-        """Whether the file imports interfaces and is not of ROS 1."""
-        if "rospy" in self.module.imports_by_root:
-            return False
-        return self.module.mentions("get_parameter_value(") or any(
-            not import_.level and _names_kind(import_.module, [n.name for n in import_.names])
-            for import_ in self.module.imports
-        )
+        for path in message_paths(package):
+            yield cls.of(package, path)
 
     # -- classes
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.facts import fact
+from scaffold.model.programs.known_nodes import KnownNode, known_nodes
+from scaffold.model.python.values import UNKNOWN
+from scaffold.model.rclpy.file import rclpy_file, rclpy_files, rclpy_paths
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
+from scaffold.model.rclpy.parameters.descriptors import Descriptor
 from scaffold.record import NamedTuple
+from scaffold.source import Location
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.entities import Entity, Parameter
+    from scaffold.model.rclpy.entities import Parameter
     from scaffold.model.rclpy.file import RclpyFile
 
 ALWAYS = frozenset({"use_sim_time", "start_type_description_service"})
@@ -24,12 +29,25 @@ _KNOWN = ("rclpy.", "tf2_ros.", "message_filters.", "cv_bridge.")
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
 
+class DeclaredParameter(NamedTuple):
+    """A parameter that a node declares, as other files see it."""
+
+    package: str
+    """The name of the package that the code is in."""
+    location: Location
+    default: object
+    """``UNKNOWN`` also when none is given, or when it is no value of a parameter."""
+    has_descriptor: bool
+    descriptor: Descriptor | None
+    """``None`` when it is not known what it says."""
+
+
 class Declared(NamedTuple):
     """The parameters of a node."""
 
-    types: dict[str, str | None]
+    types: Mapping[str, str | None]
     """The type by name; ``None`` where it is not known, or may change."""
-    places: dict[str, Parameter]
+    places: Mapping[str, DeclaredParameter]
     complete: bool
     """Whether nothing else can be declared."""
 
@@ -43,15 +61,20 @@ def has_always(name: str) -> bool:
     return name in ALWAYS or name.startswith(_ALWAYS_PREFIXES)
 
 
-def declared_by(owner: NodeDefinition, package: Package) -> Declared:
+def declared_by(owner: NodeDefinition | KnownNode, package: Package) -> Declared:
     """Return what a node declares: in its class, in base classes, and where it is made."""
+    if isinstance(owner, KnownNode):
+        return _declared_at(owner.home(package), owner.path, owner.number)
     home = home_of(owner, package)
-    return home.remember(("declared_parameters", owner), lambda: _declared_by(owner, home))
+    number = next(at for at, node in enumerate(owner.facts.nodes) if node is owner)
+    return _declared_at(home, owner.facts.module.path, number)
 
 
-def _declared_by(owner: NodeDefinition, package: Package) -> Declared:
+@fact
+def _declared_at(package: Package, path: str, number: int) -> Declared:
+    owner = rclpy_file(package, path).nodes[number]
     types: dict[str, str | None] = {}
-    places: dict[str, Parameter] = {}
+    places: dict[str, DeclaredParameter] = {}
     complete = True
     current: NodeDefinition | None = owner
     while current is not None:
@@ -63,12 +86,25 @@ def _declared_by(owner: NodeDefinition, package: Package) -> Declared:
                 continue
             kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
             types[name] = kind if name not in types or types[name] == kind else None
-            places.setdefault(name, parameter)
+            if name not in places:
+                places[name] = _place(parameter, package)
         complete = complete and not current.declares_automatically and not escapes(current)
         complete = complete and all(item.owner is not None for item in current.facts.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
+
+
+def _place(parameter: Parameter, package: Package) -> DeclaredParameter:
+    default = parameter.default
+    is_plain = isinstance(default, str | int | float) or default == []
+    return DeclaredParameter(
+        package.name,
+        parameter.location,
+        default if is_plain else UNKNOWN,
+        parameter.descriptor_node is not None,
+        parameter.descriptor,
+    )
 
 
 def home_of(owner: NodeDefinition, package: Package) -> Package:
@@ -79,25 +115,28 @@ def home_of(owner: NodeDefinition, package: Package) -> Package:
     return modules if isinstance(modules, _Package) else package
 
 
-def place_of(created: Entity, package: Package) -> str:
-    """Return where a parameter is declared or read, for people who look at a package."""
-    at, owner = created.location, created.owner
-    home = home_of(owner, package) if owner is not None else package
-    return f"{at.path}:{at.line}" + (f" of {home.name}" if home is not package else "")
+def place_of(name: str, at: Location, package: Package) -> str:
+    """Return where a parameter is declared or read, for people who look at a package.
+
+    Args:
+        name: The package that the code is in.
+        at: The place.
+        package: The package that they look at.
+    """
+    return f"{at.path}:{at.line}" + (f" of {name}" if name != package.name else "")
 
 
-def declared_alone(package: Package) -> Iterator[tuple[NodeClass, list[Parameter]]]:
+def declared_alone(file: RclpyFile) -> Iterator[tuple[NodeClass, list[Parameter]]]:
     """Yield the nodes that nothing else declares parameters for, each with those it declares.
 
     Unlike `declared_by` it tells nothing of nodes that others inherit from.
     """
     passed_on: dict[RclpyFile, frozenset[ast.ClassDef]] = {}
-    for file in rclpy_files(package):
-        bases = _bases(file)
-        for node in file.classes:
-            declared = None if node.node in bases else _declared(node, passed_on)
-            if declared is not None:
-                yield node, declared
+    bases = _bases(file)
+    for node in file.classes:
+        declared = None if node.node in bases else _declared(node, passed_on)
+        if declared is not None:
+            yield node, declared
 
 
 def _declared(
@@ -164,11 +203,11 @@ def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter
                 yield from (parameter for parameter in file.parameters if parameter.owner is owner)
 
 
-def own_nodes(package: Package) -> tuple[list[NodeDefinition], bool]:
+def own_nodes(package: Package) -> tuple[list[KnownNode], bool]:
     """Return the nodes in the Python code of a package, and whether there are no others."""
 
-    def find() -> tuple[list[NodeDefinition], bool]:
-        result = [node for file in rclpy_files(package) for node in file.nodes]
+    def find() -> tuple[list[KnownNode], bool]:
+        result = [node for path in rclpy_paths(package) for node in known_nodes(package, path)]
         compiled = any(
             path.endswith(_COMPILED) and not path.startswith("test") for path in package.files
         )

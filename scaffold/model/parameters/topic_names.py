@@ -11,12 +11,12 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.entities import Endpoint
+    from scaffold.model.programs.topics import NamedEndpoint
 
 _LAUNCH = (".launch.py", "_launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", ".launch")
 
 
-def keeps_default_name(package: Package, endpoint: Endpoint) -> bool:
+def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
     """Tell whether no parameter file and no launch file of a package sets the name otherwise."""
     parameter = endpoint.from_parameter
     if parameter is None:
@@ -31,8 +31,8 @@ def keeps_default_name(package: Package, endpoint: Endpoint) -> bool:
     return not any(word.search(text) for text in _launch_texts(package))
 
 
-def _is_same(value: object, endpoint: Endpoint) -> bool:
-    name = str(endpoint.name).removeprefix("/")
+def _is_same(value: object, endpoint: NamedEndpoint) -> bool:
+    name = endpoint.name.removeprefix("/")
     return isinstance(value, Scalar) and value.text.removeprefix("/") == name
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.parameters.declared import ALWAYS, Declared, home_of, place_of
+from scaffold.model.parameters.declared import ALWAYS, Declared, DeclaredParameter, place_of
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.entities import Parameter
 
 
 def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple[str | None, str]:
@@ -26,12 +25,13 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
     types = {node.types[name] for node in nodes}
     if len(types) != 1:
         return None, name
-    return types.pop(), f"{name!r} ({place_of(nodes[0].places[name], package)})"
+    place = nodes[0].places[name]
+    return types.pop(), f"{name!r} ({place_of(place.package, place.location, package)})"
 
 
 def narrow_default(
     package: Package, known: Sequence[Declared], name: str, given: str
-) -> Parameter | None:
+) -> DeclaredParameter | None:
     """Return the parameter whose default, not the file, has an unintended type.
 
     Such as ``1`` for a period, or a number in quotes. Those of other packages are judged there.
@@ -40,10 +40,9 @@ def narrow_default(
         return None
     for item in known:
         parameter = item.places.get(name)
-        default = parameter.default if parameter else None
-        owner = parameter.owner if parameter else None
-        if owner is None or home_of(owner, package) is not package:
+        if parameter is None or parameter.package != package.name:
             continue
+        default = parameter.default
         if given == "double" and (type(default) is int or _is_number(default)):
             return parameter
         if given == "integer" and _is_number(default):

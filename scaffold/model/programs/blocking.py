@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from scaffold.model.package import mentions
 from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
 from scaffold.model.programs.threads import (
     names_callback_group,
@@ -15,7 +16,7 @@ from scaffold.model.programs.threads import (
 from scaffold.model.rclpy.entities import ActionServer, Service, Subscription, Timer
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
-from scaffold.source import ViewError
+from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -80,43 +81,69 @@ def in_constructors(file: RclpyFile) -> Iterator[Executed]:
 _BLOCKED = "is blocked in this call"
 
 
-class Wait(NamedTuple):
-    """A call that waits for a callback, and runs in the only thread that could run it."""
-
-    facts: RclpyFile
+class _Wait(NamedTuple):
     call: ast.Call
     where: str
-    """What the thread does: ``is blocked in this call``, ``is in callback 'tick'``."""
     in_callback: bool
 
 
+Waits = tuple[tuple[Location, str], ...]
+"""Calls that wait for a callback, and run in the only thread that could run it.
+
+With what the thread does: ``is blocked in this call``, ``is in callback 'tick'``."""
+
+
 def waits_alone(
-    package: Package, method: str, is_wait: Callable[[RclpyFile, ast.Call], bool]
-) -> Iterator[Wait]:
+    package: Package, method: str, waits_of: Callable[[Package, str, str | None], Waits]
+) -> Iterator[tuple[Location, str]]:
     """Yield the calls of a method in programs where nothing else can end them, each once.
 
     Args:
         package: The package.
         method: The name of the method.
-        is_wait: Tells whether a call of that name is one that waits.
+        waits_of: A fact: what `waits_in` says of a program.
     """
-    seen: set[ast.Call] = set()
+    seen: set[Location] = set()
     for start in starts_of(package):
         try:
-            run = run_of(package, start)
+            if not mentions(package, start.path, method):
+                continue
+            waits = waits_of(package, start.path, start.function)
         except ViewError:
             continue
-        if run.facts.module.in_tests:
-            continue
-        for wait in _waits(run, method):
-            if wait.call in seen or not is_wait(run.facts, wait.call):
-                continue
-            if not any(_may_end(file, wait) for file in files_of(package, start.path)):
-                seen.add(wait.call)
-                yield wait
+        for at, where in waits:
+            if at not in seen:
+                seen.add(at)
+                yield at, where
 
 
-def _waits(run: Execution, method: str) -> Iterator[Wait]:
+def waits_in(
+    package: Package,
+    program: tuple[str, str | None],
+    method: str,
+    is_wait: Callable[[RclpyFile, ast.Call], bool],
+) -> Waits:
+    """Return the calls of a method that nothing else in a program can end.
+
+    Args:
+        package: The package.
+        program: The file and the entry function; raises ViewError if it cannot be parsed.
+        method: The name of the method.
+        is_wait: Tells whether a call of that name is one that waits.
+    """
+    run = run_of(package, *program)
+    module = run.facts.module
+    if module.in_tests:
+        return ()
+    return tuple(
+        (module.location(wait.call), wait.where)
+        for wait in _waits(run, method)
+        if is_wait(run.facts, wait.call)
+        and not any(_may_end(file, wait) for file in files_of(package, module.path))
+    )
+
+
+def _waits(run: Execution, method: str) -> Iterator[_Wait]:
     """Yield the calls of a method that the main thread makes, itself or in a callback."""
     facts = run.facts
     calls = [facts.module.parent(node) for node in facts.module.index.attributes(method)]
@@ -125,7 +152,7 @@ def _waits(run: Execution, method: str) -> Iterator[Wait]:
         if isinstance(call, ast.Call):
             where = places.get(facts.function_of(call) or facts.module)
             if where is not None or call in run.calls:
-                yield Wait(facts, call, where or _BLOCKED, where not in {None, _BLOCKED})
+                yield _Wait(call, where or _BLOCKED, where not in {None, _BLOCKED})
 
 
 def _places(run: Execution) -> dict[object, str]:
@@ -145,7 +172,7 @@ def _places(run: Execution) -> dict[object, str]:
     return places
 
 
-def _may_end(file: RclpyFile, wait: Wait) -> bool:
+def _may_end(file: RclpyFile, wait: _Wait) -> bool:
     """Tell whether what a file does may end a wait."""
     if any(call.name.rpartition(".")[2] != "spin" for call in file.spin_calls):
         return True  # step by step

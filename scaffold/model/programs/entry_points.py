@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -50,9 +51,9 @@ def starts_of(package: Package) -> Sequence[EntryPoint]:
     return package.remember("program_starts", lambda: list(_starts(package)))
 
 
-def run_of(package: Package, start: EntryPoint) -> Execution:
-    """Return what a program runs; raises ViewError if its file cannot be parsed."""
-    return package.remember(("program_run", start), lambda: _run(package, start))
+def run_of(package: Package, path: str, function: str | None) -> Execution:
+    """Return what a program runs from its entry on; raises ViewError if it cannot be parsed."""
+    return package.remember(("program_run", path, function), lambda: _run(package, path, function))
 
 
 def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
@@ -98,17 +99,22 @@ def _programs(package: Package) -> Iterator[EntryPoint]:
             if path is None or path not in package.python_files:
                 continue
             # A node is intended for `ros2 run` wherever it is installed.
-            if install.destination == f"lib/{package.name}" or rclpy_file(package, path).nodes:
+            if install.destination == f"lib/{package.name}" or _makes_nodes(package, path):
                 yield EntryPoint(install.rename or path.rpartition("/")[2], path, None)
+
+
+@fact
+def _makes_nodes(package: Package, path: str) -> bool:
+    return bool(rclpy_file(package, path).nodes)
 
 
 # -- what they run
 
 
-def _run(package: Package, start: EntryPoint) -> Execution:
-    file = rclpy_file(package, start.path)
-    outside = _calls_outside(file) if start.function is None else []
-    functions = _functions(file, start.function, outside)
+def _run(package: Package, path: str, entry: str | None) -> Execution:
+    file = rclpy_file(package, path)
+    outside = _calls_outside(file) if entry is None else []
+    functions = _functions(file, entry, outside)
     calls = [call for function in functions for call in file.calls_in(function)]
     return Execution(file, functions, [*outside, *calls])
 

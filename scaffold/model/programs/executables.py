@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import keys_of_module
 from scaffold.model.cmake.ament import programs
-from scaffold.model.rclpy.file import rclpy_file
-from scaffold.model.rclpy.nodes import NodeObject
+from scaffold.model.programs.known_nodes import KnownNode, known_nodes
+from scaffold.model.python.facts import imports_of
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.rclpy.nodes import NodeDefinition
 
 _PLAIN_COMMANDS = frozenset(
     """
@@ -51,25 +50,24 @@ def programs_of(package: Package) -> Programs:
     return package.remember("package_programs", lambda: _programs(package))
 
 
-def nodes_of(package: Package, program: str) -> list[NodeDefinition]:
+def nodes_of(package: Package, program: str) -> list[KnownNode]:
     """Return the nodes that a Python program may be; one when that is sure."""
     path = programs_of(package).sources.get(program)
     if not path:
         return []
     try:
-        file = rclpy_file(package, path)
+        result = [*known_nodes(package, path)]
     except ViewError:
         return []
-    result = list(file.nodes)
     for name in _imported(package, path):
-        result.extend(rclpy_file(package, name).nodes)
+        result.extend(known_nodes(package, name))
     result.extend(_made_by_others(package, path))
     return result
 
 
-def _made_by_others(package: Package, path: str) -> Iterator[NodeDefinition]:
+def _made_by_others(package: Package, path: str) -> Iterator[KnownNode]:
     """Yield the nodes that functions of other packages make, as far as a file imports those."""
-    for item in package.module(path).imports:
+    for item in imports_of(package, path):
         if item.level or item.root == package.name or keys_of_module(item.root):
             continue
         other = package.workspace.get(item.root)
@@ -78,8 +76,7 @@ def _made_by_others(package: Package, path: str) -> Iterator[NodeDefinition]:
             if other is None or not other.has(name):
                 continue
             with contextlib.suppress(ViewError):
-                nodes = rclpy_file(other, name).nodes
-                yield from (node for node in nodes if isinstance(node, NodeObject))
+                yield from (node for node in known_nodes(other, name) if not node.is_class)
 
 
 def _imported(package: Package, path: str) -> Sequence[str]:
@@ -89,7 +86,7 @@ def _imported(package: Package, path: str) -> Sequence[str]:
 
 def _find_imported(package: Package, path: str) -> Iterator[str]:
     roots = ("", "src/", f"{path.rpartition('/')[0]}/")
-    for item in package.module(path).imports:
+    for item in imports_of(package, path):
         if item.level or item.in_function:
             base = path.rpartition("/")[0] if item.level == 1 else ""
             stem = "/".join(part for part in (base, *item.module.split(".")) if part)
@@ -99,7 +96,7 @@ def _find_imported(package: Package, path: str) -> Iterator[str]:
         for stem in names:
             if package.has(f"{stem}.py") and f"{stem}.py" != path:
                 try:
-                    rclpy_file(package, f"{stem}.py")
+                    known_nodes(package, f"{stem}.py")
                 except ViewError:
                     continue
                 yield f"{stem}.py"

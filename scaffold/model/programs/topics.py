@@ -2,24 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from scaffold.model.python.values import Unknown
-from scaffold.model.rclpy.entities import Client, Endpoint, Publisher, Service, Subscription
-from scaffold.model.rclpy.file import rclpy_files
+from scaffold.model.facts import fact
+from scaffold.model.rclpy.entities import (
+    ActionClient,
+    ActionServer,
+    Client,
+    Endpoint,
+    Publisher,
+    Qos,
+    Service,
+    Subscription,
+)
+from scaffold.model.rclpy.file import rclpy_file, rclpy_paths
+from scaffold.model.rclpy.qos import profile_words
 from scaffold.record import NamedTuple
-from scaffold.source import ViewError
+from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+
+_KINDS = (Publisher, Subscription, Service, Client, ActionServer, ActionClient)
+
+
+class NamedEndpoint(NamedTuple):
+    """An endpoint whose name is known, as other files see it."""
+
+    kind: str
+    """``Publisher``, ``Subscription``, ``Service``, ``Client``, ``ActionServer``, ..."""
+    name: str
+    interface: str | None
+    location: Location
+    type_location: Location
+    """The place of the type; without one, of the endpoint."""
+    name_location: Location
+    qos: Qos | None
+    profile: Mapping[str, str] | None
+    """See `profile_words`."""
+    is_plain: bool
+    """It is created for sure, once, by a node without a namespace."""
+    from_parameter: str | None
+    """The name is the default of this parameter."""
 
 
 class Topic(NamedTuple):
     """The endpoints of one topic."""
 
-    publishers: list[Publisher]
-    subscriptions: list[Subscription]
+    publishers: list[NamedEndpoint]
+    subscriptions: list[NamedEndpoint]
     is_plain: bool
     """Every endpoint of the topic is created for sure, once, by a node without a namespace."""
     is_plain_by_default: bool
@@ -29,10 +62,37 @@ class Topic(NamedTuple):
 class ServiceName(NamedTuple):
     """The endpoints of one service."""
 
-    services: list[Service]
-    clients: list[Client]
+    services: list[NamedEndpoint]
+    clients: list[NamedEndpoint]
     is_plain: bool
     """So are all endpoints of the service."""
+
+
+def named_endpoints(package: Package) -> Iterator[NamedEndpoint]:
+    """Yield the endpoints of a package whose names are known."""
+    for path in rclpy_paths(package):
+        with suppress(ViewError):
+            yield from _named_endpoints(package, path)
+
+
+@fact
+def _named_endpoints(package: Package, path: str) -> tuple[NamedEndpoint, ...]:
+    return tuple(
+        NamedEndpoint(
+            type(item).__name__,
+            item.name,
+            item.interface,
+            item.location,
+            (item.type_argument or item).location,
+            (item.name_argument or item).location,
+            item.qos,
+            profile_words(item),
+            _is_plain(item),
+            item.from_parameter,
+        )
+        for item in rclpy_file(package, path).endpoints
+        if isinstance(item.name, str) and type(item) in _KINDS
+    )
 
 
 def topics_of(package: Package) -> Mapping[str, Topic]:
@@ -54,12 +114,12 @@ def services_of(package: Package) -> Mapping[str, ServiceName]:
     return package.remember("services", lambda: _services(package))
 
 
-def is_private(endpoint: Endpoint) -> bool:
+def is_private(endpoint: NamedEndpoint) -> bool:
     """Tell whether a name is below that of its node: ``~/chatter``."""
-    return isinstance(endpoint.name, str) and endpoint.name.startswith("~/")
+    return endpoint.name.startswith("~/")
 
 
-def is_remapped(package: Package, endpoint: Endpoint) -> bool:
+def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
     """Tell whether a launch file of the package names what an endpoint is called: it remaps it."""
     for path in package.files:
         if ".launch." in path or path.endswith("_launch.py"):
@@ -67,44 +127,43 @@ def is_remapped(package: Package, endpoint: Endpoint) -> bool:
                 text = package.source(path).text
             except ViewError:
                 continue
-            if str(endpoint.name) in text:
+            if endpoint.name in text:
                 return True
     return False
 
 
 def _topics(package: Package) -> Mapping[str, Topic]:
-    result: dict[str, Topic] = {}
-    for name, endpoints in _by_name(package, (Publisher, Subscription)).items():
-        result[name] = Topic(
-            [endpoint for endpoint in endpoints if isinstance(endpoint, Publisher)],
-            [endpoint for endpoint in endpoints if isinstance(endpoint, Subscription)],
-            all(_is_plain(x) and x.from_parameter is None for x in endpoints),
-            all(map(_is_plain, endpoints)),
+    return {
+        name: Topic(publishers, subscriptions, *is_plain)
+        for name, publishers, subscriptions, is_plain in _by_name(
+            package, "Publisher", "Subscription"
         )
-    return result
+    }
 
 
 def _services(package: Package) -> Mapping[str, ServiceName]:
-    result: dict[str, ServiceName] = {}
-    for name, endpoints in _by_name(package, (Service, Client)).items():
-        result[name] = ServiceName(
-            [endpoint for endpoint in endpoints if isinstance(endpoint, Service)],
-            [endpoint for endpoint in endpoints if isinstance(endpoint, Client)],
-            all(_is_plain(x) and x.from_parameter is None for x in endpoints),
-        )
-    return result
+    return {
+        name: ServiceName(services, clients, is_plain[0])
+        for name, services, clients, is_plain in _by_name(package, "Service", "Client")
+    }
 
 
-def _by_name(package: Package, kinds: tuple[type[Endpoint], ...]) -> Mapping[str, list[Endpoint]]:
-    result: dict[str, list[Endpoint]] = {}
-    for file in rclpy_files(package):
-        for endpoint in file.endpoints:
-            name = endpoint.name
-            if not isinstance(endpoint, kinds) or isinstance(name, Unknown):
-                continue
-            if not name.startswith("~"):
-                result.setdefault(name.removeprefix("/"), []).append(endpoint)
-    return result
+def _by_name(
+    package: Package, kind: str, other: str
+) -> Iterator[tuple[str, list[NamedEndpoint], list[NamedEndpoint], tuple[bool, bool]]]:
+    """Yield names, the endpoints of two kinds that have them, and whether all are plain.
+
+    That twice: for certain, and unless somebody sets the parameters that hold names.
+    """
+    result: dict[str, list[NamedEndpoint]] = {}
+    for endpoint in named_endpoints(package):
+        if endpoint.kind in {kind, other} and not endpoint.name.startswith("~"):
+            result.setdefault(endpoint.name.removeprefix("/"), []).append(endpoint)
+    for name, endpoints in result.items():
+        sides = [[item for item in endpoints if item.kind == side] for side in (kind, other)]
+        is_plain = all(item.is_plain for item in endpoints)
+        is_certain = is_plain and all(item.from_parameter is None for item in endpoints)
+        yield name, sides[0], sides[1], (is_certain, is_plain)
 
 
 def _is_plain(endpoint: Endpoint) -> bool:

@@ -21,7 +21,7 @@ _EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
 """What an exception is expected with: ``with pytest.raises(ImportError):``."""
 _PLATFORM_NAMES = ("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform.")
 _LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
-_MODULE_ATTRIBUTES = frozenset(
+MODULE_ATTRIBUTES = frozenset(
     {"__name__", "__file__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__"}
     | {"__dict__", "__cached__"}
 )
@@ -47,7 +47,6 @@ class Import(NamedTuple):
     asname: str | None
     location: Location
     """The statement, or for ``import a, b`` the one name."""
-    node: ast.Import | ast.ImportFrom
     top_level: bool
     """Whether it is at the top level of the module, under no condition."""
     in_function: bool
@@ -338,7 +337,7 @@ class PythonModule:
         """
         bindings = self.index.bindings(self.tree)
         kinds = {binding.kind for binding in bindings.get(name, ())} - {"annotation"}
-        if kinds - {"deletion"} or name in _MODULE_ATTRIBUTES:
+        if kinds - {"deletion"} or name in MODULE_ATTRIBUTES:
             return None if "deletion" in kinds else True
         if "*" in bindings or "__getattr__" in bindings or self._writes_globals:
             return None
@@ -418,13 +417,11 @@ class PythonModule:
                     for alias in node.names
                 )
                 at = self.location(node)
-                result.append(
-                    Import(node.module or "", node.level, names, None, at, node, *context)
-                )
+                result.append(Import(node.module or "", node.level, names, None, at, *context))
                 continue
             for alias in node.names:
                 at = self.location(node if len(node.names) == 1 else alias)
-                result.append(Import(alias.name, 0, (), alias.asname, at, node, *context))
+                result.append(Import(alias.name, 0, (), alias.asname, at, *context))
         return result
 
     @cached_property

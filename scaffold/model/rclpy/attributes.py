@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.rclpy.api import NODE, has
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -75,32 +79,44 @@ def is_read_in_full(node: NodeClass) -> bool:
     return True
 
 
+@fact
 def names_of_bases(package: Package) -> frozenset[str]:
     """Return the classes of the package that others inherit from: those may define the rest."""
-
-    def find() -> frozenset[str]:
-        return frozenset(
-            base.attr if isinstance(base, ast.Attribute) else base.id
-            for module in package.modules()
-            for class_ in module.walk(ast.ClassDef)
-            for base in class_.bases
-            if isinstance(base, ast.Attribute | ast.Name)
-        )
-
-    return package.remember("names_of_bases", find)
+    return _of_all_files(package, _bases_in)
 
 
+@fact
 def given_from_outside(package: Package) -> frozenset[str]:
     """Return the attributes that code of the package sets on other objects than ``self``."""
+    return _of_all_files(package, _given_in)
 
-    def find() -> frozenset[str]:
-        return frozenset(
-            node.attr
-            for module in package.modules()
-            for node in module.walk(ast.Attribute)
-            if isinstance(node.ctx, ast.Store)
-            and isinstance(node.value, ast.Name)
-            and node.value.id != "self"
-        )
 
-    return package.remember("given_from_outside", find)
+def _of_all_files(
+    package: Package, names: Callable[[Package, str], frozenset[str]]
+) -> frozenset[str]:
+    result: set[str] = set()
+    for path in package.python_files:
+        with suppress(ViewError):
+            result |= names(package, path)
+    return frozenset(result)
+
+
+@fact
+def _bases_in(package: Package, path: str) -> frozenset[str]:
+    return frozenset(
+        base.attr if isinstance(base, ast.Attribute) else base.id
+        for class_ in package.module(path).walk(ast.ClassDef)
+        for base in class_.bases
+        if isinstance(base, ast.Attribute | ast.Name)
+    )
+
+
+@fact
+def _given_in(package: Package, path: str) -> frozenset[str]:
+    return frozenset(
+        node.attr
+        for node in package.module(path).walk(ast.Attribute)
+        if isinstance(node.ctx, ast.Store)
+        and isinstance(node.value, ast.Name)
+        and node.value.id != "self"
+    )

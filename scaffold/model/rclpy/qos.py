@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.rclpy.entities import Qos
 
 if TYPE_CHECKING:
     from scaffold.model.python.attributes import AttributeEvaluator
-    from scaffold.model.rclpy.entities import Endpoint, Publisher, Subscription
+    from scaffold.model.rclpy.entities import Endpoint
     from scaffold.source import Location
 
 PROFILES: Mapping[str, tuple[int, str, str, str]] = {
@@ -155,7 +155,19 @@ def _statement_of(evaluator: AttributeEvaluator, node: ast.AST) -> ast.AST:
 # -- what fits
 
 
-def conflict_of(publisher: Publisher, subscription: Subscription) -> Conflict | None:
+class Offered(Protocol):
+    """What `conflict_of` compares."""
+
+    @property
+    def qos(self) -> Qos | None:
+        """The quality of service, if it is known."""
+
+    @property
+    def profile(self) -> Mapping[str, str] | None:
+        """What ``profile_words`` returns of it."""
+
+
+def conflict_of(publisher: Offered, subscription: Offered) -> Conflict | None:
     """Return what is offered and what is asked for, if that does not fit."""
     offered, asked = publisher.qos, subscription.qos
     if offered is None or asked is None:
@@ -164,11 +176,11 @@ def conflict_of(publisher: Publisher, subscription: Subscription) -> Conflict | 
         return ("is BEST_EFFORT", "requests RELIABLE")
     if offered.durability == "VOLATILE" and asked.durability == "TRANSIENT_LOCAL":
         return ("is VOLATILE", "requests TRANSIENT_LOCAL")
-    return _conflict_of_time(_profile_words(publisher), _profile_words(subscription))
+    return _conflict_of_time(publisher.profile, subscription.profile)
 
 
 def _conflict_of_time(
-    offered: dict[str, str] | None, asked: dict[str, str] | None
+    offered: Mapping[str, str] | None, asked: Mapping[str, str] | None
 ) -> Conflict | None:
     if offered is None or asked is None:
         return None
@@ -179,7 +191,7 @@ def _conflict_of_time(
     return None
 
 
-def _profile_words(endpoint: Endpoint) -> dict[str, str] | None:
+def profile_words(endpoint: Endpoint) -> dict[str, str] | None:
     """Return what is given to the QoSProfile of an endpoint; none for a depth or a preset."""
     argument = endpoint.argument("qos_profile")
     if argument is None or endpoint.qos is None or endpoint.qos.reliability is None:

@@ -23,7 +23,7 @@ def _is_node(package: Package, entry: EntryPoint) -> bool:
     base = entry.module.replace(".", "/")
     for path in (f"{base}.py", f"{base}/__init__.py"):
         try:
-            return "rclpy" in package.module(path).imports_by_root
+            return "rclpy" in package.imports(path)
         except ViewError:
             continue
     return False

@@ -726,3 +726,89 @@ def test_another_configuration_of_style_is_seen(runs: Runs, package: Path, sourc
     (source / "own.cfg").write_text("[flake8]\nextend-ignore = Q,D,I\n")
     assert runs(".").count("E501") == 12
     assert runs.checked == ["talker"]
+
+
+# -- facts
+
+OTHER = """import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+
+
+class Node{number}(Node):
+    def __init__(self):
+        super().__init__('node_{number}')
+        self.declare_parameter('rate', 1.0)
+        self.pub = self.create_publisher(String, 'chatter', 10)
+        self.create_timer(1.0, self.tick)
+
+    def tick(self):
+        self.pub.publish(String())
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Node{number}())
+"""
+LAUNCH = """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='talker', executable='node_{number}', parameters=[{{'rate': 2}}]),
+    ])
+"""
+SCRIPTS = """from setuptools import setup
+
+setup(name='talker', packages=['talker'], entry_points={{'console_scripts': {scripts}}})
+"""
+
+
+def write_nodes(package: Path) -> None:
+    """Write nodes, and launch files that set their parameters."""
+    scripts = [f"node_{number} = talker.node_{number}:main" for number in range(6)]
+    files = {"setup.py": SCRIPTS.format(scripts=scripts)}
+    for number in range(6):
+        files[f"talker/node_{number}.py"] = OTHER.format(number=number)
+        files[f"launch/node_{number}.launch.py"] = LAUNCH.format(number=number)
+    write(package, files)
+
+
+@pytest.fixture
+def parsed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Return the files that were parsed so far."""
+    result: list[str] = []
+    parse = PythonModule.parse_bytes
+
+    def watched(path: str, data: bytes) -> PythonModule:
+        result.append(path)
+        return parse(path, data)
+
+    monkeypatch.setattr(PythonModule, "parse_bytes", watched)
+    return result
+
+
+def test_rules_about_a_whole_package_parse_what_was_edited(
+    runs: Runs, package: Path, parsed: list[str]
+) -> None:
+    write_nodes(package)
+    before = runs(".")
+    parsed.clear()
+    edited = package / "talker" / "node_3.py"
+    edited.write_text(f"# a node\n{edited.read_text()}")
+    assert runs(".") != before
+    assert set(parsed) <= {"talker/node_3.py", "talker/__init__.py", "setup.py"}
+
+
+def test_a_change_of_what_a_node_declares_reaches_the_launch_files_that_set_it(
+    runs: Runs, package: Path
+) -> None:
+    write_nodes(package)
+    before = runs("--select", "PF", ".")
+    edited = package / "talker" / "node_3.py"
+    edited.write_text(edited.read_text().replace("'rate', 1.0", "'rate', 1"))
+    after = runs("--select", "PF", ".")
+    assert "launch/node_3.launch.py" in before
+    assert "launch/node_3.launch.py" not in after
+    assert "launch/node_2.launch.py" in after

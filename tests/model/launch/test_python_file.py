@@ -87,11 +87,12 @@ def launch_of(text: str, **files: str) -> tuple[Package, LaunchFile]:
 def test_nodes_and_arguments() -> None:
     package, launch = launch_of(LAUNCH)
     first, second = started_nodes(package)
-    assert (first.package, first.executable, first.full_name) == ("demo", "talk", "/left/talker")
+    assert (first.package, first.executable) == ("demo", "talk")
+    assert first.full_name(package) == "/left/talker"
     assert [path for path, _ in first.parameter_files] == ["config/demo.yaml"]
-    assert [name for name, _, _ in first.parameter_dicts] == ["rate", "text"]
-    assert second.full_name is None
-    assert second.call.is_open
+    assert [given.name for given in first.parameters] == ["rate", "text"]
+    assert second.full_name(package) is None
+    assert not second.is_certain
     assert list(launch.declared) == ["rate"]
     configuration = launch.find("LaunchConfiguration")[0]
     assert launch.default_of(configuration.call) == "10"

@@ -7,7 +7,7 @@ import ast
 import pytest
 
 from scaffold.model.package import Package
-from scaffold.model.programs.blocking import waits_alone
+from scaffold.model.programs.blocking import Waits, waits_alone, waits_in
 from scaffold.model.rclpy.file import RclpyFile
 
 SETUP = """\
@@ -51,7 +51,10 @@ def waits(main: str, constructor: str = "pass", executor: str = "SingleThreaded"
     def is_sleep(_: RclpyFile, call: ast.Call) -> bool:
         return not call.args
 
-    return [found.where for found in waits_alone(Package.of(files), "sleep", is_sleep)]
+    def waits_of(package: Package, path: str, function: str | None) -> Waits:
+        return waits_in(package, (path, function), "sleep", is_sleep)
+
+    return [where for _, where in waits_alone(Package.of(files), "sleep", waits_of)]
 
 
 BLOCKED = "is blocked in this call"

@@ -54,7 +54,7 @@ def found(package: Package) -> int:
 def test_console_script() -> None:
     package = package_of("")
     [start] = starts_of(package)
-    run = run_of(package, start)
+    run = run_of(package, start.path, start.function)
     assert (start.program, start.path, start.function) == ("talker", "demo/talker.py", "main")
     assert [function.name for function in run.functions] == ["main"]
     assert [owner.name for _, owner in run.nodes()] == ["Talker"]

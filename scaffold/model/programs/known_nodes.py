@@ -1,0 +1,58 @@
+"""The nodes in the Python code of packages, as other files see them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.model.facts import fact
+from scaffold.model.python.values import Unknown
+from scaffold.model.rclpy.file import rclpy_file
+from scaffold.model.rclpy.nodes import NodeClass
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.rclpy.nodes import NodeDefinition
+
+
+class KnownNode(NamedTuple):
+    """A node that the code of a file makes; `definition` has the rest."""
+
+    package: str
+    """The name of the package that the file is in."""
+    path: str
+    number: int
+    """Among the nodes of the file."""
+    name: str
+    """Of the class, or of the variable."""
+    node_name: str | Unknown
+    has_namespace: bool
+    is_class: bool
+    """Whether it has a class of its own."""
+
+    def home(self, package: Package) -> Package:
+        """Return the package that its code is in, as seen from another one."""
+        if self.package == package.name:
+            return package
+        return package.workspace.get(self.package) or package
+
+    def definition(self, package: Package) -> NodeDefinition:
+        """Return the code of the node; raises ViewError."""
+        return rclpy_file(self.home(package), self.path).nodes[self.number]
+
+
+@fact
+def known_nodes(package: Package, path: str) -> tuple[KnownNode, ...]:
+    """Return the nodes that a Python file makes; raises ViewError."""
+    return tuple(
+        KnownNode(
+            package.name,
+            path,
+            number,
+            node.name,
+            node.node_name,
+            node.namespace is not None,
+            isinstance(node, NodeClass),
+        )
+        for number, node in enumerate(rclpy_file(package, path).nodes)
+    )
