@@ -227,7 +227,8 @@ def _overrides(root: str, places: Mapping[str, tuple[str, Role]]) -> Iterator[tu
             raise ContentError(f"{place}: templates are in {BASE} and {', '.join(FOLDERS)}")
         for name in sorted(os.listdir(place)):
             directory = os.path.join(place, name)
-            if not os.path.isdir(directory) or os.path.isfile(os.path.join(directory, MANIFEST)):
+            is_shared = name.startswith(("_", ".")) or not os.path.isdir(directory)
+            if is_shared or os.path.isfile(os.path.join(directory, MANIFEST)):
                 continue
             if places.get(name, ("", None))[1] is not FOLDERS[folder]:
                 raise ContentError(
