@@ -684,6 +684,11 @@ def test_the_reference_evaluates_no_strings(repository: Repository, run: Run, pr
     repository.write("talker/talker/all.py", f"__all__ = [{prefix}'{call}', 'x']\n")
     assert run("check", "--reference", "talker").code in {0, 3}
     assert not repository.has_run
+    repository.write("talker/own.cfg", "[flake8]\n")  # asks for docstrings that are missing
+    test = "from ament_flake8.main import main\nassert main(['--config', 'own.cfg']) == 0\n"
+    repository.write("talker/test/test_flake8.py", test)
+    assert " D100 " in run("check", "talker", "--select", "D").out
+    assert not repository.has_run
 
 
 def test_configuration_of_ruff_changes_nothing(
@@ -717,6 +722,9 @@ def test_git_runs_no_program_of_the_repository(repository: Repository, run: Run)
     repository.file.unlink()
     assert run("new", "own").code == 0
     assert run("update", "own").code == 0
+    repository.write(".gitignore", "made.py\n")
+    repository.write("own/made.py", "")
+    assert "1 file ignored by git" in run("check", "own").out
     assert not repository.has_run
     subprocess.run(["git", "status"], check=False, capture_output=True)
     assert repository.has_run, "git alone does"
