@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Sequence
-from fnmatch import fnmatchcase
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.formats.gitignore import IgnoreFile
@@ -28,7 +27,9 @@ WHERE = {
 ENVIRONMENTS = "environments"
 """Virtual environments, which are never checked."""
 
-_COPIES = ("*.sync-conflict-*", "*~", ".#*", "#*#", "*.orig", "*.rej", ".*.sw[op]")
+_COPIES = re.compile(
+    r".+\.sync-conflict-|.*~$|\.#|#.*#$|.*\.(?:orig|rej)$|\..*\.sw[op]$", re.DOTALL
+)
 _VENDORED = frozenset(
     {"3rdparty", "3rd_party", "third_party", "third-party", "thirdparty", "vendor", "vendored"}
 )
@@ -47,8 +48,8 @@ class Foreign:
 
     def __init__(self, kinds: Sequence[str] = ()) -> None:
         self.kinds = frozenset(kinds)
-        self.given: list[str] = []
-        """The paths that the user names, without links: what is above them does not count."""
+        self._given: set[str] = set()
+        self._around: dict[str, tuple[str, str]] = {}
         self.packages: list[str] = []
         """What makes each of the packages foreign that are skipped."""
         self._known: dict[tuple[str, bool], str] = {}
@@ -66,15 +67,34 @@ class Foreign:
             path: The path, without links.
             is_directory: What it is.
         """
-        above = [given for given in self.given if _is_at_or_above(given, path)]
-        if not self.kinds or not above:
+        if not self.kinds or path in self._given:
             return ""
-        top = max(above, key=len)
-        for at in _downwards(top, path):
-            kind = self._own_kind(disk, at, top, is_directory=is_directory or at != path)
-            if kind in self.kinds:
-                return kind
-        return ""
+        top, kind = self._kind_around(disk, os.path.dirname(path))
+        if not top or kind:
+            return kind
+        return self._own_kind(disk, path, top, is_directory=is_directory)
+
+    def name(self, paths: Iterable[str]) -> None:
+        """Learn which paths, without links, the user names: what is above them does not count."""
+        self._given.update(paths)
+        for known in (self._around, self._known, self._named):
+            known.clear()
+
+    def _kind_around(self, disk: Disk, directory: str) -> tuple[str, str]:
+        """Return what the user named at or above a directory, and what makes it foreign."""
+        if directory not in self._around:
+            parent = os.path.dirname(directory)
+            if directory in self._given:
+                result = directory, ""
+            elif parent == directory:
+                result = "", ""
+            else:
+                top, kind = self._kind_around(disk, parent)
+                if top and not kind:
+                    kind = self._own_kind(disk, directory, top, is_directory=True)
+                result = top, kind
+            self._around[directory] = result
+        return self._around[directory]
 
     def _own_kind(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
         key = path, is_directory
@@ -84,8 +104,7 @@ class Foreign:
 
     def _judge(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
         name = os.path.basename(path)
-        is_copy = not is_directory and any(fnmatchcase(name, pattern) for pattern in _COPIES)
-        if is_copy and COPIES in self.kinds:
+        if not is_directory and COPIES in self.kinds and _COPIES.match(name):
             return COPIES
         if is_directory and SUBMODULES in self.kinds and self._is_submodule(disk, path):
             return SUBMODULES
@@ -94,7 +113,9 @@ class Foreign:
             is_named = self._is_named(disk, path, top, is_directory=is_directory)
             if is_named and self._is_untracked(disk, repository, path):
                 return IGNORED
-        is_within = is_directory and not _VENDORED.isdisjoint(path[len(top) :].split("/"))
+        if not is_directory or VENDORED not in self.kinds:
+            return ""
+        is_within = not _VENDORED.isdisjoint(path[len(top) :].split("/"))
         return VENDORED if is_within and disk.entries(path, *_LICENCES) else ""
 
     # -- git
@@ -203,10 +224,6 @@ def _text(disk: Disk, path: str) -> str:
 
 
 # -- paths
-
-
-def _is_at_or_above(top: str, path: str) -> bool:
-    return path == top or path.startswith(os.path.join(top, ""))
 
 
 def _upwards(path: str) -> Iterator[str]:

@@ -75,7 +75,7 @@ def find(
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
     if foreign is not None:
-        foreign.given = [disk.real(path) for path in paths]
+        foreign.name(disk.real(path) for path in paths)
     whole, excluded = _whole_packages(disk, workspace, directories, exclusion or Exclusion())
     by_configuration = [*excluded]
     if foreign is not None:
@@ -127,7 +127,7 @@ def _set_apart(
     """Move the packages that are not the user's to the excluded ones."""
     kinds = {real: foreign.kind_of(disk, real, is_directory=True) for real in whole}
     if all(kinds.values()):
-        foreign.given += kinds  # if there is nothing else, the user means these
+        foreign.name(kinds)  # if there is nothing else, the user means these
         return
     for real, kind in kinds.items():
         if kind:

@@ -216,7 +216,7 @@ def test_same_files_as_git_ignores(tmp_path: Path, seed: int) -> None:
     git(tmp_path, "add", "-f", "--", *map(str, sorted(files)[:2]))
     listed = git(tmp_path, "ls-files", "-z", "-o", "-i", "--exclude-standard").split("\0")
     foreign = Foreign([*WHERE][1:2])
-    foreign.given = [str(tmp_path.resolve())]
+    foreign.name([str(tmp_path.resolve())])
     own = {
         str(path.relative_to(tmp_path))
         for path in files
