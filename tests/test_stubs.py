@@ -17,6 +17,7 @@ from scaffold.errors import InputError
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.workspace.workspace import Workspace
+from scaffold.types.interface_stubs import package_stubs
 from scaffold.types.stubs import interface_stub_files, library_stubs, stub_files, write_stubs
 
 MANIFEST = """<?xml version="1.0"?>
@@ -418,3 +419,45 @@ def test_stubs_of_rclpy_have_every_public_class_and_function() -> None:
         }
         missing += [f"{relative}: {name}" for name in public - exported(stored[relative])]
     assert missing == []
+
+
+ODD = {
+    "msg/String.msg": "std_msgs/String own\nexample_interfaces/String[] others\n",
+    "msg/Shadow.msg": "float64 float\nstring str\nint32[] int\nstring[] list\nbool bool\n"
+    "float64 x\nstring[2] property\nfloat32[3] array\n",
+    "msg/Limits.msg": 'float64 NOTHING=0.5\nstring NAME="it\'s"\nbyte B=3\nstring<=5[<=3] names\n',
+    "srv/Empty.srv": "---\n",
+    "action/Go.action": "String text\n---\n---\nShadow[] steps\n",
+}
+ODD_PROGRAM = """
+from robot_interfaces.action import Go
+from robot_interfaces.msg import Limits, Shadow, String
+from robot_interfaces.srv import Empty
+from example_interfaces.msg import String as Other
+from std_msgs.msg import String as Standard
+
+text = String(own=Standard(data='x'), others=[Other()])
+text.own = Other()  # wrong
+shadow = Shadow(float=1.0, str='x', int=[1], list=['a'], bool=True, x=2.0)
+shadow.x = 'far'  # wrong
+shadow.int = ['1']  # wrong
+shadow.list.append('b')
+shadow.property = ['a', 'b']
+shadow.array = [1.0, 2.0, 3.0]
+Limits(names=['a']).names.append(Limits.NAME)
+Limits.B + b'x'
+Empty.Response()
+Go.Feedback(steps=[shadow]).steps[0].x + 1.0
+Go.Feedback(steps=[text])  # wrong
+Go.Goal(text=text)
+"""
+
+
+def test_odd_names_of_fields_and_messages_keep_their_types(
+    errors: Check, bundled: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "workspace").mkdir()
+    definitions = definitions_of(tmp_path / "workspace", ODD)
+    stubs = package_stubs(definitions, "robot_interfaces")
+    write_stubs(str(bundled), stubs)
+    assert errors(ODD_PROGRAM) == marked(ODD_PROGRAM)

@@ -1,7 +1,7 @@
 """Stubs of messages, services and actions, rendered from their definitions.
 
 Each interface has a private module, as in generated code (``std_msgs/msg/_string.pyi``), and the
-public module of its kind exports it. A type checker so reads the interfaces that a program
+public module of its kind exports it. So a type checker reads the interfaces that a program
 uses, and no others.
 """
 
