@@ -50,8 +50,13 @@ def programs_of(package: Package) -> Programs:
     return package.remember("package_programs", lambda: _programs(package))
 
 
-def nodes_of(package: Package, program: str) -> list[KnownNode]:
+def nodes_of(package: Package, program: str) -> Sequence[KnownNode]:
     """Return the nodes that a Python program may be; one when that is sure."""
+    key = ("nodes_of_program", program)
+    return package.remember(key, lambda: _find_nodes_of(package, program))
+
+
+def _find_nodes_of(package: Package, program: str) -> Sequence[KnownNode]:
     path = programs_of(package).sources.get(program)
     if not path:
         return []
