@@ -21,6 +21,8 @@ VERSION = "0.0.105"
 SECONDS = 60.0
 """Of waiting for ty after everything else is done; it takes 8 for the largest workspaces."""
 MAX_OUTPUT = 64_000_000
+MOST_CRASHES = 40
+"""Of one run, while the file that causes them is searched for."""
 MAX_ARGUMENTS = 100_000
 """Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
 
@@ -55,6 +57,10 @@ class UnavailableError(ScaffoldError):
     """Types cannot be checked; the text says why."""
 
 
+class CrashError(UnavailableError):
+    """The type checker failed; one of the files may be the reason."""
+
+
 class TyDiagnostic(NamedTuple):
     """One report of ty; lines and columns count from 1."""
 
@@ -84,6 +90,9 @@ class Run:
         self._environment = environment
         self._chunks = list(_chunks([os.path.join(project, path) for path in files]))
         self._running: _Process | None = None
+        self._count = len(files)
+        self._crashes = 0
+        self._crashed: list[str] = []
         _require_version()
         os.makedirs(os.path.join(project, LIBRARY), exist_ok=True)
         with open(os.path.join(project, CONFIGURATION), "w", encoding="utf-8") as file:
@@ -101,13 +110,30 @@ class Run:
             for at, chunk in enumerate(self._chunks):
                 if at:
                     self._start(chunk)
-                if self._running is None:
-                    break
-                for path, diagnostic in _parse(self._running.output(SECONDS)):
+                for path, diagnostic in self._reported(chunk):
                     place = os.path.relpath(os.path.abspath(path), self._project)
                     result.setdefault(place, []).append(diagnostic)
         finally:
             self.close()
+        return result
+
+    def _reported(self, files: Sequence[str]) -> list[tuple[str, TyDiagnostic]]:
+        """Return what is reported about files; one that ends ty costs no other its types."""
+        assert self._running is not None  # noqa: S101  it was started for these files
+        try:
+            return list(_parse(self._running.output(SECONDS)))
+        except CrashError:
+            self._crashes += 1
+            if len(files) == 1 or self._crashes > MOST_CRASHES:
+                if self._crashes > MOST_CRASHES or len(self._crashed) + 1 == self._count:
+                    raise
+                self._crashed.append(files[0])
+                return []
+        result: list[tuple[str, TyDiagnostic]] = []
+        middle = len(files) // 2
+        for half in (files[:middle], files[middle:]):
+            self._start(half)
+            result += self._reported(half)
         return result
 
     def close(self) -> None:
@@ -164,7 +190,7 @@ class _Process:
             raise UnavailableError(f"ty did not finish within {seconds:g} s")
         code = os.waitstatus_to_exitcode(self._wait())
         if code != 0:
-            raise UnavailableError(f"ty failed (exit status {code})")
+            raise CrashError(f"ty failed (exit status {code})")
         return output
 
     def close(self) -> None:

@@ -400,6 +400,13 @@ def test_a_file_that_does_not_parse_costs_only_itself(check: Check, source: Path
     assert check("talker") == [f"talker/{FOUND}"]
 
 
+def test_a_file_that_ends_the_type_checker_costs_only_itself(check: Check, source: Path) -> None:
+    deep = "import rclpy\n\nx = " + "[" * 9_000 + "]" * 9_000 + "\n"
+    more = {f"talker/more_{number}.py": "import rclpy\n" for number in range(5)}
+    make_package(source, "talker", {"talker/talk.py": NODE, "talker/deep.py": deep, **more})
+    assert check("talker") == [f"talker/{FOUND}"]
+
+
 # -- suppression
 
 
