@@ -97,6 +97,26 @@ class InterfaceDeclarationsMissing(Rule):
             fixed={"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER)},
         ),
         Example(
+            "inside of <export>",
+            {
+                "package.xml": _MANIFEST.format(
+                    f"{_BUILD}{_MEMBER}  <export>\n  {_RUN}  </export>\n"
+                ),
+                **_FILES,
+            },
+            Report(
+                "package.xml:3:4",
+                "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
+                "rosidl_default_runtime; what is inside <export> is not read",
+                fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    f"{_BUILD}{_RUN}{_MEMBER}  <export>\n  {_RUN}  </export>\n"
+                )
+            },
+        ),
+        Example(
             "groups came with format 3",
             {"package.xml": _MANIFEST.format(_BUILD + _RUN).replace('"3"', '"2"'), **_FILES},
             Report(
@@ -118,6 +138,8 @@ class InterfaceDeclarationsMissing(Rule):
         line = generations(package)[0].command.location.line
         for said, tag, text in _missing(manifest, package):
             message = f"CMakeLists.txt:{line} generates interfaces, but {said}"
+            if any((child.tag, child.text) == (tag, text) for child in manifest.exports):
+                message += "; what is inside <export> is not read"
             changes = [manifest.insert(tag, text)]
             changes += _format_3(manifest) if tag == "member_of_group" else []
             fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))
