@@ -99,9 +99,13 @@ def _code_loading_yaml(package: Package) -> list[str]:
 
 def node_names(package: Package) -> set[str]:
     """Return all names of nodes that the package mentions: in its code, in its launch files."""
-    names = {str(node.node_name) for node in own_nodes(package)[0]}
-    started = (*started_nodes(package), *consumers(package))
-    return names | {str(node.name(package)) for node in started}
+
+    def find() -> set[str]:
+        names = {str(node.node_name) for node in own_nodes(package)[0]}
+        started = (*started_nodes(package), *consumers(package))
+        return names | {str(node.name(package)) for node in started}
+
+    return package.remember("node_names", find)
 
 
 def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
