@@ -54,14 +54,6 @@ class Qos(NamedTuple):
         expression = name if self.constants else self.expression
         return self._replace(expression=expression, constants=constants)
 
-    def conflict(self, requested: Qos) -> str:
-        """Return why a subscription gets nothing from a publisher with this; empty if it does."""
-        if (self.reliability, requested.reliability) == ("best_effort", "reliable"):
-            return "is best effort, but the subscription is reliable"
-        if (self.durability, requested.durability) == ("volatile", "transient_local"):
-            return "is volatile, but the subscription is transient local"
-        return ""
-
 
 _SAYS: Mapping[str, str] = {
     "action_status_default": "reliable, late subscribers get the last message",
