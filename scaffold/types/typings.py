@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 MARK = "# Made by `ros2-scaffold stubs`, which overwrites changes.\n"
 """The first line of each stub: it belongs to this tool."""
+_LENIENT = "# pyright: basic\n"
+"""The second one: what pyright asks of strict projects is not the users' business here."""
 _SHOWN = 3
 
 
@@ -33,7 +35,7 @@ def plan(directory: str, stubs: Mapping[str, str], *, force: bool = False) -> Wr
     """
     from scaffold.writing.plan import State, WritePlan
 
-    files = {path: MARK + text for path, text in stubs.items()}
+    files = {path: MARK + _LENIENT + text for path, text in stubs.items()}
     stale = [path for path in _earlier(directory) if path not in files]
     result = WritePlan.of(directory, files, remove=stale)
     foreign = [

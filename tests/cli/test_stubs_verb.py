@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -35,6 +37,15 @@ def test_stubs_of_libraries_and_interfaces_are_written(
         "robot_interfaces/srv/_reset.pyi",
     } <= files(workspace / "typings")
     assert 'mypy needs `mypy_path = "typings"`' in capsys.readouterr().out
+
+
+def test_pyright_has_nothing_to_say_of_them_in_strict_projects(workspace: Path) -> None:
+    pytest.importorskip("pyright")
+    main(["stubs"])
+    (workspace / "pyrightconfig.json").write_text('{"typeCheckingMode": "strict"}')
+    command = [sys.executable, "-m", "pyright", "typings/rclpy", "typings/ament_flake8"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
 
 
 def test_only_what_differs_is_written_again(
