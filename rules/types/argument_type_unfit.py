@@ -37,6 +37,8 @@ _TIMES = (
     "    Clock().sleep_until(Stamp(sec=seconds))\n"
     "    return Header(stamp=Time(seconds=seconds))\n"
 )
+_UNCHECKED = (".get_parameter_or",)
+"""What works with anything as long as the parameter is declared."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 
@@ -56,6 +58,14 @@ class ArgumentTypeUnfit(TypeRule):
     kinds = frozenset({"invalid-argument-type"})
     examples = (
         Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
+        Example(
+            "what a declared parameter does not need",
+            {
+                "port.py": "from rclpy.node import Node\n\n"
+                "node = Node('port')\nnode.declare_parameter('port', 1)\n"
+                "print(node.get_parameter_or('port', 2))\n"
+            },
+        ),
         Example(
             "a str for a number, a class for an object, a number for a duration",
             {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
@@ -99,7 +109,7 @@ class ArgumentTypeUnfit(TypeRule):
             rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
             r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
         )
-        if matched is None:
+        if matched is None or matched["callee"].endswith(_UNCHECKED):
             return None
         expected, given = matched["expected"], matched["given"]
         if not is_certain(expected.replace("|", ",")) or not (
