@@ -98,6 +98,22 @@ class RemappingWithoutEffect(Rule):
                 "launch/a.launch.py": _LAUNCH.format(" parameters=[{'topic': 'a'}],", "chat_in"),
             },
         ),
+        Example(
+            "parameters from a file",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format(" parameters=['a.yaml'],", "chat_in"),
+            },
+        ),
+        Example(
+            "parameters among the arguments",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format(
+                    " arguments=['--ros-args', '-p', 'topic:=a'],", "chat_in"
+                ),
+            },
+        ),
         Example("what tf2 has", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "/tf_static")}),
     )
 

@@ -112,7 +112,10 @@ def uninstalled_import(package: Package, where: str, name: str) -> str:
     """
     if package.build_type != "ament_cmake" or b"sys.path" in package.data(where):
         return ""
-    if where not in {program.path for program in programs(package)}:
+    paths = package.remember(
+        "program_paths", lambda: frozenset(program.path for program in programs(package))
+    )
+    if where not in paths:
         return ""
     directory = where.rpartition("/")[0]
     root = name.partition(".")[0]

@@ -33,6 +33,8 @@ class _Element(NamedTuple):
     has_parameter_files: bool
 
 
+_ARGUMENTS = frozenset({"args", "ros_args"})
+"""Attributes that may hold parameters."""
 _ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
 
 
@@ -49,7 +51,7 @@ class MarkupNode(NamedTuple):
     remappings: list[Attribute]
     """The names that are remapped."""
     parameter_names: frozenset[str] | None
-    """The parameters that are given; ``None`` if files give some."""
+    """The parameters that are given; ``None`` if files or arguments may give others."""
 
 
 class MarkupPath(NamedTuple):
@@ -114,7 +116,8 @@ def _node(path: str, element: _Element) -> MarkupNode:
         if "type" not in parameter and "name" in parameter and "value" in parameter
     ]
     names = [parameter["name"].value for parameter in element.parameters if "name" in parameter]
-    known = None if element.has_parameter_files else frozenset(names)
+    is_open = element.has_parameter_files or not _ARGUMENTS.isdisjoint(given)
+    known = None if is_open else frozenset(names)
     return MarkupNode(
         path, package, executable, name, element.location, pairs, element.remappings, known
     )

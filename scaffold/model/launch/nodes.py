@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 _SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace", "OpaqueFunction")
 _LISTS = ("LaunchDescription", "add_action")
+_ARGUMENTS = frozenset({"arguments", "ros_arguments"})
+_SETTERS = ("SetParameter", "SetParametersFromFile")
+"""What may give a node parameters in other ways."""
 
 
 class GivenParameter(NamedTuple):
@@ -167,7 +170,7 @@ def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
         "parameters" in call.given,
         tuple(_parameter_files(launch, call)),
         tuple(_given(launch, *item) for item in parameters_given(launch, call)),
-        not all(_is_dictionary(launch, item) for item in parameter_items(launch, call)),
+        _has_more_parameters(launch, call),
         tuple(_remappings(launch, call)),
     )
 
@@ -224,13 +227,29 @@ def _given(launch: LaunchFile, name: str, key: ast.expr, value: ast.expr) -> Giv
     )
 
 
+def _has_more_parameters(launch: LaunchFile, call: LaunchCall) -> bool:
+    if call.is_open or not _ARGUMENTS.isdisjoint(call.given) or launch.find(*_SETTERS):
+        return True
+    given = call.given.get("parameters")
+    if given is not None and not launch.evaluator.elements(given).complete:
+        return True
+    return not all(_is_dictionary(launch, item) for item in parameter_items(launch, call))
+
+
 def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
-    """Tell whether an item of ``parameters=`` is a dictionary, also one with a name."""
+    """Tell whether an item of ``parameters=`` is a dictionary with known names.
+
+    Also one that a variable holds.
+    """
     values: list[ast.expr] = [node]
     if isinstance(node, ast.Name):
         found = launch.module.index.lookup(node.id, node)
         values = [x.value for x in (found[1] if found else ()) if x.value is not None]
-    return bool(values) and all(isinstance(value, ast.Dict) for value in values)
+    return bool(values) and all(
+        isinstance(value, ast.Dict)
+        and all(isinstance(launch.evaluator.text(key), str) for key in value.keys)
+        for value in values
+    )
 
 
 def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, Location]]:

@@ -105,7 +105,8 @@ def _names_at(
         for endpoint in file.endpoints:
             if not isinstance(endpoint.name, str):
                 return None
-            names.append((endpoint.name, endpoint.from_parameter))
+            parameters: list[str | None] = [*sorted(endpoint.from_parameters)]
+            names += [(endpoint.name, parameter) for parameter in parameters or [None]]
     return tuple(names)
 
 
@@ -113,7 +114,11 @@ def has_name(names: set[str], source: str, node: object) -> bool:
     """Tell whether a remapping's name may be one of those of a node."""
     wanted = source.rpartition(":")[2].partition("/_action/")[0].removeprefix("~").strip("/")
     last = wanted.rpartition("/")[2]
-    if wanted in _ALWAYS or source.startswith(("__", "rostopic")) or "parameter" in last:
+    if (
+        wanted in _ALWAYS
+        or source.startswith(("__", "rosservice", "rostopic"))
+        or "parameter" in last
+    ):
         return True
     plain = {name.removeprefix("~").strip("/") for name in names}
     plain |= {f"{node}/{name}" for name in plain}

@@ -24,9 +24,12 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 
 def names_other_executor(file: RclpyFile) -> bool:
     """Tell whether a file names an executor that may run callbacks side by side."""
-    return any(
-        name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
-    )
+    known = file.thread_facts
+    if "executor" not in known:
+        known["executor"] = any(
+            name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
+        )
+    return known["executor"]
 
 
 def spins_in_one_thread(file: RclpyFile) -> bool:
@@ -51,15 +54,21 @@ def spins_elsewhere(file: RclpyFile) -> bool:
     A thread may spin it, or code that is not in the file. A thread that does not spin is of no
     help to a call that waits for a callback.
     """
+    if "spin" not in file.thread_facts:
+        file.thread_facts["spin"] = _spins_elsewhere(file)
+    return file.thread_facts["spin"]
+
+
+def _spins_elsewhere(file: RclpyFile) -> bool:
     known = {call.call.func for call in file.spin_calls}
     for name, node in _identifiers(file):
         if "spin" in name.lower() and node not in known and _may_refer_to_spin(file, name, node):
             return True
     spinning = {file.function_of(call.call) for call in file.spin_calls}
+    seen: set[ast.AST] = set()
     for function in _run_by_others(file):
-        if not spinning.isdisjoint(file.reached(function)):
-            return True
-    return _imports_spinner(file)
+        seen.update(file.reached(function, seen))
+    return not spinning.isdisjoint(seen) or _imports_spinner(file)
 
 
 def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:

@@ -173,4 +173,5 @@ def _is_plain(endpoint: Endpoint) -> bool:
         and owner.namespace is None
         and not endpoint.is_conditional
         and not endpoint.has_unknown_arguments
+        and len(endpoint.from_parameters) <= 1
     )

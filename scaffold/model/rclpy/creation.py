@@ -127,12 +127,11 @@ class Creation:
         name = created.arguments.get(kind.name_parameter)
         text, notes = self._facts.evaluator.trace(name.node if name else None)
         qos = created.arguments.get("qos_profile")
-        parameters = _parameters_in(notes) if isinstance(text, str) else ()
         made = kind(
             created,
             interface=self._facts.interface(type_.node) if type_ else None,
             name=text if isinstance(text, str) else UNKNOWN,
-            from_parameter=next(iter(parameters)) if len(parameters) == 1 else None,
+            from_parameters=_parameters_in(notes) if isinstance(text, str) else frozenset(),
             qos=qos_of(self._facts.evaluator, qos.node) if qos else None,
             callback=self._callback_argument(
                 created, "execute_callback" if kind is ActionServer else "callback"

@@ -118,7 +118,7 @@ class Endpoint(Entity):
         *,
         interface: str | None,
         name: str | Unknown,
-        from_parameter: str | None = None,
+        from_parameters: frozenset[str] = frozenset(),
         qos: Qos | None = None,
         callback: Callback | None = None,
     ) -> None:
@@ -127,11 +127,16 @@ class Endpoint(Entity):
         """``std_msgs/msg/String``; ``None`` if that is unknown."""
         self.name = name
         """As written: not expanded, not remapped."""
-        self.from_parameter = from_parameter
-        """The name is the default of this parameter."""
+        self.from_parameters = from_parameters
+        """The name is computed from the defaults of these parameters."""
         self.qos = qos
         """``None`` when none is given."""
         self.callback = callback
+
+    @property
+    def from_parameter(self) -> str | None:
+        """The name is the default of this parameter alone."""
+        return next(iter(self.from_parameters)) if len(self.from_parameters) == 1 else None
 
     @property
     def type_argument(self) -> Argument | None:

@@ -119,6 +119,8 @@ class RclpyFile:
         """Both kept by `api`."""
         self.classes_of: dict[ast.expr, str | None] = {}
         """Kept by `api.class_of`."""
+        self.thread_facts: dict[str, bool] = {}
+        """Kept by `programs.threads`."""
         self._creation = Creation(self)
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
