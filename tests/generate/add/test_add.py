@@ -305,11 +305,12 @@ def test_a_node_joins_the_readme_above_the_programs(tmp_path: Path) -> None:
     (demo / "package.xml").write_text((demo / "package.xml").read_text() + "<!-- mine -->\n")
     assert add(demo, "subscriber", "listener") == 0
     headings = re.findall("^##.*", (demo / "README.md").read_text(), re.MULTILINE)
-    assert headings[2:8] == [
+    assert headings[2:9] == [
         "## Run",
         "### talker",
         "### listener",
         "### C++ programs",
+        "## Look at it",
         "## Topics",
         "## Parameters",
     ]
@@ -374,7 +375,7 @@ def test_check_has_nothing_new_to_say(demo: Path, capsys: pytest.CaptureFixture[
 
 def test_the_header_is_that_of_the_package(tmp_path: Path) -> None:
     demo = write(tmp_path / "demo", CMAKE)
-    assert add(demo, "publisher", "talker") == 0
+    assert add(demo, "publisher", "talker", "--comments", "tutorial") == 0
     lines = (demo / "scripts" / "talker.py").read_text().splitlines()
     assert re.fullmatch(r"# Copyright \d{4} The Hello Company", lines[1])
     assert "Redistribution and use in source and binary forms" in lines[3]
