@@ -72,13 +72,3 @@ def full_name(marked: str) -> str:
     """Return the dotted name of a marked one, without private modules: ``std_msgs.msg.String``."""
     name, *where = marked.split(MARK)
     return ".".join([*(part for part in where if not part.startswith("_")), name])
-
-
-def plain(text: str) -> str:
-    """Return a text as people write it, with the last names alone."""
-    return re.sub(rf"(?:{MARK}\w+)+", "", text)
-
-
-def owners(text: str) -> list[str]:
-    """Return the marked names in a text."""
-    return re.findall(MARKED, text)

@@ -18,10 +18,11 @@ from scaffold.types.environment import marked
 from scaffold.types.stubs import interface_stub_files
 from scaffold.types.ty import LIBRARY
 
+# linear: an open bracket is followed for 4 kB at most, and spaces for a line
 _IMPORT = re.compile(
     rb"""^[ \t]*
-    (?: from [ \t]+ (?P<base>[.\w]+) [ \t]+ import [ \t]* (?P<names>\([^)]*\)|[^\n#;]*)
-      | from [ \t]* (?P<dots>\.+) [ \t]* import [ \t]* (?P<siblings>\([^)]*\)|[^\n#;]*)
+    (?: from [ \t]+ (?P<base>[.\w]+) [ \t]+ import [ \t]* (?P<names>\([^)]{0,4000}\)|[^\n#;]*)
+      | from [ \t]* (?P<dots>\.+) [ \t]* import [ \t]* (?P<siblings>\([^)]{0,4000}\)|[^\n#;]*)
       | import [ \t]+ (?P<modules>[^\n#;]+) )""",
     re.MULTILINE | re.VERBOSE,
 )

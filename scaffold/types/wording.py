@@ -6,6 +6,7 @@ import re
 
 from scaffold.types.marks import MARK, MARKED, full_name
 
+# linear: a type in a message is cut off by the type checker
 _TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
 _IDENTIFIER = re.compile(rf"[^\W\d][\w{MARK}]*")
 _BUILTINS = frozenset(
