@@ -212,10 +212,11 @@ class ImportUndeclared(Rule):
 
 def _is_required(package: Package, module: str) -> bool:
     """Return whether setup.py or a file of requirements asks pip for a module."""
-    wanted = re.compile(rf"^\s*(?:.*['\"])?{module}\b(?!\.)", re.MULTILINE)
+    wanted = re.compile(rf"(?:[ \t]*|.*['\"]){module}\b(?!\.)")
     files = [path for path in package.files if re.search(r"(^|/)requirements[^/]*\.txt$", path)]
     return any(
-        wanted.search(package.source(path).text)
+        wanted.match(line)
         for path in [*files, "setup.py"]
         if package.has(path)
+        for line in package.source(path).text.splitlines()
     )

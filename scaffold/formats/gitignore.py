@@ -57,7 +57,9 @@ class IgnoreFile:
 
 def _read(text: str) -> Iterator[_Pattern]:
     for line in text.splitlines():
-        pattern = re.sub(r"(?<!\\)\s+$", "", line)
+        pattern = line.rstrip()
+        if pattern.endswith("\\"):
+            pattern = line[: len(pattern) + 1]
         if not pattern or pattern.startswith("#"):
             continue
         is_taken_back = pattern.startswith("!")
@@ -75,7 +77,7 @@ def _read(text: str) -> Iterator[_Pattern]:
 
 _PIECES = re.compile(
     r"(?P<any_start>(?:^|(?<=/))\*\*/)|(?P<any_end>(?<=/)\*\*$)|(?P<star>\*+)|(?P<one>\?)"
-    r"|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^\]\\])*)\]|\\(?P<escaped>.)|(?P<plain>.)",
+    r"|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^\]\\]){0,99})\]|\\(?P<escaped>.)|(?P<plain>.)",
     re.DOTALL,
 )
 

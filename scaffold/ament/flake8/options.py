@@ -249,6 +249,7 @@ def _by_file(section: SectionProxy, key: str) -> tuple[tuple[str, Names], ...]:
     files: list[str] = []
     codes: list[str] = []
     after_colon, is_separated = False, True
+    # linear: what is not of a code, a file or white space is matched by itself
     for token in re.finditer(_TOKENS, text):
         kind = token.lastgroup
         if kind is None:

@@ -128,9 +128,11 @@ class Foreign:
     def _submodules_of(self, disk: Disk, directory: str) -> frozenset[str]:
         if directory not in self._submodules:
             text = _text(disk, os.path.join(directory, ".gitmodules"))
-            paths = re.findall(r"(?m)^\s*path\s*=\s*(\S.*?)\s*$", text)
+            pairs = (line.partition("=") for line in text.splitlines())
             self._submodules[directory] = frozenset(
-                os.path.normpath(os.path.join(directory, path)) for path in paths
+                os.path.normpath(os.path.join(directory, path.strip()))
+                for key, _, path in pairs
+                if key.strip() == "path" and path.strip()
             )
         return self._submodules[directory]
 
