@@ -505,7 +505,8 @@ def test_topics_that_are_refused(topic: str, message: str) -> None:
 
 @pytest.mark.parametrize("topic", ["x", "/x", "~/x", "a/b_c/D1", "/a/b", "_hidden"])
 def test_topics_that_are_fine(topic: str) -> None:
-    assert f"'topic', '{topic}'" in files_of(topic=topic)["talker/minimal_publisher.py"]
+    node = files_of(topic=topic)["talker/minimal_publisher.py"]
+    assert f"self.create_publisher(String, '{topic}', 10)" in node
 
 
 # -- numbers and types
@@ -516,7 +517,7 @@ def test_topics_that_are_fine(topic: str) -> None:
 )
 def test_rates(rate: object, written: str) -> None:
     files = files_of(rate=rate)
-    assert f"('rate', {written}).value" in files["talker/minimal_publisher.py"]
+    assert f"('rate', {written}, " in files["talker/minimal_publisher.py"]
     assert f"how often: {written} Hz" in files["README.md"]
 
 
@@ -682,12 +683,11 @@ def test_sources_of_answers(tmp_path: Path) -> None:
     assert main(["new", "talker", "--answers", "answers.yaml", "--qos", "9"]) == 0
     node = (tmp_path / "work/talker/talker/minimal_publisher.py").read_text()
     manifest = (tmp_path / "work/talker/package.xml").read_text()
-    assert "topic, 9)" in node  # flag
-    assert "('rate', 7.0)" in node  # answers file
-    assert "('topic', 'a/b')" in node
+    assert "'a/b', 9)" in node  # flag
+    assert "('rate', 7.0, " in node  # answers file
     assert "<license>MIT</license>" in manifest  # configuration
     assert '<maintainer email="conf@example.com">Ada Lovelace</maintainer>' in manifest  # git
-    assert "('rate', 2.0)" in files_of()["talker/minimal_publisher.py"]  # template
+    assert "('rate', 2.0, " in files_of()["talker/minimal_publisher.py"]  # template
 
 
 def test_the_git_settings_are_those_of_the_destination(tmp_path: Path) -> None:
@@ -1156,7 +1156,7 @@ def test_several_nodes_in_one_package() -> None:
         assert f"    ${{PROJECT_NAME}}/{name}.py\n" in files["CMakeLists.txt"]
         assert f"test_{name} test/test_{name}.py" in files["CMakeLists.txt"]
         assert f"ros2 run conversation {name}.py\n" in files["README.md"]
-        assert "declare_parameter('rate', 5.0)" in files[f"conversation/{name}.py"]
+        assert "declare_parameter('rate', 5.0, " in files[f"conversation/{name}.py"]
     description = "with the publisher node talker and the publisher node announcer</description>"
     assert description in files["package.xml"]
 
@@ -1167,10 +1167,10 @@ def test_answers_for_one_node_of_several() -> None:
         topic="chatter",
         add=[{"kind": "publisher", "name": "fast", "rate": 50}, "publisher:slow"],
     )
-    assert "('rate', 50.0)" in made.rendered.files["conversation/fast.py"]
-    assert "('rate', 2.0)" in made.rendered.files["conversation/slow.py"]
-    assert "('topic', 'chatter')" in made.rendered.files["conversation/fast.py"]
-    assert "('topic', 'chatter')" in made.rendered.files["conversation/slow.py"]
+    assert "('rate', 50.0, " in made.rendered.files["conversation/fast.py"]
+    assert "('rate', 2.0, " in made.rendered.files["conversation/slow.py"]
+    assert "'chatter', " in made.rendered.files["conversation/fast.py"]
+    assert "'chatter', " in made.rendered.files["conversation/slow.py"]
 
 
 def test_the_written_answers_make_the_same_package() -> None:
@@ -1204,7 +1204,7 @@ def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
         "add:\n- {kind: publisher, name: talker, rate: 7}\n- publisher:announcer\n"
     )
     assert main(["new", "conversation", "--answers", "answers.yaml"]) == 0
-    assert "('rate', 7.0)" in Path("conversation/conversation/talker.py").read_text()
+    assert "('rate', 7.0, " in Path("conversation/conversation/talker.py").read_text()
     capsys.readouterr()
     Path("answers.yaml").write_text("add: [{kind: publisher, colour: red}]\n")
     command = ["new", "another", "--answers", "answers.yaml"]

@@ -249,7 +249,11 @@ def resolve(
         later.remove(question)
         text = render(question.default, {**known, **answers.values})
         add(question, Given(text, "default"))
-    return answers
+    names = [question.name for question in questions]
+    return Answers(
+        {name: answers.values[name] for name in names},
+        {name: answers.written[name] for name in names},
+    )
 
 
 def is_derived(default: object) -> bool:

@@ -1157,10 +1157,10 @@ def test_colcon_builds_and_tests_what_was_added(tmp_path: Path) -> None:
     done = made.colcon("test", "--return-code-on-test-failure")
     assert done.returncode == 0, done.stdout + done.stderr
     build = tmp_path / "build"
-    assert counts(build / "python_demo" / "pytest.xml") == (2, 0)
+    assert counts(build / "python_demo" / "pytest.xml") == (4, 0)
     results = build / "cmake_demo" / "test_results" / "cmake_demo"
     assert {file.name.partition(".")[0]: counts(file) for file in results.iterdir()} == {
-        "test_talker": (2, 0),
+        "test_talker": (4, 0),
         "two_runs": (1, 0),
     }
 
