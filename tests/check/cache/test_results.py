@@ -655,6 +655,7 @@ def test_nothing_looks_at_files_without_a_note(part: str) -> None:
     top = Path(__file__).resolve().parents[3] / part
     told = {"disk.py", "runs.py", "cache.py", RUNS_A_PROGRAM, "registry.py", "docs.py", *OWN_DATA}
     told |= {"overlay.py", "temporary.py"}  # what --fix and the cache write is not remembered
+    told |= {"foreign.py"}  # it notes git's index, then asks git
     paths = list(top.rglob("*.py")) if top.is_dir() else [top]
     assert {p.name: a for p in paths if p.name not in told and (a := _asks(p))} == {}
 
