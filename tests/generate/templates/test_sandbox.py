@@ -165,7 +165,7 @@ def test_a_greedy_template_is_one_line_and_nothing_is_written(
 def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text("text\n")
     roots = content.roots("templates", (str(lamp.parents[2]),))
-    engine = foreign.ForeignEngine(roots, {"lamp": str(lamp)}, is_tutorial=False)
+    engine = foreign.ForeignEngine(roots, {"lamp": [str(lamp)]}, is_tutorial=False)
     assert engine.text("{{ 1 + 1 }}", {}) == "2"
     process = engine._process  # noqa: SLF001  what a kernel out of memory does
     assert process is not None
