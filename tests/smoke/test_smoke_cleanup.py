@@ -309,7 +309,7 @@ def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
         "wait for it to finish, or choose another --workspace"
     )
     assert told == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
-    assert os.listdir(tmp_path / "scratch") == []
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_workspace_is_waited_for(tmp_path: Path) -> None:

@@ -95,8 +95,9 @@ def test_rclpy_makes_of_it_what_was_asked() -> None:
 
 
 def test_a_depth_and_a_profile_of_rclpy_need_no_constant() -> None:
-    assert qos("7") == qos("depth=7") == Qos("7", (), "reliable, depth 7")
-    assert qos("default") == qos("10")
+    assert qos("7") == Qos("7", (), "reliable, depth 7", text="7")
+    assert qos("depth=7") == qos("7")._replace(text="depth=7")
+    assert qos("default") == qos("10")._replace(text="default")
     for name in NAMES[1:]:
         if name != "latched":
             assert qos(name).expression == f"qos_profile_{name}"
@@ -126,7 +127,9 @@ def test_settings_make_a_constant_on_one_line_or_several() -> None:
 
 
 def test_a_file_maps_settings_to_values() -> None:
-    assert quality({"reliability": "best_effort", "depth": 5}) == qos("best_effort,depth=5")
+    mapped = quality({"reliability": "best_effort", "depth": 5})
+    assert mapped == qos("best_effort,depth=5")._replace(text=mapped.text)
+    assert qos(mapped.text) == mapped
     with pytest.raises(InputError, match=r"unknown setting 'dept=5'.*did you mean depth"):
         quality({"dept": 5})
 
