@@ -289,14 +289,14 @@ def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_pa
     assert done.returncode == 0, workspace.colcon("test-result", "--verbose").stdout
     build = workspace.root / "build"
     sine = results_of(build / "cmake_float")
-    assert sine.pop("test_sine") == (2, 0)
+    assert sine.pop("test_sine") == (4, 0)
     linters = {"copyright", "flake8", "lint_cmake", "pep257", "xmllint"}
     assert {name for name, (ran, _) in sine.items() if ran} == linters
     kinds = results_of(build / "cmake_kinds")
     of_nodes = {name for name, (ran, _) in kinds.items() if ran >= 2}
     assert len(of_nodes - linters) == len(ALL_KINDS)
     assert [skipped for _, skipped in (*sine.values(), *kinds.values()) if skipped] == []
-    assert counts(build / "python_bool" / "pytest.xml") == (5, 0)
+    assert counts(build / "python_bool" / "pytest.xml") == (7, 0)
     ran = sum(kinds[name][0] for name in of_nodes - linters)
     assert counts(build / "python_kinds" / "pytest.xml") == (ran + 3, 0)
 
@@ -313,7 +313,7 @@ def test_without_linters_they_count_as_skipped(workspace: Workspace) -> None:
     results = workspace.root / "build" / "cmake_string" / "test_results" / "cmake_string"
     assert {file.name.partition(".")[0]: counts(file) for file in results.iterdir()} == {
         "linters": (1, 1),
-        "test_minimal_publisher": (2, 0),
+        "test_minimal_publisher": (4, 0),
     }
 
 
