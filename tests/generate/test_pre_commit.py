@@ -178,8 +178,8 @@ def test_our_own_hooks_run_from_a_repository(shared: Repository) -> None:
     text = node.read_text()
 
     # An edit of Python breaks the manifest: the fix is made, and the commit fails for it.
-    imported = "import geometry_msgs.msg  # noqa: F401\nimport rclpy\n"
-    node.write_text(text.replace("import rclpy\n", imported))
+    imported = "import geometry_msgs.msg  # noqa: F401\nfrom rcl_interfaces"
+    node.write_text(text.replace("from rcl_interfaces", imported))
     output = shared.commit(code=1)
     assert "ros2-scaffold check --fix" in output
     assert "files were modified by this hook" in output

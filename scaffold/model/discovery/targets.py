@@ -75,7 +75,7 @@ def find(
         paths = _packages_of(disk, paths)
     directories = [path for path in paths if disk.is_directory(path)]
     if foreign is not None:
-        foreign.name(disk.real(path) for path in paths)
+        foreign.name(disk.real(path) for path in paths if disk.exists(path))
     whole, excluded = _whole_packages(disk, workspace, directories, exclusion or Exclusion())
     by_configuration = [*excluded]
     if foreign is not None:
