@@ -99,6 +99,8 @@ def test_imports_of_one_module_stand_on_one_line() -> None:
     assert filters.import_block(lines) == "import os\n\nfrom a.b import B, C, d"
     long = [f"from a.b import {letter * 50}" for letter in "YX"]
     assert filters.import_block(long) == "\n".join(sorted(long))
+    mixed = [f"from a import {name * 40}" for name in ("b", "C", "d")]
+    assert filters.import_block(reversed(mixed)) == "\n".join(mixed)
     commented = ["from a.b import C  # why", "from a.b import D"]
     assert filters.import_block(commented) == "\n".join(commented)
 

@@ -122,4 +122,4 @@ def _module(line: str) -> str:
 
 
 def _import_key(line: str) -> tuple[str, str]:
-    return _module(line).lower(), line
+    return _module(line).lower(), line.lower()
