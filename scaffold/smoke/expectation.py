@@ -172,7 +172,7 @@ def _silent(
 def _wrong_rate(publication: Publication, topic: Topic, text: str) -> list[Problem]:
     rate = publication.rate_hz or 0.0
     expected = rate * topic.watched
-    if expected >= ENOUGH_MESSAGES and topic.count < expected / 2:
+    if expected >= ENOUGH_MESSAGES and topic.count + (topic.lost or 0) < expected / 2:
         many = "message" if topic.count == 1 else "messages"
         return [
             Problem(f"only {topic.count} {many} on {topic.name} in {topic.watched:.1f} s: {text}")

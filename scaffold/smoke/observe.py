@@ -13,9 +13,10 @@ from typing import Any, cast
 from scaffold.smoke.expectation import Offer
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
-from scaffold.smoke.result import Observation, Topic
+from scaffold.smoke.result import Endpoint, Log, LogLine, Observation, Spread, Topic
 
-PROBE = Path(__file__).with_name("probe.py")
+PROBE = Path(__file__).with_name("probe")
+_COPY = "ros2_scaffold_probe"
 START_TIMEOUT = 120.0
 """Seconds for the start of an interpreter and the import of rclpy, on a machine that is busy."""
 ANSWER_TIMEOUT = 30.0
@@ -57,12 +58,17 @@ async def observing(
         ObserverError: the probe does not start.
     """
     # A copy: modules next to the original would shadow those of ROS.
-    script = directory / PROBE.name
-    with process.writing(script) as copy:
-        copy.write(PROBE.read_bytes())
+    for module in PROBE.glob("*.py"):
+        with process.writing(directory / _COPY / module.name) as copy:
+            copy.write(module.read_bytes())
+    code = f"import sys; sys.path.insert(0, {str(directory)!r}); import {_COPY}.main as probe"
     try:
         probe = await process.start_with_pipes(
-            [python, str(script)], variables, directory, origin, limit=LONGEST_LINE
+            [python, "-c", f"{code}; probe.main()"],
+            variables,
+            directory,
+            origin,
+            limit=LONGEST_LINE,
         )
     except OSError as error:
         raise ObserverError(f"the observer cannot be started: {error.strerror}") from error
@@ -160,8 +166,7 @@ class Observer:
             if left <= 0:
                 raise ObserverError(f"the observer did not answer within {ANSWER_TIMEOUT:g} s")
             await self._event_or(None, left)
-        report = self._reports.pop()
-        return self._as_observation(report["topics"], report["now"])
+        return self._as_observation(self._reports.pop())
 
     async def get_ready(self) -> None:
         """Wait until the probe watches.
@@ -224,12 +229,15 @@ class Observer:
             for key in ("publishers", "subscribers"):
                 known[key] = max(known[key], topic[key])
             known["types"] = sorted({*known["types"], *topic["types"]})
+            if len(topic["endpoints"]) >= len(known["endpoints"]):
+                known["endpoints"] = topic["endpoints"]  # the later, the more is known of them
 
-    def _as_observation(self, report: Mapping[str, Mapping[str, Any]], until: float) -> Observation:
+    def _as_observation(self, report: Mapping[str, Any]) -> Observation:
+        received, until = report["topics"], report["now"]
         return Observation(
             nodes=tuple(sorted(self._nodes)),
             topics=tuple(
-                _as_topic(seen, report.get(name, {}), until)
+                _as_topic(seen, received.get(name, {}), until)
                 for name, seen in sorted(self._topics.items())
                 if _ACTION not in name
             ),
@@ -243,22 +251,41 @@ class Observer:
                 for name, kind in sorted(self._services.items())
                 if name.endswith(_ACTION_SERVICE)
             ),
+            parameters=report["parameters"],
+            log=Log(
+                report["log"]["counts"], tuple(LogLine(**line) for line in report["log"]["lines"])
+            ),
         )
 
 
 def _as_topic(seen: Mapping[str, Any], received: Mapping[str, Any], until: float) -> Topic:
     count = received.get("count", 0)
+    lost = received.get("lost")
     span = received["last"] - received["first"] if count else 0.0
+    sent = count - 1 + (lost or 0)
     return Topic(
         name=seen["name"],
         type=seen["type"],
         publishers=seen["publishers"],
         subscribers=seen["subscribers"],
         count=count,
-        rate_hz=round((count - 1) / span, 3) if count > 1 and span > 0 else None,
+        rate_hz=round(sent / span, 3) if count > 1 and span > 0 else None,
         span=span,
         watched=until - received["first"] if count else 0.0,
         messages=tuple(received.get("messages", ())),
         types=tuple(seen["types"]),
         error=received.get("error"),
+        endpoints=tuple(Endpoint(**endpoint) for endpoint in seen["endpoints"]),
+        first=received["first"] if count else None,
+        lost=lost,
+        interval=_spread(received.get("interval")),
+        bytes=received.get("bytes", 0),
+        size=_spread(received.get("size")),
+        delay=_spread(received.get("delay")),
+        transport=_spread(received.get("transport")),
+        rates=tuple((seconds, hertz) for seconds, hertz in received.get("rates", ())),
     )
+
+
+def _spread(figures: Mapping[str, Any] | None) -> Spread | None:
+    return None if figures is None else Spread(**figures)

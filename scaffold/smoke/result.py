@@ -19,6 +19,29 @@ class Problem:
 
 
 @dataclass(frozen=True)
+class Spread:
+    """Figures about many numbers: sizes in bytes, times in seconds."""
+
+    count: int
+    mean: float
+    deviation: float
+    least: float
+    greatest: float
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A publisher or a subscription."""
+
+    kind: str
+    """``publisher`` or ``subscription``."""
+    node: str
+    type: str
+    qos: Mapping[str, Any]
+    """Policies in lower case; durations in seconds, ``None`` for no limit."""
+
+
+@dataclass(frozen=True)
 class Topic:
     """A topic as another process saw it."""
 
@@ -40,6 +63,62 @@ class Topic:
     """All types in use on the topic: more than one is a mistake."""
     error: str | None = None
     """Why the messages could not be read."""
+    endpoints: tuple[Endpoint, ...] = ()
+    first: float | None = None
+    """When the first message was sent, as ``time.time`` tells it."""
+    first_after: float | None = None
+    """Seconds from the start of the executable to its first message."""
+    lost: int | None = None
+    """Messages that were sent and not received; ``None`` if the middleware does not count them."""
+    interval: Spread | None = None
+    """Between messages."""
+    bytes: int = 0
+    """Of all messages, serialized."""
+    size: Spread | None = None
+    """Of a message, serialized."""
+    delay: Spread | None = None
+    """From the stamp in the header to the sending."""
+    transport: Spread | None = None
+    """From the sending to the arrival."""
+    rates: tuple[tuple[float, float], ...] = ()
+    """Seconds since the first message, and the rate until then."""
+
+    @property
+    def bandwidth(self) -> float | None:
+        """Bytes per second; ``None`` where there is no rate."""
+        return None if self.rate_hz is None or self.size is None else self.rate_hz * self.size.mean
+
+
+@dataclass(frozen=True)
+class LogLine:
+    """A line that a node has logged."""
+
+    level: str
+    node: str
+    text: str
+    time: float
+
+
+@dataclass(frozen=True)
+class Log:
+    """What nodes have logged: all lines counted by level, the first of each level kept."""
+
+    counts: Mapping[str, int] = field(default_factory=dict)
+    lines: tuple[LogLine, ...] = ()
+
+
+@dataclass(frozen=True)
+class Usage:
+    """What an executable and the processes that it has started have used."""
+
+    cpu_seconds: float
+    """Since its start."""
+    cpu_percent: float | None
+    """Of one processor, while it was observed."""
+    memory: int
+    """Bytes in memory at the end of the observation."""
+    memory_peak: int
+    """The most that was seen of them."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +130,10 @@ class Observation:
     services: tuple[tuple[str, str], ...] = ()
     """Name and type of services, without those that every node has and those of actions."""
     actions: tuple[tuple[str, str], ...] = ()
+    parameters: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
+    """By node and name; ``None`` for a node that has not answered."""
+    log: Log = Log()
+    usage: Usage | None = None
 
     @property
     def alive(self) -> bool:

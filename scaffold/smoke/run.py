@@ -6,7 +6,7 @@ import re
 import signal
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from scaffold.smoke.expectation import Expectation
@@ -14,6 +14,7 @@ from scaffold.smoke.isolation.station import Isolation, Stations
 from scaffold.smoke.observe import ObserverError
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
+from scaffold.smoke.processes.usage import Meter, measuring
 from scaffold.smoke.result import Observation, Problem, Stop
 
 RETRIES = 2
@@ -147,8 +148,11 @@ class _Run:
             self._report(f"cannot be started: {error.strerror}")
             return
         try:
-            await self._watch(running)
-            self._trial.observation = await self._observer.observation()
+            async with measuring(running.group) as meter:
+                await self._watch(running, meter)
+                observation = await self._observer.observation()
+                meter.measure()
+            self._trial.observation = _since(running, observation, meter)
             self._trial.seconds = time.monotonic() - running.started
             self._trial.joined = self._trial.observation.alive and running.exit_code is None
             self._observer.dismiss()
@@ -166,12 +170,13 @@ class _Run:
         finally:
             await running.close()
 
-    async def _watch(self, running: process.Running) -> None:
+    async def _watch(self, running: process.Running, meter: Meter) -> None:
         observer, plan = self._observer, self._plan
         if not await observer.wait_for(observer.has_seen_anything, plan.timeout, running):
             if running.exit_code is None:
                 self._never_joined()
             return
+        meter.begin()
         if not self._brief:
             await observer.pause(plan.duration, running)
         left = running.started + plan.timeout - time.monotonic()
@@ -253,6 +258,16 @@ class _Run:
         self._trial.problems.append(problem)
         if doubtful:
             self._trial.doubtful = problem
+
+
+def _since(running: process.Running, observation: Observation, meter: Meter) -> Observation:
+    """Return an observation with what only the starter of the executable knows."""
+    started = time.time() - (time.monotonic() - running.started)
+    topics = (
+        topic if topic.first is None else replace(topic, first_after=topic.first - started)
+        for topic in observation.topics
+    )
+    return replace(observation, topics=tuple(topics), usage=meter.usage())
 
 
 def is_late_call(exception: str) -> bool:

@@ -18,12 +18,13 @@ import pytest
 
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import installation
-from scaffold.smoke import build, environment, probe
+from scaffold.smoke import build, environment
 from scaffold.smoke import run as trial
 from scaffold.smoke.isolation import domain, shared_memory
+from scaffold.smoke.probe import messages
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
-from scaffold.smoke.report import report
+from scaffold.smoke.reports import report
 from scaffold.smoke.result import (
     Build,
     Executable,
@@ -402,11 +403,11 @@ def test_long_output_is_cut(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(find_spec("std_msgs") is None, reason="no ROS messages")
 def test_message_as_data() -> None:
-    message = probe.find_type("std_msgs/msg/Float32MultiArray")()
+    message = messages.find_type("std_msgs/msg/Float32MultiArray")()
     message.data = [0.1, float("nan"), float("-inf"), 1e30] + [1.0] * 20
-    dimension = probe.find_type("std_msgs/msg/MultiArrayDimension")
+    dimension = messages.find_type("std_msgs/msg/MultiArrayDimension")
     message.layout.dim = [dimension(label="x" * 600, size=2)]
-    data = probe.as_data(message)
+    data = messages.as_data(message)
     assert data == {
         "layout": {
             "dim": [{"label": "x" * 500 + "...", "size": 2, "stride": 0}],
@@ -430,9 +431,9 @@ def test_message_as_data() -> None:
     ],
 )
 def test_field_as_data(kind: str, given: object, shown: object) -> None:
-    message = probe.find_type(f"std_msgs/msg/{kind}")()
+    message = messages.find_type(f"std_msgs/msg/{kind}")()
     message.data = given
-    assert probe.as_data(message)["data"] == shown
+    assert messages.as_data(message)["data"] == shown
 
 
 # -- hostile output

@@ -14,7 +14,7 @@ import pytest
 
 from scaffold.model.discovery import targets
 from scaffold.smoke.isolation import shared_memory
-from scaffold.smoke.report import as_data
+from scaffold.smoke.reports.json import as_data
 from scaffold.smoke.session import Options, packages_of, smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import BAD, GOOD, ONCE, cmake_package, python_package, talker, write
@@ -127,10 +127,13 @@ def test_schema(packages: dict[str, Result]) -> None:
     assert set(package["build"]) == {"ok", "seconds", "errors", "warnings"}
     found = executable(packages, "good_py", "talker")
     assert set(found) == {
-        "name", "ok", "nodes", "topics", "services", "actions", "stop", "problems", "notes",
+        "name", "ok", "nodes", "topics", "services", "actions", "parameters", "log", "usage",
+        "stop", "problems", "notes",
     }  # fmt: skip
     assert set(found["topics"][0]) == {
-        "name", "type", "publishers", "subscribers", "rate_hz", "count", "messages",
+        "name", "type", "publishers", "subscribers", "rate_hz", "count", "messages", "endpoints",
+        "first_after", "lost", "interval", "bytes", "size", "bandwidth", "delay", "transport",
+        "rates",
     }  # fmt: skip
     assert set(found["stop"]) == {"signal", "exit_code", "seconds", "traceback"}
 
@@ -310,7 +313,7 @@ def test_command_line(sources: Path, tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     data = json.loads(done.stdout)
-    assert set(data) == {"environment", "packages", "ok"}
+    assert set(data) == {"schema_version", "environment", "packages", "ok", "seconds"}
     assert set(data["environment"]) == {"kind", "prefix", "rmw"}
     assert data["ok"] is True
     talker_ = next(e for e in data["packages"][0]["executables"] if e["name"] == "talker")

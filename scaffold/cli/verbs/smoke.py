@@ -33,6 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
+        "--verbose",
+        action="store_true",
+        help="show intervals, sizes, quality of service, parameters, logs and resources as well",
+    )
+    parser.add_argument(
         "--duration",
         type=_seconds,
         default=5.0,
@@ -99,7 +104,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
 
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.model.discovery import targets
-    from scaffold.smoke.report import report
+    from scaffold.smoke import reports
     from scaffold.smoke.session import Options, packages_of, smoke
 
     packages = packages_of(targets.find(options.paths))
@@ -119,7 +124,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
             announce=_announce,
             interruption=interruption,
         )
-    report(result, options.format, sys.stdout)
+    reports.report(result, options.format, sys.stdout, verbose=options.verbose)
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS

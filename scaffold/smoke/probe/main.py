@@ -1,28 +1,22 @@
-"""Observes one ROS domain and says on stdout, line by line in JSON, what it sees.
-
-This file is run by the Python of the ROS environment, which need not know ``scaffold``: it uses
-the standard library and rclpy. Events on stdout::
-
-    {"event": "ready"}
-    {"event": "graph", "nodes": [...], "topics": [...], "services": [...]}    on every change
-    {"event": "message", "topic": "/t", "count": 1}               the first ones of every topic
-    {"event": "report", "now": 0.0, "topics": {"/t": {"count", "first", "last", ...}}}
-
-Commands on stdin: ``report`` asks for the last of these events; the end of stdin ends the probe.
-"""
+"""The observing node: looks at the graph, subscribes to what is new, and reports."""
 
 from __future__ import annotations
 
 import json
-import math
 import os
 import select
 import signal
-import struct
 import sys
 import time
 from importlib import import_module
 from typing import Any
+
+from .log import TOPIC as ROSOUT
+from .log import Log
+from .messages import find_type
+from .parameters import Parameters
+from .qos import endpoint
+from .topics import SHOWN_MESSAGES, Topic
 
 Ros = Any
 """Whatever rclpy returns: it has no types."""
@@ -30,40 +24,12 @@ Ros = Any
 NAME = "_ros2_scaffold_probe"
 """The name of the observing node; a leading underscore hides it from ``ros2 node list``."""
 
-SHOWN_MESSAGES = 5
-SHOWN_ELEMENTS = 16
-SHOWN_CHARACTERS = 500
 GRAPH_PERIOD = 0.05
 """Seconds between two looks at the graph."""
-QUEUE_DEPTH = 1000
-"""Messages that may wait: two seconds of a topic at 500 Hz."""
+MOST_ENDPOINTS = 100
+"""Publishers and subscriptions of a topic that are listed; all are counted."""
 
-_UNWATCHED = ("/rosout", "/parameter_events")
-
-
-class Topic:
-    """What was received on a topic; times of sending are those of ``time.time``, in seconds."""
-
-    def __init__(self) -> None:
-        self.count = 0
-        self.first = 0.0
-        self.last = 0.0
-        self.messages: list[object] = []
-        self.error: str | None = None
-        self.subscription: Ros = None
-        self.asked = False
-        self.profile = (False, False)
-        """Whether all publishers are reliable, and whether all keep messages for later."""
-
-    def as_data(self) -> dict[str, object]:
-        """Return what goes into the report."""
-        return {
-            "count": self.count,
-            "first": self.first,
-            "last": self.last,
-            "messages": self.messages,
-            "error": self.error,
-        }
+_UNWATCHED = (ROSOUT, "/parameter_events")
 
 
 class Probe:
@@ -85,6 +51,9 @@ class Probe:
         self._executor.add_node(self._node)
         self._topics: dict[str, Topic] = {}
         self._graph: dict[str, object] = {}
+        self._publishers: dict[str, int] = {}
+        self._log = Log(self._node, self._qos, self._deserialize)
+        self._parameters = Parameters(self._node)
 
     def run(self) -> None:
         """Observe until stdin ends."""
@@ -106,8 +75,19 @@ class Probe:
         self._rclpy.try_shutdown()
 
     def _report(self) -> None:
-        topics = {name: topic.as_data() for name, topic in self._topics.items()}
-        say({"event": "report", "now": time.time(), "topics": topics})
+        topics = {
+            name: topic.as_report(publishers=self._publishers.get(name, 0))
+            for name, topic in self._topics.items()
+        }
+        say(
+            {
+                "event": "report",
+                "now": time.time(),
+                "topics": topics,
+                "parameters": self._parameters.as_data(),
+                "log": self._log.as_data(),
+            }
+        )
 
     # -- the graph
 
@@ -128,6 +108,7 @@ class Probe:
         if graph != self._graph:
             self._graph = graph
             say({"event": "graph", **graph})
+        self._parameters.look(nodes)
 
     def _services_of(self, node: str) -> list[list[str]]:
         """Return name and type of the services that a node answers."""
@@ -148,12 +129,18 @@ class Probe:
         offered = sorted({info.topic_type for info in publishers}) or sorted(types)
         if publishers:
             self._watch(name, offered[0], publishers)
+            self._publishers[name] = max(self._publishers.get(name, 0), len(publishers))
+        endpoints = [
+            *(endpoint("publisher", info) for info in publishers[:MOST_ENDPOINTS]),
+            *(endpoint("subscription", info) for info in subscribers[:MOST_ENDPOINTS]),
+        ]
         return {
             "name": name,
             "type": offered[0],
             "types": offered,
             "publishers": len(publishers),
             "subscribers": len(subscribers),
+            "endpoints": sorted(endpoints, key=str),
         }
 
     # -- messages
@@ -162,36 +149,29 @@ class Probe:
         """Subscribe with what every publisher of the topic offers."""
         profile = self._weakest(publishers)
         topic = self._topics.setdefault(name, Topic())
-        if topic.asked and topic.profile == profile:
+        depth = topic.fitting_depth()
+        # What is kept for late subscribers has come already when the queue is made shorter.
+        is_shorter = depth < topic.depth / 2
+        if topic.profile == profile and not is_shorter:
             return
-        topic.asked = True
         topic.profile = profile
+        topic.depth = min(depth, topic.depth)
         if topic.subscription is not None:
             self._node.destroy_subscription(topic.subscription)
         try:
-            topic.subscription = self._subscribe(name, topic, find_type(type_name))
+            qos = self._as_qos(profile[0], profile[1] and not is_shorter, topic.depth)
+            topic.subscription = self._subscribe(name, topic, find_type(type_name), qos)
         except Exception as error:  # noqa: BLE001  generated code may raise anything
             topic.error = f"{type(error).__name__}: {error}"
 
-    def _subscribe(self, name: str, topic: Topic, message_type: Ros) -> Ros:
+    def _subscribe(self, name: str, topic: Topic, message_type: Ros, qos: Ros) -> Ros:
         def receive(data: bytes, info: dict[str, int]) -> None:
-            topic.last = _sending(info)
-            topic.count += 1
-            if topic.count == 1:
-                topic.first = topic.last
+            topic.take(data, info, message_type)
             if topic.count <= SHOWN_MESSAGES:
-                self._keep(topic, data, message_type)
+                topic.keep(data, message_type, self._deserialize)
                 say({"event": "message", "topic": name, "count": topic.count})
 
-        return self._node.create_subscription(
-            message_type, name, receive, self._as_qos(topic.profile), raw=True
-        )
-
-    def _keep(self, topic: Topic, data: bytes, message_type: Ros) -> None:
-        try:
-            topic.messages.append(as_data(self._deserialize(data, message_type)))
-        except Exception as error:  # noqa: BLE001  what cannot be decoded is a finding
-            topic.error = f"{type(error).__name__}: {error}"
+        return self._node.create_subscription(message_type, name, receive, qos, raw=True)
 
     def _weakest(self, publishers: list[Ros]) -> tuple[bool, bool]:
         """Return whether all publishers are reliable, and whether all keep messages for later."""
@@ -203,12 +183,12 @@ class Probe:
             all(profile.durability == transient for profile in profiles),
         )
 
-    def _as_qos(self, profile: tuple[bool, bool]) -> Ros:
+    def _as_qos(self, is_reliable: bool, is_kept: bool, depth: int) -> Ros:  # noqa: FBT001  a pair
         reliability, durability = self._qos.ReliabilityPolicy, self._qos.DurabilityPolicy
         return self._qos.QoSProfile(
-            depth=QUEUE_DEPTH,
-            reliability=reliability.RELIABLE if profile[0] else reliability.BEST_EFFORT,
-            durability=durability.TRANSIENT_LOCAL if profile[1] else durability.VOLATILE,
+            depth=depth,
+            reliability=reliability.RELIABLE if is_reliable else reliability.BEST_EFFORT,
+            durability=durability.TRANSIENT_LOCAL if is_kept else durability.VOLATILE,
         )
 
 
@@ -240,64 +220,6 @@ def say(event: dict[str, object]) -> None:
         os._exit(1)
 
 
-def _sending(info: dict[str, int]) -> float:
-    """Return when a message was sent, as the middleware knows it.
-
-    This process may be late, and what is kept for late subscribers comes all at once.
-    """
-    stamp = info.get("source_timestamp") or info.get("received_timestamp")
-    return stamp / 1e9 if stamp else time.time()
-
-
-def find_type(name: str) -> Ros:
-    """Return the class of a type such as ``std_msgs/msg/String``."""
-    package, kind, message = name.split("/")
-    return getattr(import_module(f"{package}.{kind}"), message)
-
-
-def as_data(message: Ros) -> dict[str, object]:
-    """Return a message as JSON knows it; long sequences and texts end in an ellipsis."""
-    fields = message.get_fields_and_field_types()
-    return {field: _field(getattr(message, field), kind) for field, kind in fields.items()}
-
-
-def _field(value: Ros, kind: str) -> object:
-    if hasattr(value, "get_fields_and_field_types"):
-        return as_data(value)
-    if isinstance(value, float):
-        return _number(value, single=kind == "float")
-    if isinstance(value, str) and len(value) > SHOWN_CHARACTERS:
-        return value[:SHOWN_CHARACTERS] + "..."
-    if isinstance(value, bytes) and len(value) == 1:  # a field of the type ``byte``
-        return value[0]
-    if isinstance(value, (bool, int, str)):
-        return value
-    return _sequence(value, kind)
-
-
-def _sequence(values: Ros, kind: str) -> list[object]:
-    """Return the first elements of a list, an array or bytes."""
-    element = "float" if kind.startswith(("float[", "sequence<float")) else ""
-    first = values[:SHOWN_ELEMENTS]
-    plain = first.tolist() if hasattr(first, "tolist") else first
-    shown = [_field(value, element) for value in plain]
-    return [*shown, "..."] if len(values) > SHOWN_ELEMENTS else shown
-
-
-def _number(value: float, *, single: bool) -> object:
-    """Return a number that JSON can hold, a float32 without digits that it does not have."""
-    if not math.isfinite(value):
-        return str(value)
-    if not single:
-        return value
-    stored = struct.pack("f", value)
-    for digits in range(6, 9):
-        shorter = float(f"{value:.{digits}g}")
-        if struct.pack("f", shorter) == stored:
-            return shorter
-    return value
-
-
 def main() -> None:
     """Run the probe."""
     # The terminal's ^C reaches the whole foreground group; the one who asked decides the end.
@@ -306,7 +228,3 @@ def main() -> None:
     sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     Probe().run()
-
-
-if __name__ == "__main__":
-    main()

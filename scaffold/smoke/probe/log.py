@@ -1,0 +1,60 @@
+"""What nodes write to the log, as they publish it on ``/rosout``."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+Ros = Any
+"""Whatever rclpy returns: it has no types."""
+
+TOPIC = "/rosout"
+SHOWN_LINES = 50
+"""Of each level."""
+SHOWN_CHARACTERS = 500
+
+_DEPTH = 1000
+_LEVEL_AT = 12
+"""The byte of a serialized message with the level: after four for the encoding and the stamp."""
+_LEVELS = {10: "debug", 20: "info", 30: "warn", 40: "error", 50: "fatal"}
+
+
+class Log:
+    """Counts lines by level and keeps the first of each.
+
+    Args:
+        node: The observing node.
+        qos: The module with the profiles.
+        deserialize: Makes a message of bytes.
+    """
+
+    def __init__(self, node: Ros, qos: Ros, deserialize: Ros) -> None:
+        self._type = import_module("rcl_interfaces.msg").Log
+        self._deserialize = deserialize
+        self._counts: dict[str, int] = {}
+        self._lines: list[dict[str, object]] = []
+        profile = qos.QoSProfile(
+            depth=_DEPTH,
+            reliability=qos.ReliabilityPolicy.RELIABLE,
+            durability=qos.DurabilityPolicy.TRANSIENT_LOCAL,
+        )
+        node.create_subscription(self._type, TOPIC, self._receive, profile, raw=True)
+
+    def as_data(self) -> dict[str, object]:
+        """Return what goes into the report."""
+        return {"counts": self._counts, "lines": self._lines}
+
+    def _receive(self, data: bytes) -> None:
+        level = _LEVELS.get(data[_LEVEL_AT] if len(data) > _LEVEL_AT else 0, "unknown")
+        self._counts[level] = count = self._counts.get(level, 0) + 1
+        if count > SHOWN_LINES:
+            return
+        line = self._deserialize(data, self._type)
+        self._lines.append(
+            {
+                "level": level,
+                "node": line.name[:SHOWN_CHARACTERS],
+                "text": line.msg[:SHOWN_CHARACTERS],
+                "time": line.stamp.sec + line.stamp.nanosec / 1e9,
+            }
+        )
