@@ -159,10 +159,10 @@ def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, s
         yield f"no <{tag}> {_RUNTIMES[0]}", tag, _RUNTIMES[0]
     skips = [call.options & {"SKIP_GROUP_MEMBERSHIP_CHECK"} for call in generations(package)]
     if not manifest.member_of(GROUP) and not all(skips):
-        said = f"there is no <member_of_group> {GROUP}: CMake stops"
+        message = f"there is no <member_of_group> {GROUP}: CMake stops"
         if manifest.format < 3:  # noqa: PLR2004  REP-149
-            said += "; groups need package format 3"
-        yield said, "member_of_group", GROUP
+            message += "; groups need package format 3"
+        yield message, "member_of_group", GROUP
 
 
 def _format_3(manifest: Manifest) -> list[Edit]:

@@ -39,7 +39,7 @@ _OWN_CODES = {
 
 
 def _identity() -> str:
-    """Return what the findings about a file depend on besides its content."""
+    """Return what invalidates the cached findings of all files: this code, Python and ruff."""
     top = os.path.dirname(__file__)
     own = []
     for folder, _, files in os.walk(top):
@@ -66,7 +66,7 @@ class _File:
 
     @property
     def linters(self) -> int:
-        """Those that look at it."""
+        """The linters that check the file."""
         return reduce(or_, (item.linters for item in self.settings), 0)
 
 
@@ -89,9 +89,9 @@ class StyleCheck:
 
     Args:
         packages: The packages.
-        is_wanted: Tells whether a file of a package is to be checked.
-        is_reference: Whether the configuration of ament counts instead of a package's own.
-        line_length: The characters of a line where a package does not run flake8 itself.
+        is_wanted: Whether a file of a package is to be checked.
+        is_reference: Whether to use ament's configuration instead of a package's own.
+        line_length: The maximum line length for packages that do not run flake8 themselves.
     """
 
     def __init__(
@@ -116,32 +116,36 @@ class StyleCheck:
         wanted = [file for files in self._files.values() for file in files if file.findings is None]
         if wanted:
             self._run = ruff.Run([item.on_disk for item in wanted])
-        self._said: Mapping[str, list[RuffDiagnostic]] | None = None
+        self._reported: Mapping[str, list[RuffDiagnostic]] | None = None
 
     def diagnostics(self, package: Package) -> list[Diagnostic]:
-        """Return what the two linters would report about a package, each thing once.
+        """Return what ament_flake8 and ament_pep257 would report, without duplicates.
 
         Raises:
             EnvironmentMissingError: ruff does not run.
         """
-        return [item for found in self.by_file(package).values() for item in found]
+        return [
+            diagnostic
+            for diagnostics in self.by_file(package).values()
+            for diagnostic in diagnostics
+        ]
 
     def by_file(self, package: Package) -> dict[str, list[Diagnostic]]:
-        """Return the same by path; raises like `diagnostics`.
+        """Return the diagnostics by path; raises like `diagnostics`.
 
-        What concerns the configuration of the package has no path.
+        Those about the configuration of the package have the path "".
         """
         notes = self._notes.pop(id(package), [])
         by_file: dict[str, list[Diagnostic]] = {"": notes} if notes else {}
         for file in self._files.pop(id(package), ()):
             findings = self._findings(file, package)
             package.is_repeatable &= not file.ran_out_of_time
-            found = by_file[file.path] = list[Diagnostic]()
+            diagnostics = by_file[file.path] = list[Diagnostic]()
             counts: dict[str, int] = {}
             for finding in findings:
                 counts[finding.code] = count = counts.get(finding.code, 0) + 1
                 if count <= MAX_FINDINGS + 1:
-                    found.append(_diagnostic(package, file.path, finding))
+                    diagnostics.append(_diagnostic(package, file.path, finding))
         return by_file
 
     def _findings(self, file: _File, package: Package) -> list[Finding]:
@@ -149,14 +153,14 @@ class StyleCheck:
             return file.findings
         from scaffold.ament.verdict import check
 
-        def said() -> Sequence[RuffDiagnostic]:
+        def of_ruff() -> Sequence[RuffDiagnostic]:
             return self._results().get(file.on_disk, [])
 
         name = file.path.rpartition("/")[2]
         try:
             with time_limit.limited():
                 parsed = package.parsed_module(file.path)
-                findings = check(name, file.data, said, file.settings, parsed)
+                findings = check(name, file.data, of_ruff, file.settings, parsed)
         except ScaffoldError:
             raise
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
@@ -167,15 +171,15 @@ class StyleCheck:
         return findings
 
     def _results(self) -> Mapping[str, list[RuffDiagnostic]]:
-        if self._said is None:
+        if self._reported is None:
             try:
-                self._said = self._run.results() if self._run else {}
+                self._reported = self._run.results() if self._run else {}
             finally:
                 self.close()
-        return self._said
+        return self._reported
 
     def close(self) -> None:
-        """End ruff and remove what was written for it; nothing is left to do after a full run."""
+        """Stop ruff and remove the files written for it; does nothing after a complete run."""
         if self._run is not None:
             self._run.close()
             self._run = None
@@ -207,7 +211,7 @@ class StyleCheck:
                 files.append(_too_large(path, settings, too_large(error.size, path)))
                 continue
             except OSError as error:
-                why = "it links to nothing" if path in links else error.strerror or "it is no file"
+                why = "broken symbolic link" if path in links else error.strerror or "not a file"
                 files.append(_unread(path, settings, f"the file cannot be read: {why}"))
                 continue
             if reason := why_unread(path, data):
@@ -226,8 +230,8 @@ class StyleCheck:
     def _place(self, package: Package, file: _File, number: int) -> str:
         """Return where ruff finds the file.
 
-        A package in memory is written out for it, and so is a file whose name is not a text: ruff
-        does not give such a name back.
+        A package in memory is written to a temporary directory, and so is a file whose name is
+        not valid Unicode: ruff would not report such a name as it is.
         """
         if package.root is not None and _is_text(package.root) and _is_text(file.path):
             return os.path.abspath(os.path.join(package.root, file.path))
@@ -249,10 +253,10 @@ def _is_text(path: str) -> bool:
 
 
 def _failure(error: Exception, linters: int) -> Finding:
-    """Return the one finding of a file whose check failed: its own error, or a bug in this tool."""
+    """Return the finding for a file that cannot be checked: too complex, or a bug here."""
     if isinstance(error, EXHAUSTED):
         return Finding(UNPARSABLE, 1, 1, exhausted(error), linters=linters)
-    return Finding(CRASHED, 1, 1, crash_message("the check of its style", error), linters=linters)
+    return Finding(CRASHED, 1, 1, crash_message("the style check", error), linters=linters)
 
 
 def _noted(note: Note) -> Diagnostic:

@@ -38,12 +38,12 @@ class Call(NamedTuple):
 
 
 def directory_of(package: Package) -> str:
-    """Return the directory where the tests of a package run, an invented one in memory."""
+    """Return the directory where the tests of a package run; made up for one in memory."""
     return os.path.abspath(package.place or "/package")
 
 
 def linter_calls(package: Package, linter: str) -> list[Call]:
-    """Return how the tests of a package run a linter; such as cannot fail do not count.
+    """Return how the tests of a package run a linter; runs that cannot fail are left out.
 
     Args:
         package: The package.
@@ -66,14 +66,14 @@ def _by_function(package: Package, linter: str) -> Iterator[Call]:
 
 def _by_hook(package: Package, linter: str) -> Iterator[Call]:
     """Yield the run of a linter by ament_lint_auto; raises ViewError."""
-    cmake, found = package.cmake, hook(package, linter)
-    if found is None or is_switched_off(cmake, linter):
+    cmake, command = package.cmake, hook(package, linter)
+    if command is None or is_switched_off(cmake, linter):
         return
     words: list[str | None] = []
     if linter == "flake8":
         excludes = file_excludes(cmake)
         words = ["EXCLUDE", *([None] if excludes is None else excludes)]
-    yield Call((*_command_line(cmake, found, linter, words),), found.location)
+    yield Call((*_command_line(cmake, command, linter, words),), command.location)
 
 
 def _expanded(cmake: CMakeLists, argument: Argument, command: Command) -> Sequence[str | None]:
@@ -88,13 +88,15 @@ def _expanded(cmake: CMakeLists, argument: Argument, command: Command) -> Sequen
 def _command_line(
     cmake: CMakeLists, command: Command, linter: str, words: Sequence[str | None]
 ) -> Iterator[str | None]:
-    """Yield what the CMake function of a linter makes of its arguments."""
-    known = {"TESTNAME", "CONFIG_FILE", *_KEYWORDS[linter]} if linter == "flake8" else {"TESTNAME"}
+    """Yield the command line that the CMake function of a linter passes on."""
+    keywords = (
+        {"TESTNAME", "CONFIG_FILE", *_KEYWORDS[linter]} if linter == "flake8" else {"TESTNAME"}
+    )
     given: dict[str, str | None] = {}
     others: list[str | None] = []
     keyword = ""
     for word in words:
-        if word in known:
+        if word in keywords:
             keyword = str(word)
         elif keyword:
             given[keyword], keyword = word, ""

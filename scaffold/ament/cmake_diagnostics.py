@@ -33,11 +33,11 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _line_length(_: Package, finding: Finding) -> _Explained:
-    return f"{finding.said} characters: ament_lint_cmake allows {LINE_LENGTH}", None
+    return f"{finding.detail} characters: ament_lint_cmake allows {LINE_LENGTH}", None
 
 
 def _extra_whitespace(package: Package, finding: Finding) -> _Explained:
-    message = f"space between `{finding.said}` and `(`"
+    message = f"space between `{finding.detail}` and `(`"
     return message, _removal(package, finding, "remove the space")
 
 
@@ -46,7 +46,7 @@ def _mismatch(package: Package, finding: Finding) -> _Explained:
     if not outline(package, finding.source).touches_literal(last, finding.end):
         fix = Fix("make the spaces equal", _even(finding))
     line, _ = finding.source.position(last)
-    return f'spaces after the "(" of {finding.said} and before the ")" in line {line} differ', fix
+    return f'spaces after the "(" of {finding.detail} and before the ")" in line {line} differ', fix
 
 
 def _even(finding: Finding) -> tuple[Edit, ...]:
@@ -93,13 +93,13 @@ def _removal(package: Package, finding: Finding, title: str) -> Fix | None:
 
 
 def _odd_indentation(_: Package, finding: Finding) -> _Explained:
-    number = "one space" if finding.said == "1" else f"{finding.said} spaces"
+    number = "one space" if finding.detail == "1" else f"{finding.detail} spaces"
     return f"indented by {number}: ament_lint_cmake requires multiples of two", None
 
 
 def _mixed_case(package: Package, finding: Finding) -> _Explained:
-    other = "lower" if finding.said == finding.said.upper() else "upper"
-    message = f'"{finding.said}" in a file whose first command is in {other} case'
+    other = "lower" if finding.detail == finding.detail.upper() else "upper"
+    message = f'"{finding.detail}" in a file whose first command is in {other} case'
     source = finding.source
     return message, package.remember(("lower_case", source.path), lambda: _lower(package, source))
 
@@ -118,16 +118,16 @@ def _lower(package: Package, source: Source) -> Fix | None:
 
 
 def _wonky_case(package: Package, finding: Finding) -> _Explained:
-    source, lower, fix = finding.source, finding.said.lower(), None
+    source, lower, fix = finding.source, finding.detail.lower(), None
     if finding.start in outline(package, source).commands:
         fix = Fix(f"write {lower}", (Edit(source.path, finding.start, finding.end, lower),))
-    return f'"{finding.said}" mixes cases: write "{lower}"', fix
+    return f'"{finding.detail}" mixes cases: write "{lower}"', fix
 
 
 def _repeated_condition(_: Package, finding: Finding) -> _Explained:
-    if finding.said.lower() not in _BLOCK_ENDS:
-        return f"{finding.said}() shares a line with the end of a block", None
-    message = f"{finding.said}() repeats what opens its block; CMake ignores the words"
+    if finding.detail.lower() not in _BLOCK_ENDS:
+        return f"{finding.detail}() shares a line with the end of a block", None
+    message = f"{finding.detail}() repeats what opens its block; CMake ignores the words"
     name, arguments = finding.source.text[finding.start : finding.end].split("(", 1)
     if any(character in arguments[:-1] for character in '()"['):
         return message, None
@@ -136,15 +136,15 @@ def _repeated_condition(_: Package, finding: Finding) -> _Explained:
 
 
 def _file_name(_: Package, finding: Finding) -> _Explained:
-    if finding.said == "CMakeLists.txt":
-        return "CMake looks for CMakeLists.txt, spelt exactly so", None
-    return f"ament_lint_cmake requires upper case in names of find modules: {finding.said}", None
+    if finding.detail == "CMakeLists.txt":
+        return "CMake looks for CMakeLists.txt, spelled exactly so", None
+    return f"ament_lint_cmake requires upper case in names of find modules: {finding.detail}", None
 
 
 def _unclosed(package: Package, finding: Finding) -> _Explained | None:
     if finding.source.path == CMAKE_LISTS and _is_unparsable(package):
         return None  # SC001 reports it
-    return f'no ")" follows the "(" of {finding.said}', None
+    return f'no ")" follows the "(" of {finding.detail}', None
 
 
 def _is_unparsable(package: Package) -> bool:
@@ -155,18 +155,18 @@ def _is_unparsable(package: Package) -> bool:
 
 
 def _pragma(_: Package, finding: Finding) -> _Explained:
-    return f"{finding.said!r} is not a filter with - or +: ament_lint_cmake crashes on it", None
+    return f"{finding.detail!r} is not a filter with - or +: ament_lint_cmake crashes on it", None
 
 
 def _handler_missing(_: Package, finding: Finding) -> _Explained:
-    verb = "includes" if finding.said[0].isupper() else "calls"
-    return f"this find module never {verb} {finding.said}", None
+    verb = "includes" if finding.detail[0].isupper() else "calls"
+    return f"this find module never {verb} {finding.detail}", None
 
 
 def _handler_misnamed(_: Package, finding: Finding) -> _Explained:
-    given, expected = finding.said.split(" ", 1)
+    given, expected = finding.detail.split(" ", 1)
     name = finding.source.path.rpartition("/")[2]
-    return f"{given} is handed over in {name}: expected {expected}", None
+    return f"{given} is passed in {name}: expected {expected}", None
 
 
 _FILTERS: Mapping[str, tuple[str, Callable[[Package, Finding], _Explained | None]]] = {

@@ -72,7 +72,7 @@ def _headers(package: Package) -> list[Header]:
     for path in broken_links(package):
         if os.path.splitext(path)[1] in EXTENSIONS:
             at = Location.start_of(path)
-            result.append(Header(path, at, unreadable="this link leads to no file"))
+            result.append(Header(path, at, unreadable="broken symbolic link"))
     return result
 
 
@@ -83,8 +83,8 @@ def read(path: str, data: bytes) -> Header:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        said = f"byte 0x{data[error.start]:02x} in line {line} is not UTF-8"
-        return Header(path, at, unreadable=said)
+        text = f"byte 0x{data[error.start]:02x} in line {line} is not UTF-8"
+        return Header(path, at, unreadable=text)
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     start = _behind_first_lines(text)
     if start is None:
@@ -98,8 +98,8 @@ def read(path: str, data: bytes) -> Header:
             column = offset - text.rfind("\n", 0, offset)
             at = Location(path, line, column, line, column + len(first))
             holders = tuple(_holder(notice) for notice in notices)
-            said = " ".join(rest.split())
-            return Header(path, at, holders, identify(said), said)
+            text = " ".join(rest.split())
+            return Header(path, at, holders, identify(text), text)
     return Header(path, at)
 
 
@@ -214,8 +214,8 @@ def _holder(notice: str) -> str:
 # -- known texts
 
 
-class Known(NamedTuple):
-    """A text of a licence: the parts between the places for names."""
+class KnownText(NamedTuple):
+    """A text that belongs to a license: the parts between the placeholders for names."""
 
     licence: str
     sections: tuple[str, ...]
@@ -235,22 +235,22 @@ def contributing(licence: str) -> str | None:
 
 
 @lru_cache(maxsize=1)
-def known_texts() -> dict[str, list[Known]]:
-    """Return the known texts by what they are: ``header``, or the name of a file."""
-    result: dict[str, list[Known]] = {}
+def known_texts() -> dict[str, list[KnownText]]:
+    """Return the texts that ament_copyright knows, by kind: ``header``, or the name of a file."""
+    result: dict[str, list[KnownText]] = {}
     with open(_DATA, encoding="utf-8") as file:
         for line in file:
             kind, licence, *sections = line.rstrip("\n").split("\t")
-            result.setdefault(kind, []).append(Known(licence, tuple(sections)))
+            result.setdefault(kind, []).append(KnownText(licence, tuple(sections)))
     return result
 
 
 @lru_cache(maxsize=256)
 def identify(text: str) -> str | None:
-    """Return the SPDX identifier of the known header that is in a text, spaces joined."""
-    for known in known_texts()["header"]:
-        if _in_order(text, known.sections):
-            return known.licence
+    """Return the SPDX identifier of the license header in a text whose spaces are joined."""
+    for known_text in known_texts()["header"]:
+        if _in_order(text, known_text.sections):
+            return known_text.licence
     return None
 
 
@@ -268,21 +268,21 @@ def departure(text: str) -> tuple[str, str, str] | None:
     """Return the license that an unknown header resembles, and where it differs.
 
     Returns:
-        The SPDX identifier, the words expected and the words found there; ``None`` when the text
-        is like none of the known ones.
+        The SPDX identifier, the expected and the actual words; ``None`` when no known header is
+        similar.
     """
     best: tuple[int, str, str, str] | None = None
     words = text.split()
-    for known in known_texts()["header"]:
-        same, expected, given = _compare(words, [part.split() for part in known.sections])
-        enough = min(_NEAR, sum(map(len, (part.split() for part in known.sections))) // 2)
+    for known_text in known_texts()["header"]:
+        same, expected, given = _compare(words, [part.split() for part in known_text.sections])
+        enough = min(_NEAR, sum(map(len, (part.split() for part in known_text.sections))) // 2)
         if same >= enough and (best is None or same > best[0]):
-            best = same, known.licence, " ".join(expected[:4]), " ".join(given[:4])
+            best = same, known_text.licence, " ".join(expected[:4]), " ".join(given[:4])
     return best[1:] if best else None
 
 
 def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str], list[str]]:
-    """Return how many words agree, and what was expected and given after them."""
+    """Return how many words agree, then the expected and the actual words after them."""
     same = at = 0
     for number, section in enumerate(sections):
         reach = at + _HOLDER if number else len(words)
@@ -300,15 +300,15 @@ def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str
 def identify_file(name: str, data: bytes) -> str | None:
     """Return the SPDX identifier of a LICENSE or CONTRIBUTING.md, ``None`` if it is unknown."""
     text = " ".join(data.decode("utf-8", "replace").split())
-    for known in known_texts()[name]:
+    for known_text in known_texts()[name]:
         last = -1
-        for mark in known.sections:
+        for mark in known_text.sections:
             at = _find_marked(text, mark)
             if at <= last:
                 break
             last = at
         else:
-            return known.licence
+            return known_text.licence
     return None
 
 

@@ -39,7 +39,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 def _of_headers(
     package: Package, code: str, faulty: list[Header], explain: Callable[[Header, int], str]
 ) -> Iterator[Diagnostic]:
-    """Yield an error for each file that the linter looks at, and one advice for the others."""
+    """Yield an error for each file that the linter checks, and one note for all others."""
     if not faulty:
         return
     use = linter_use(package, "copyright")
@@ -56,7 +56,7 @@ def _of_headers(
 
 
 def _no_notice(header: Header, others: int) -> str:
-    """Return what is wrong; ``others`` are files that share the advice, -1 if it is none."""
+    """Return the message; ``others`` counts more such files, -1 where each file has its own."""
     if others < 0:
         return header.unreadable or "no copyright notice in the first comment of this file"
     return f"no copyright notice here and in {others} more" if others else "no copyright notice"
@@ -70,14 +70,14 @@ def _unknown_header(header: Header, others: int) -> str:
 def _reason(text: str) -> str:
     if not text:
         return "no license header below the notice"
-    near = departure(text)
-    if near is not None:
-        licence, expected, given = near
-        return f'the header is not that of {licence}: "{given}" instead of "{expected}"'
+    difference = departure(text)
+    if difference is not None:
+        licence, expected, actual = difference
+        return f'the header is not that of {licence}: "{actual}" instead of "{expected}"'
     if "SPDX-License-Identifier" in text:
         return "an SPDX line below the notice is not the header of a license"
     start = " ".join(text.split()[:5])
-    return f'"{start} …" begins the header of no license that is known'
+    return f'"{start} …" does not begin any known license header'
 
 
 def _of_repository(package: Package, code: str) -> Iterator[Diagnostic]:

@@ -11,7 +11,7 @@ IGNORE_MARKER = "AMENT_IGNORE"
 
 
 def lintable(package: Package) -> tuple[str, ...]:
-    """Return the files that every ament linter that walks directories itself would visit.
+    """Return the files that the linters of ament visit when they walk the package.
 
     They skip directories that begin with ``_`` or ``.``, and directories with a file or a
     directory named AMENT_IGNORE and all that is below.
@@ -20,7 +20,7 @@ def lintable(package: Package) -> tuple[str, ...]:
 
 
 def broken_links(package: Package) -> list[str]:
-    """Return the links to nothing that the linters stop at: they see a name, and no file."""
+    """Return the broken symbolic links that make the linters fail."""
     return _visited(package, getattr(package.tree, "broken_links", ()))
 
 

@@ -1,4 +1,4 @@
-"""What a style check found, before it becomes a diagnostic."""
+"""The finding of a style check, before it becomes a diagnostic."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Findings by content: a file that was checked before needs neither ruff nor the own rules.
+"""Findings by content: a file that was checked before needs neither ruff nor our rules.
 
 One small file per checked file, named after a digest of its bytes and of everything else that the
-findings depend on. A cache that cannot be read or written is as good as none.
+findings depend on. A cache that cannot be read or written is ignored.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class Cache:
     @classmethod
     def of_user(cls, depends_on: Callable[[], str]) -> Cache | None:
         """Return the user's cache, unless it is switched off or there is no home for it."""
-        kept = cache.directory("style")
-        return None if kept is None else cls(kept, depends_on())
+        directory = cache.directory("style")
+        return None if directory is None else cls(directory, depends_on())
 
     def key(self, name: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
         """Return the key of a file: of its bytes and of what else rules look at.

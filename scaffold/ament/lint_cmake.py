@@ -1,7 +1,7 @@
-"""The layout of CMake files, read line by line: one pass that several rules take their facts from.
+"""The verdict of ament_lint_cmake: the layout of CMake files, checked in one pass.
 
-It judges what ament_lint_cmake judges, and the same lines: commands are found by a pattern at the
-start of a line and a comment begins at the first ``#``, be it inside of quotes.
+As in the linter, commands are matched by a pattern at the start of a line, and a comment begins at
+the first ``#``, even inside of quotes.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ class Finding(NamedTuple):
     start: int
     """Offset of what is wrong; both offsets are 0 when it is the file as a whole."""
     end: int
-    said: str = ""
-    """What the rule needs to know: a name, a number."""
+    detail: str = ""
+    """What the message mentions: a name or a number."""
 
     @property
     def location(self) -> Location:
@@ -61,13 +61,13 @@ class Finding(NamedTuple):
 
 
 def findings(package: Package, name: str) -> Iterator[Finding]:
-    """Yield what one filter says about the CMake files of a package."""
+    """Yield the findings of one filter in the CMake files of a package."""
     for path in package.remember("cmake_files", lambda: _cmake_files(package)):
         try:
-            found = _of_file(package, path)
+            by_filter = _of_file(package, path)
         except ViewError:
             continue
-        yield from found.get(name, ())
+        yield from by_filter.get(name, ())
 
 
 def _cmake_files(package: Package) -> list[str]:
@@ -133,7 +133,7 @@ class Scan:
         self.lines = lines(source)
 
     def run(self) -> list[Finding]:
-        """Return what is found, without what a pragma of the file switches off."""
+        """Return the findings, without those that a pragma of the file switches off."""
         result = [*self._file_name(), *self._each_line(), *self._spaces(), *self._find_module()]
         switches: list[str] = []
         for line in self.lines:
@@ -238,12 +238,12 @@ class Scan:
                 missing.pop("include", None)
             elif command == _HANDLER:
                 missing.pop("call", None)
-                given = self._argument(number)
-                if given != expected:
-                    said = f"{given} {expected}"
-                    yield self._at("package/stdargs", line, line.name_start, line.open, said)
-        for said in missing.values():
-            yield self._whole("package/consistency", said)
+                actual = self._argument(number)
+                if actual != expected:
+                    detail = f"{actual} {expected}"
+                    yield self._at("package/stdargs", line, line.name_start, line.open, detail)
+        for detail in missing.values():
+            yield self._whole("package/consistency", detail)
 
     def _argument(self, number: int) -> str:
         """Return the first word, here or further down, that is not the command's own."""
@@ -284,7 +284,7 @@ def _has_arguments(code: str, start: int, last: int) -> bool:
 
 
 class Outline(NamedTuple):
-    """What in a CMake file must not be touched, and where its commands are."""
+    """The arguments of a CMake file that a fix must not change, and its commands."""
 
     literals: list[tuple[int, int]]
     """The quoted and the bracket arguments, in order: spaces inside them are significant."""
@@ -309,23 +309,23 @@ def _outline(text: str) -> Outline:
     quoted_end = re.compile(r'(?:[^"\\]|\\.)*"?', re.DOTALL)
     at = depth = 0
     while match := token.search(text, at):
-        found, at = match[0], match.end()
-        if found == "#":
+        word, at = match[0], match.end()
+        if word == "#":
             at = _index(text, "\n", at)
-        elif found[-1] == "[":
-            closing = f"]{'=' * found.count('=')}]"
+        elif word[-1] == "[":
+            closing = f"]{'=' * word.count('=')}]"
             at = min(_index(text, closing, at) + len(closing), len(text))
-            if found[0] == "[" and depth:
+            if word[0] == "[" and depth:
                 literals.append((match.start(), at))
-        elif found == '"':
+        elif word == '"':
             end = quoted_end.match(text, at)
             at = end.end() if end else at
             literals.append((match.start(), at))
-        elif found == "(":
+        elif word == "(":
             depth += 1
-        elif found == ")":
+        elif word == ")":
             depth = max(0, depth - 1)
-        elif depth == 0 and found[0] != "\\":
+        elif depth == 0 and word[0] != "\\":
             commands.add(match.start())
     return Outline(literals, frozenset(commands))
 

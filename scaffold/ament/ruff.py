@@ -1,4 +1,4 @@
-"""Runs ruff in the background and reads what it says.
+"""Runs ruff in the background and reads its diagnostics.
 
 Two passes over the same files: rules that are stable, and pycodestyle's whitespace rules, which
 ruff still calls a preview; ``preview`` would change the verdict of the stable ones. Nothing of the
@@ -72,14 +72,14 @@ class RuffDiagnostic(NamedTuple):
 
 
 class Run:
-    """Both passes over some files, started when the object is made."""
+    """Both passes over some files, started by the constructor."""
 
     def __init__(self, files: Sequence[str]) -> None:
         self._chunks = _chunked(files)
         self._running = self._start(self._chunks[0]) if self._chunks else []
 
     def results(self) -> Mapping[str, list[RuffDiagnostic]]:
-        """Wait, and return what was said by file.
+        """Wait for ruff, and return its diagnostics by file.
 
         Raises:
             EnvironmentMissingError: ruff does not run.
@@ -91,9 +91,9 @@ class Run:
                     self._running = self._start(chunk)
                 for arguments in PASSES:
                     output = _collect(*self._running.pop(0))
-                    answer = _apart(arguments, chunk) if output is None else _parse(output)
-                    for path, said in answer:
-                        result.setdefault(path, []).append(said)
+                    answer = _bisect(arguments, chunk) if output is None else _parse(output)
+                    for path, diagnostic in answer:
+                        result.setdefault(path, []).append(diagnostic)
         finally:
             self.close()
         return result
@@ -110,15 +110,15 @@ class Run:
         return [_spawn([*arguments, "--", *chunk]) for arguments in PASSES]
 
 
-def _apart(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:
-    """Ask about files among which one ends ruff, by halves, so that the others are judged."""
+def _bisect(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:
+    """Check files of which one crashes ruff: bisect, so that the others are still checked."""
     if len(files) == 1:
         yield files[0], RuffDiagnostic("", 1, 1, 1, 1, "nested too deeply for its linters", (), "")
         return
     middle = len(files) // 2
     for half in (files[:middle], files[middle:]):
         output = _collect(*_spawn([*arguments, "--", *half]))
-        yield from _apart(arguments, half) if output is None else _parse(output)
+        yield from _bisect(arguments, half) if output is None else _parse(output)
 
 
 def _chunked(files: Sequence[str]) -> list[Sequence[str]]:

@@ -1,7 +1,6 @@
-"""What the files of a package are judged by: the configurations that its own tests use.
+"""The configurations that a package's own tests check its files with.
 
-A linter that the tests of a package do not run judges with the configuration that ament brings
-along.
+A linter that no test of the package runs uses the configuration that ament ships with.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 UNKNOWN = "\0"
-"""Stands for an argument that is not known."""
+"""In place of an argument that cannot be determined."""
 MAX_BYTES = 200_000
 """Of a configuration file."""
 
@@ -35,7 +34,7 @@ _OF_BOTH = sorted(pep257.AMENT & pep257.CONVENTIONS["pep257"])
 
 
 class Settings(NamedTuple):
-    """The linters that look at a file, and what they are asked for."""
+    """The linters that check a file, and their configurations."""
 
     linters: int = FLAKE8 | PEP257
     flake8: Options = flake8.AMENT
@@ -61,14 +60,14 @@ class Settings(NamedTuple):
 
 
 class Note(NamedTuple):
-    """What of a package's configuration is not followed, and what happens instead."""
+    """A part of a package's configuration that is not followed, and what happens instead."""
 
     location: Location
     message: str
 
 
 class _Run(NamedTuple):
-    """A run of a linter: what it is asked for, and the files that it looks at."""
+    """A run of a linter: its options, and the files that it checks."""
 
     asked: Options | frozenset[str]
     covers: Callable[[str], bool]
@@ -78,11 +77,11 @@ class _Run(NamedTuple):
 
 
 class PackageSettings:
-    """What each file of a package is judged by.
+    """The configurations that each file of a package is checked with.
 
     Args:
         package: The package.
-        is_reference: Whether the configuration that ament brings along counts for all.
+        is_reference: Whether to use the configuration that ament ships with for all files.
     """
 
     def __init__(self, package: Package, *, is_reference: bool = False) -> None:
@@ -104,7 +103,7 @@ class PackageSettings:
 
     @property
     def named(self) -> list[str]:
-        """The files that are given to flake8 by name, whatever their ending."""
+        """The files that are passed to flake8 by name, whatever their extension."""
         inside = os.path.join(self._directory, "")
         paths = (path for run in self._runs[FLAKE8] for path in run.named)
         return [path[len(inside) :] for path in paths if path.startswith(inside)]
@@ -119,15 +118,15 @@ class PackageSettings:
                 if code in run.asked or code.startswith("E9"):
                     return True
             elif run.asked.for_file(full, self._directory).reports(code):
-                known = pep257.CONVENTIONS.get(run.asked.docstring_convention, pep257.ALL)
-                if not code.startswith("D") or code in known:
+                convention = pep257.CONVENTIONS.get(run.asked.docstring_convention, pep257.ALL)
+                if not code.startswith("D") or code in convention:
                     return True
         return False
 
     def of(
         self, path: str, linters: int = FLAKE8 | PEP257, default: Options = flake8.AMENT
     ) -> list[Settings]:
-        """Return what a file is judged by: a finding counts when any of it reports it.
+        """Return the settings for a file: a finding is kept when any of them reports it.
 
         Args:
             path: The file.
@@ -149,15 +148,17 @@ class PackageSettings:
         codes = dict.fromkeys(item for item in asked[PEP257] if isinstance(item, frozenset))
         if not self._runs[PEP257] and options and codes:
             # What flake8 is told to ignore, the linter that is not run does not bring up.
-            ignored = [code for code in _OF_BOTH if not any(one.reports(code) for one in options)]
+            ignored = [
+                code for code in _OF_BOTH if not any(options_.reports(code) for options_ in options)
+            ]
             codes = {pep257.AMENT.difference(ignored): None}
         return [
             Settings(
-                (FLAKE8 if one else 0) | (0 if other is None else PEP257),
-                one or flake8.AMENT,
-                pep257.AMENT if other is None else other,
+                (FLAKE8 if flake8_options else 0) | (0 if codes_ is None else PEP257),
+                flake8_options or flake8.AMENT,
+                pep257.AMENT if codes_ is None else codes_,
             )
-            for one, other in zip_longest(options, codes)
+            for flake8_options, codes_ in zip_longest(options, codes)
         ]
 
     def _read(self, linter: str, read: Callable[[Call], _Run | None]) -> Iterator[_Run]:
@@ -165,9 +166,7 @@ class PackageSettings:
             try:
                 run = read(call)
             except _StopError as error:
-                self._note(
-                    call, f"ament_{linter} stops: {error}; judged with ament's configuration"
-                )
+                self._note(call, f"ament_{linter} stops: {error}; using ament's configuration")
             else:
                 if run is not None:
                     yield run
@@ -187,12 +186,12 @@ class PackageSettings:
         parser.add_argument("--exclude", nargs="*", default=[])
         parser.add_argument("--xunit-file")
         given = parser.parse(call.arguments)
-        paths = self._known(given.paths)
+        paths = self._without_unknown(given.paths)
         if not paths:
             return None  # it looks at files that are made by the build
         options = flake8.AMENT if given.config is None else self._configured(call, given.config)
         if given.linelength == _UNKNOWN_NUMBER:
-            self._note(call, "the maximum line length cannot be determined: that of ament counts")
+            self._note(call, "the maximum line length cannot be determined: ament's is used")
         elif given.linelength is not None:
             options = options._replace(max_line_length=given.linelength)
         excludes = self._excludes(call, given.exclude)
@@ -207,7 +206,7 @@ class PackageSettings:
 
     def _configured(self, call: Call, path: str) -> Options:
         if path == UNKNOWN:
-            self._note(call, "which configuration flake8 gets cannot be determined: ament's counts")
+            self._note(call, "the configuration of flake8 cannot be determined: ament's is used")
             return flake8.AMENT
         place = self._full(path)
         try:
@@ -235,7 +234,7 @@ class PackageSettings:
     def _is_walked(
         self, path: str, given: str, excluded: Sequence[str], names: Sequence[str]
     ) -> bool:
-        """Tell whether flake8 comes to a file from a path that it is given."""
+        """Tell whether flake8 reaches a file from one of its paths."""
         top = self._full(given)
         is_plain = os.path.basename(given) in {".", ".."}
         if matches(top, [pattern for pattern in excluded if not is_plain or "/" in pattern]):
@@ -266,14 +265,12 @@ class PackageSettings:
         parser.add_argument("--exclude", nargs="*", default=[])
         parser.add_argument("--xunit-file")
         given = parser.parse(call.arguments)
-        paths = [self._full(path) for path in self._known(given.paths)]
+        paths = [self._full(path) for path in self._without_unknown(given.paths)]
         if not paths:
             return None
         lists = (given.ignore, given.select, given.add_ignore, given.add_select)
         if any(UNKNOWN in words for words in lists):
-            self._note(
-                call, "which codes pep257 reports cannot be determined: those of ament count"
-            )
+            self._note(call, "the codes that pep257 reports cannot be determined: ament's are used")
             codes = pep257.AMENT
         else:
             codes = pep257.chosen(*lists, convention=given.convention)
@@ -288,11 +285,11 @@ class PackageSettings:
 
     def _excludes(self, call: Call, given: Sequence[str]) -> list[str]:
         if UNKNOWN in given:
-            self._note(call, "which files are excluded cannot be determined: they are judged, too")
-        return self._known(given)
+            self._note(call, "the excluded files cannot be determined: they are checked, too")
+        return self._without_unknown(given)
 
     @staticmethod
-    def _known(words: Sequence[str]) -> list[str]:
+    def _without_unknown(words: Sequence[str]) -> list[str]:
         return [word for word in words if word != UNKNOWN]
 
     def _full(self, path: str) -> str:
@@ -310,7 +307,7 @@ class _Parser(argparse.ArgumentParser):
         super().__init__(add_help=False)
 
     def parse(self, arguments: Arguments) -> argparse.Namespace:
-        """Return what is given; raises _StopError."""
+        """Return the parsed arguments; raises _StopError."""
         return self.parse_args([UNKNOWN if word is None else word for word in arguments])
 
     def error(self, message: str) -> NoReturn:
@@ -329,5 +326,5 @@ def _is_below(path: str, tops: Sequence[str]) -> bool:
 
 
 def settings_of(package: Package) -> PackageSettings:
-    """Return what the files of a package are judged by; read once."""
+    """Return the settings of a package; read once."""
     return package.remember("style settings", lambda: PackageSettings(package))

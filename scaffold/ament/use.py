@@ -1,4 +1,4 @@
-"""Whether a package runs a linter of ament in its own tests, and over which files.
+"""Whether a package runs a linter of ament in its own tests, and on which files.
 
 The arguments of those of Python style, which have configurations, are in `calls`.
 """
@@ -104,7 +104,7 @@ def _switched_off(cmake: CMakeLists, linter: str) -> str:
 
 
 def _brings(package: Package, name: str, wrapper: str) -> bool:
-    """Tell whether a dependency is the linter or a collection, ours or of the workspace."""
+    """Tell whether a dependency is the linter or a collection that includes it."""
     collections = (_COLLECTION, wrapper)
     if name in collections:
         return True
@@ -116,7 +116,7 @@ def _brings(package: Package, name: str, wrapper: str) -> bool:
 
 
 def file_excludes(cmake: CMakeLists) -> list[str] | None:
-    """Return what ament_lint_auto tells linters to skip; ``None`` if that cannot be told."""
+    """Return what ament_lint_auto tells linters to skip; ``None`` if it cannot be determined."""
     result: list[str] = []
     for command in cmake.find("set", "list"):
         words = [argument.text for argument in command.arguments]
@@ -131,7 +131,9 @@ def file_excludes(cmake: CMakeLists) -> list[str] | None:
 
 def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
     if values is None:
-        return Use(runs=False, why_not="which files CMakeLists.txt excludes cannot be told")
+        return Use(
+            runs=False, why_not="the files that CMakeLists.txt excludes cannot be determined"
+        )
     return Use(runs=True, excluded=tuple(cmake.path_of(value) for value in values))
 
 

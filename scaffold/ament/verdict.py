@@ -1,4 +1,4 @@
-"""The verdict on one file: our own rules, and what ruff said, put together."""
+"""The verdict on one file: our own rules and the diagnostics of ruff put together."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def check(
     Args:
         name: The name of the file, without its directory.
         data: Its bytes.
-        ask_ruff: Waits for ruff and returns what it says about the file; asked after the own
+        ask_ruff: Waits for ruff and returns its diagnostics; called after our own
             rules, which run at the same time as ruff.
         settings: Which linters look at the file, and what they are asked for.
         parsed: The file, where it has been parsed before.
@@ -80,11 +80,11 @@ def check(
         linters = settings[0].linters
         return [Finding(TOO_LARGE, 1, 1, text.why_unchecked, linters=linters)]
     own = [list(_own(text, item)) for item in settings]
-    said = ask_ruff()
-    broken = _broken(text, said, is_clean=decoded.is_clean)
+    reported = ask_ruff()
+    broken = _broken(text, reported, is_clean=decoded.is_clean)
     if broken is not None:
         return _once(_reported([broken], settings))
-    results = [_judged(text, *item, said) for item in zip(settings, own, strict=True)]
+    results = [_judged(text, *item, reported) for item in zip(settings, own, strict=True)]
     judged = results[0] if len(results) == 1 else _once(chain.from_iterable(results))
     if text.is_too_deep:
         linters = settings[0].linters
@@ -96,21 +96,21 @@ def _judged(
     text: PythonText,
     settings: Settings,
     own: Sequence[Finding],
-    said: Sequence[RuffDiagnostic],
+    reported: Sequence[RuffDiagnostic],
 ) -> list[Finding]:
-    """Return the findings with some settings, given those of the own rules."""
+    """Return the findings with one of the settings, given those of our own rules."""
     options = settings.flake8
-    of_ruff = _from_ruff(text, said, options)
+    ruff_findings = _from_ruff(text, reported, options)
     if options.inline_quotes != AMENT.inline_quotes:
-        said = [item for item in said if not item.code.startswith("Q")]
-    findings = _reported(_with_fixes([*of_ruff, *own], said), [settings])
+        reported = [item for item in reported if not item.code.startswith("Q")]
+    findings = _reported(_with_fixes([*ruff_findings, *own], reported), [settings])
     silence = noqa.apply_of_plugins if options.disable_noqa else noqa.apply
-    return [*map(_Alignment(text).kept, _once(silence(text, findings)))]
+    return [*map(_Alignment(text).keep_alignment, _once(silence(text, findings)))]
 
 
 def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list[Finding]:
-    """Return what a linter is asked for."""
-    pairs = ((item, one.linters_of(item)) for one in settings for item in findings)
+    """Return the findings that some linter reports."""
+    pairs = ((item, settings_.linters_of(item)) for settings_ in settings for item in findings)
     return [item._replace(linters=linters) for item, linters in pairs if linters]
 
 
@@ -141,7 +141,7 @@ def _all_own(text: PythonText, settings: Settings) -> Iterator[Finding]:
 def _broken(
     text: PythonText, diagnostics: Sequence[RuffDiagnostic], *, is_clean: bool
 ) -> Finding | None:
-    """Return the one finding of a file that no Python of the target can read."""
+    """Return the finding for a file that Python 3.12 cannot parse."""
     both = FLAKE8 | PEP257
     if not is_clean:
         return Finding(
@@ -165,7 +165,7 @@ def _broken(
 
 
 def _syntax_error(text: PythonText) -> SyntaxError | None:
-    """Return what the running Python says of a file."""
+    """Return the syntax error that the running Python reports."""
     import ast
     import warnings
 
@@ -197,8 +197,8 @@ def _from_ruff(
         ],
     )
     lines: dict[str, set[int]] = {}
-    for one in diagnostics:
-        lines.setdefault(one.code, set()).add(one.line)
+    for diagnostic in diagnostics:
+        lines.setdefault(diagnostic.code, set()).add(diagnostic.line)
     is_optional = options.reports("E226")
     spaced = operators.CANDIDATES + (operators.ARITHMETIC_CANDIDATES if is_optional else "")
     for module, candidates in ((operators, spaced), (keyword_spacing, keyword_spacing.CANDIDATES)):
@@ -209,9 +209,9 @@ def _from_ruff(
         logical_lines = {row: text.logical_line_at(row) for row in sorted(rows)}
         for logical in dict.fromkeys(line for line in logical_lines.values() if line):
             yield from module.check(logical)
-    for one in diagnostics:
-        if one.code in TAKEN:
-            yield flakes.plain(one)
+    for diagnostic in diagnostics:
+        if diagnostic.code in TAKEN:
+            yield flakes.plain(diagnostic)
 
 
 def _with_fixes(
@@ -245,8 +245,8 @@ class _Alignment:
         self._starts: dict[int, frozenset[int]] = {}
         self._columns: dict[int, list[int]] = {}
 
-    def kept(self, finding: Finding) -> Finding:
-        """Take away a fix that would move something that lines further down are aligned with."""
+    def keep_alignment(self, finding: Finding) -> Finding:
+        """Return the finding, without a fix that would break the alignment of lines below."""
         for row, start, end_row, end, new in finding.fix:
             if row != end_row or "\n" in new or end - start == len(new):
                 continue

@@ -1,4 +1,4 @@
-"""What XML files lack, and what the schemas of package.xml refuse: codes, messages and fixes."""
+"""The findings of ament_xmllint about XML files and package.xml: codes, messages and fixes."""
 
 from __future__ import annotations
 
@@ -86,17 +86,17 @@ def _schemas(package: Package, *, is_checked: bool) -> Iterator[_Problem]:
             yield verdict.location, verdict.message
 
 
-def _misplaced(package: Package, found: Structure) -> Iterator[_Problem]:
-    fix = _reorder(package, found) if found.misplaced else None
-    for misplaced in found.misplaced:
+def _misplaced(package: Package, structure: Structure) -> Iterator[_Problem]:
+    fix = _reorder(package, structure) if structure.misplaced else None
+    for misplaced in structure.misplaced:
         yield misplaced.elements[0].name_location, _place(misplaced), fix
 
 
-def _reorder(package: Package, found: Structure) -> Fix | None:
+def _reorder(package: Package, structure: Structure) -> Fix | None:
     from scaffold.model.manifest import edit as manifest_edit
 
     manifest = package.manifest
-    edit = None if found.unknown else manifest_edit.reorder(manifest)
+    edit = None if structure.unknown else manifest_edit.reorder(manifest)
     if edit is None:
         return None
     moved = range(edit.start, edit.end)
@@ -117,9 +117,9 @@ def _place(misplaced: Misplaced) -> str:
     return f"{subject} must come {' and '.join(sides)}"
 
 
-def _unknown(package: Package, found: Structure) -> Iterator[_Problem]:
-    for unknown in found.unknown:
-        reason, tag = _explain_element(found, unknown)
+def _unknown(package: Package, structure: Structure) -> Iterator[_Problem]:
+    for unknown in structure.unknown:
+        reason, tag = _explain_element(structure, unknown)
         fix = _rename(package, unknown, tag) if tag else None
         yield unknown.element.name_location, f"<{unknown.element.tag}> {reason}", fix
 
@@ -131,10 +131,10 @@ def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
     return Fix(f"write <{tag}>", edits, Safety.UNSAFE)
 
 
-def _explain_element(found: Structure, unknown: Unknown) -> tuple[str, str | None]:
-    """Return what is wrong, and the tag that it should be, if that is plain."""
-    tag, number = unknown.element.tag, found.format
-    if unknown.element is found.root:
+def _explain_element(structure: Structure, unknown: Unknown) -> tuple[str, str | None]:
+    """Return the reason, and the tag that it should be, if that is obvious."""
+    tag, number = unknown.element.tag, structure.format
+    if unknown.element is structure.root:
         return "is not <package>, the root of every manifest", None
     if unknown.since is not None:
         return f"needs format {unknown.since}, but this manifest has format {number}", None
@@ -142,27 +142,27 @@ def _explain_element(found: Structure, unknown: Unknown) -> tuple[str, str | Non
         return f"is of format 1: in format {number} it is <exec_depend>", "exec_depend"
     if tag in _IN_EXPORT:
         return "belongs inside of <export>", None
-    near = get_close_matches(tag, found.sections, n=1, cutoff=0.75)
-    if near:
-        return f"is not known in format {number}: <{near[0]}> is", near[0]
+    closest = get_close_matches(tag, structure.sections, n=1, cutoff=0.75)
+    if closest:
+        return f"is not known in format {number}: <{closest[0]}> is", closest[0]
     return f"is not known in format {number}", None
 
 
-def _missing(_: Package, found: Structure) -> Iterator[_Problem]:
+def _missing(_: Package, structure: Structure) -> Iterator[_Problem]:
     misspelt = {
         name
-        for unknown in found.unknown
-        for name in get_close_matches(unknown.element.tag, found.sections, n=1, cutoff=0.75)
+        for unknown in structure.unknown
+        for name in get_close_matches(unknown.element.tag, structure.sections, n=1, cutoff=0.75)
     }
-    for tag in found.missing:
+    for tag in structure.missing:
         if tag not in misspelt:
             earlier = REQUIRED[: REQUIRED.index(tag)]
             where = f"after <{earlier[-1]}>" if earlier else "at the beginning"
-            yield found.root.name_location, f"no <{tag}>: every manifest has one, {where}"
+            yield structure.root.name_location, f"no <{tag}>: every manifest has one, {where}"
 
 
-def _repeated(package: Package, found: Structure) -> Iterator[_Problem]:
-    for again, first in found.repeated:
+def _repeated(package: Package, structure: Structure) -> Iterator[_Problem]:
+    for again, first in structure.repeated:
         fix = None
         if again.raw == first.raw:
             fix = Fix("remove the second one", (package.manifest.remove(again),))
@@ -170,32 +170,32 @@ def _repeated(package: Package, found: Structure) -> Iterator[_Problem]:
         yield again.name_location, message, fix
 
 
-def _attributes(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element, attribute in found.unknown_attributes:
+def _attributes(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element, attribute in structure.unknown_attributes:
         if attribute.name != "condition":
-            yield attribute.name_location, _explain_attribute(found, element, attribute)
+            yield attribute.name_location, _explain_attribute(structure, element, attribute)
 
 
-def _explain_attribute(found: Structure, element: Element, attribute: Attribute) -> str:
+def _explain_attribute(structure: Structure, element: Element, attribute: Attribute) -> str:
     name, tag = attribute.name, element.tag
     if name == "xmlns":
         return f"<{tag}> gets a namespace: the elements of a manifest have none"
     if (tag, name) == ("license", "file"):
-        return f"<license file> needs format 3, but this manifest has format {found.format}"
+        return f"<license file> needs format 3, but this manifest has format {structure.format}"
     if (tag, name) == ("version", "compatibility"):
         return "<version compatibility> is in REP-149, but ament_xmllint's schema refuses it"
-    allowed = found.attributes(element)
-    near = get_close_matches(name, allowed, n=1)
-    if near:
-        return f'<{tag}> has no attribute "{name}": it has "{near[0]}"'
+    allowed = structure.attributes(element)
+    closest = get_close_matches(name, allowed, n=1)
+    if closest:
+        return f'<{tag}> has no attribute "{name}": it has "{closest[0]}"'
     if allowed:
         return f'<{tag}> has no attribute "{name}", only {", ".join(allowed)}'
-    return f'<{tag}> has no attributes in format {found.format}, so no "{name}"'
+    return f'<{tag}> has no attributes in format {structure.format}, so no "{name}"'
 
 
-def _format(package: Package, found: Structure) -> Iterator[_Problem]:
+def _format(package: Package, structure: Structure) -> Iterator[_Problem]:
     manifest = package.manifest
-    declared, root = manifest.declared_format, found.root
+    declared, root = manifest.declared_format, structure.root
     if declared is not None and declared not in map(str, FORMATS):
         at = root.attributes["format"].location
         yield at, f'format="{declared}" does not exist: there are 1, 2 and 3'
@@ -219,8 +219,8 @@ def _name_schema(package: Package, model: XmlModel, declared: str) -> Fix:
     return Fix(f"name the schema of format {declared}", (Edit(source.path, start, end, declared),))
 
 
-def _texts(_: Package, found: Structure) -> Iterator[_Problem]:
-    for at in found.stray_texts:
+def _texts(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for at in structure.stray_texts:
         yield at, "text between the elements: only comments are allowed"
 
 
@@ -247,29 +247,29 @@ def _explain_name(name: str) -> str:
     return "has an underscore at its end or two in a row"
 
 
-def _versions(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element, version in found.values("version"):
+def _versions(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element, version in structure.values("version"):
         if not fits(VERSION, version):
             has_zero = fits(r"[0-9]+\.[0-9]+\.[0-9]+", version)
             reason = "has a leading zero" if has_zero else "is not MAJOR.MINOR.PATCH"
             yield element.text_location, f"the version {version!r} {reason}"
 
 
-def _url_types(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element in found.known:
+def _url_types(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element in structure.known:
         if element.tag != "url" or element.get("type") is None:
             continue
         attribute = element.attributes["type"]
         kind = collapse(attribute.value)
         if kind not in URL_TYPES:
-            near = get_close_matches(kind, URL_TYPES, n=1)
-            hint = f": {near[0]} is" if near else f", only {', '.join(URL_TYPES)}"
+            closest = get_close_matches(kind, URL_TYPES, n=1)
+            hint = f": {closest[0]} is" if closest else f", only {', '.join(URL_TYPES)}"
             yield attribute.location, f"the url type {kind!r} is not known{hint}"
 
 
-def _limits(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element in found.known:
-        if element.tag not in found.dependency_tags:
+def _limits(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element in structure.known:
+        if element.tag not in structure.dependency_tags:
             continue
         for name, attribute in element.attributes.items():
             if name in LIMITS and not fits(LIMIT, " ".join(attribute.value.split())):
@@ -277,16 +277,18 @@ def _limits(_: Package, found: Structure) -> Iterator[_Problem]:
                 yield attribute.location, message
 
 
-def _conditions(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element, attribute in found.unknown_attributes:
+def _conditions(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element, attribute in structure.unknown_attributes:
         if attribute.name == "condition":
-            if found.format < FORMATS[-1]:
-                message = f"conditions need format 3, but this manifest has format {found.format}"
+            if structure.format < FORMATS[-1]:
+                message = (
+                    f"conditions need format 3, but this manifest has format {structure.format}"
+                )
             else:
                 message = f"<{element.tag}> has no condition: only dependencies and groups have"
             yield attribute.name_location, message
-    for element in found.known:
-        if "condition" not in found.attributes(element) or element.get("condition") is None:
+    for element in structure.known:
+        if "condition" not in structure.attributes(element) or element.get("condition") is None:
             continue
         attribute = element.attributes["condition"]
         is_group = element.tag in GROUPS
@@ -296,14 +298,14 @@ def _conditions(_: Package, found: Structure) -> Iterator[_Problem]:
             yield attribute.location, f"{attribute.value!r}: {reason}"
 
 
-def _no_email(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element in found.known:
+def _no_email(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element in structure.known:
         if element.tag == "maintainer" and element.get("email") is None:
             yield element.name_location, f"the maintainer {element.text!r} has no email"
 
 
-def _emails(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element in found.known:
+def _emails(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element in structure.known:
         if element.tag not in {"maintainer", "author"} or element.get("email") is None:
             continue
         attribute = element.attributes["email"]
@@ -311,14 +313,14 @@ def _emails(_: Package, found: Structure) -> Iterator[_Problem]:
             yield attribute.location, f"{attribute.value!r} is not an email address"
 
 
-def _nested(_: Package, found: Structure) -> Iterator[_Problem]:
-    for child, parent in found.nested:
+def _nested(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for child, parent in structure.nested:
         message = f"<{child.tag}> is inside <{parent.tag}>, which holds text only"
         yield child.name_location, message
 
 
-def _urls(_: Package, found: Structure) -> Iterator[_Problem]:
-    for element, url in found.values("url"):
+def _urls(_: Package, structure: Structure) -> Iterator[_Problem]:
+    for element, url in structure.values("url"):
         if not is_uri(url):
             yield element.text_location, f"{url!r} is not a URL"
 

@@ -1,4 +1,4 @@
-"""A program that validates XML documents: libxml2 can take any time over a schema, and be ended.
+"""A program that validates XML documents, so that libxml2 can be killed if it takes too long.
 
 Run by ``scaffold.ament.xmllint`` in a process of its own, with bounds on time and memory; its
 argument is the directory that lxml is in. Jobs come in on the standard input, and for each of them
@@ -47,7 +47,7 @@ def validate(kind: str, schema: bytes, document: bytes) -> Complaint | None:
 
 
 def main() -> None:
-    """Do the jobs of the standard input."""
+    """Run the jobs from standard input."""
     sys.path.append(sys.argv[1])
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler waits for libxml2
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 
 MAX_DEPTH = 256
-"""Elements inside of each other that libxml2, and with it xmllint, goes along with."""
+"""The nesting depth at which libxml2, and so xmllint, stops."""
 MAX_TEXT = 10_000_000
-"""Bytes in one piece that it takes."""
+"""The length of one text at which it stops, in bytes."""
 
 
 def of_package(package: Package) -> list[str]:
@@ -81,7 +81,7 @@ class _Reader:
         self.length = 0
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise _Limit(f"more than {MAX_DEPTH} elements inside of each other: no reader goes on")
+            raise _Limit(f"more than {MAX_DEPTH} elements inside of each other: xmllint stops here")
 
     def _end(self, _tag: str) -> None:
         self.length = 0
@@ -90,7 +90,7 @@ class _Reader:
     def _text(self, text: str) -> None:
         self.length += len(text)
         if self.length > MAX_TEXT:
-            raise _Limit(f"more than {MAX_TEXT} characters in one piece: no reader goes on")
+            raise _Limit(f"more than {MAX_TEXT} characters in one piece: xmllint stops here")
 
     def _declare(self, version: str, _encoding: str | None, _standalone: int) -> None:
         major, _, minor = version.partition(".")
@@ -99,16 +99,18 @@ class _Reader:
 
 
 def _explain(path: str, data: bytes, error: expat.ExpatError) -> tuple[Location, str]:
-    """Put the mistake in our own words where the text can be decoded, else in expat's."""
+    """Return the mistake in our own words where the text can be decoded, else in expat's."""
     from scaffold.formats import xml_reader
 
     try:
         text = data.decode("utf-8")
         xml_reader.parse(Source(path, text))
-    except ParseError as found:
-        if "DOCTYPE" not in found.message:
-            said = found.message.replace("package.xml", path).replace(" such as <package>", "")
-            return found.location, said
+    except ParseError as parse_error:
+        if "DOCTYPE" not in parse_error.message:
+            message = parse_error.message.replace("package.xml", path).replace(
+                " such as <package>", ""
+            )
+            return parse_error.location, message
     except UnicodeDecodeError:
         pass
     at = Location(path, error.lineno, error.offset + 1, error.lineno, error.offset + 2)
@@ -124,9 +126,9 @@ XML_SCHEMA = "http://www.w3.org/2001/XMLSchema"
 RELAX_NG = xml_validate.RELAX_NG
 HINT = "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation"
 MAX_BYTES = 200_000
-"""Of a schema; that of package.xml has 30 kB."""
+"""The maximum size of a schema; that of package.xml has 30 kB."""
 MOST_SECONDS = 4
-"""Of waiting for all schemas of a package."""
+"""The time limit for all schemas of a package."""
 _READS_OTHERS = frozenset(
     {f"{{{XML_SCHEMA}}}{name}" for name in ("include", "import", "redefine", "override")}
     | {f"{{{RELAX_NG}}}{name}" for name in ("include", "externalRef")}
@@ -134,12 +136,12 @@ _READS_OTHERS = frozenset(
 
 
 class Verdict(NamedTuple):
-    """What is known of an XML file and one schema that it names."""
+    """The result of checking an XML file against a schema that it names."""
 
     location: Location
     message: str
     is_checked: bool
-    """False if the schema was left alone, and the message says why."""
+    """False if the schema was not used; the message says why."""
 
 
 class _Use(NamedTuple):
@@ -152,31 +154,31 @@ class _Use(NamedTuple):
 
 
 def verdicts(package: Package) -> Sequence[Verdict]:
-    """Return what there is to say of the schemas that XML files other than package.xml name.
+    """Return the verdicts on XML files other than package.xml and the schemas that they name.
 
-    Of a file that does not fit, the first place where it does not.
+    For a file that does not fit its schema, the first mismatch.
     """
     return package.remember("xml_schemas", lambda: _verdicts(package))
 
 
 def _verdicts(package: Package) -> list[Verdict]:
     uses = [use for path in of_package(package) for use in _uses(package, path)]
-    told: dict[_Use, Verdict | None] = {}
+    verdict_of: dict[_Use, Verdict | None] = {}
     jobs: dict[_Use, xml_validate.Job] = {}
     for use in uses:
         verdict = _judge(package, use)
         if isinstance(verdict, bytes):
             jobs[use] = (use.kind, verdict, use.data)
         else:
-            told[use] = verdict
+            verdict_of[use] = verdict
     validated = dict(_validated(jobs))
     if any(verdict and not verdict.is_checked for verdict in validated.values()):
         package.is_repeatable = False  # another time there may be time
-    told.update(validated)
+    verdict_of.update(validated)
     result: list[Verdict] = []
     complained: set[str] = set()
     for use in uses:
-        verdict = told[use]
+        verdict = verdict_of[use]
         if verdict is None or (verdict.is_checked and use.path in complained):
             continue
         if verdict.is_checked:
@@ -221,7 +223,7 @@ def _named(root: etree._Element) -> list[tuple[str, str]]:
 
 
 def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
-    """Return what can be said without libxml2, or the schema that it has to look at."""
+    """Return the verdict if it needs no libxml2, or the schema to validate with."""
     manifest = re.search(r"package_format([123])\.xsd\Z", use.href)
     if manifest:
         wrong = violations(use.data, int(manifest[1]))
@@ -229,7 +231,7 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
             _wrong(use, wrong[0][0], f"is no package.xml: {_shown(wrong[0][1])}") if wrong else None
         )
     if "://" in use.href:
-        return _left(use, "it is on the network")
+        return _left(use, "it is not a local file")
     target = posixpath.normpath(posixpath.join(posixpath.dirname(use.path), use.href))
     try:
         schema = _read(package, target)
@@ -239,7 +241,7 @@ def _judge(package: Package, use: _Use) -> Verdict | bytes | None:
         return _wrong(use, 1, f"names the schema {use.href}, but there is no file {target}")
     root = _parse(schema)
     if root is not None and _reads_others(root):
-        return _left(use, "it names other files")
+        return _left(use, "it includes other files")
     return schema
 
 
@@ -260,7 +262,7 @@ def _read(package: Package, path: str) -> bytes:
 
 
 def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Verdict | None]]:
-    """Yield what libxml2 says of documents, as far as it comes in time."""
+    """Yield the verdicts of libxml2 on documents that it finishes in time."""
     lines = _run(list(jobs.values())) if jobs else []
     for at, use in enumerate(jobs):
         if at >= len(lines):
@@ -271,8 +273,8 @@ def _validated(jobs: Mapping[_Use, xml_validate.Job]) -> Iterator[tuple[_Use, Ve
             yield use, None
             continue
         line, message, is_unusable = complaint
-        said = f"names the schema {use.href}, which cannot be used" if is_unusable else ""
-        yield use, _wrong(use, line, f"{said or f'does not fit {use.href}'}: {_shown(message)}")
+        problem = f"names the schema {use.href}, which cannot be used" if is_unusable else ""
+        yield use, _wrong(use, line, f"{problem or f'does not fit {use.href}'}: {_shown(message)}")
 
 
 def _run(jobs: list[xml_validate.Job]) -> list[bytes]:
@@ -301,7 +303,7 @@ def _wrong(use: _Use, line: int, message: str) -> Verdict:
 
 
 def _left(use: _Use, why: str) -> Verdict:
-    message = f"names the schema '{use.href}', which is not looked at: {why}"
+    message = f"names the schema '{use.href}', which is not checked: {why}"
     return Verdict(Location.start_of(use.path), message, is_checked=False)
 
 

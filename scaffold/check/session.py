@@ -338,8 +338,10 @@ def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         if count <= MAX_FINDINGS:
             kept.append(item)
         elif count == MAX_FINDINGS + 1:
-            said = f"{item.code} is found more than {MAX_FINDINGS} times"
-            kept.append(TooManyFindings().report(item.location, f"{said}; the rest is not shown"))
+            message = f"{item.code} is found more than {MAX_FINDINGS} times"
+            kept.append(
+                TooManyFindings().report(item.location, f"{message}; the rest is not shown")
+            )
     return kept
 
 

@@ -122,11 +122,11 @@ def _not_offered(expectation: Expectation, observation: Observation) -> Iterator
     """Yield the services and actions that are missing, or of another type."""
     for offer in expectation.offers:
         seen = dict(observation.services if offer.kind == "service" else observation.actions)
-        said = f"{expectation.source or 'the source'} offers {offer.type or 'it'}"
+        message = f"{expectation.source or 'the source'} offers {offer.type or 'it'}"
         if offer.name not in seen:
-            yield Problem(f"nothing offers the {offer.kind} {offer.name}: {said}")
+            yield Problem(f"nothing offers the {offer.kind} {offer.name}: {message}")
         elif offer.type and offer.type != seen[offer.name]:
-            yield Problem(f"{offer.name} has the type {seen[offer.name]}: {said}")
+            yield Problem(f"{offer.name} has the type {seen[offer.name]}: {message}")
 
 
 def _finished_early(

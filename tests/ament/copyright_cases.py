@@ -117,8 +117,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
             Report(
                 "a/talker.py:1:3",
-                '"Use of this source code …" begins the header of no license that '
-                "is known: ament_copyright fails",
+                '"Use of this source code …" does not begin any known license '
+                "header: ament_copyright fails",
             ),
         ),
         Example(

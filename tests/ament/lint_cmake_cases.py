@@ -217,7 +217,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "CMakelists.txt",
             {"CMakelists.txt": "project(talker)\n"},
-            Report("CMakelists.txt:1:1", "CMake looks for CMakeLists.txt, spelt exactly so"),
+            Report("CMakelists.txt:1:1", "CMake looks for CMakeLists.txt, spelled exactly so"),
         ),
         Example(
             "FindFoo.cmake",
@@ -255,7 +255,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
         Example(
             "another name",
             {"cmake/FindFOO.cmake": INCLUDE + "find_package_handle_standard_args(BAR BAR_LIB)\n"},
-            Report("cmake/FindFOO.cmake:2:1", "BAR is handed over in FindFOO.cmake: expected FOO"),
+            Report("cmake/FindFOO.cmake:2:1", "BAR is passed in FindFOO.cmake: expected FOO"),
         ),
     ),
     "CM083": (

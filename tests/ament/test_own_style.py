@@ -293,17 +293,17 @@ def test_own_style_has_the_docstrings_that_flake8_reports(tmp_path: Path) -> Non
     ("configuration", "message"),
     [
         (None, "ament_flake8 stops: its configuration 'own.cfg' cannot be read"),
-        ("[flake8]\nignore = E1, # why\n", "in 'own.cfg', 'ignore': '#' is no code"),
+        ("[flake8]\nignore = E1, # why\n", "in 'own.cfg', 'ignore': '#' is not a code"),
         ("[flake8]\nmax-line-length = 1 # x\n", "in 'own.cfg', 'max-line-length': invalid literal"),
-        ("[flake8]\nimport-order-style = mine\n", "'mine' is none of appnexus,"),
+        ("[flake8]\nimport-order-style = mine\n", "'mine' is not one of appnexus,"),
         (
             "[flake8]\nignore = A\nignore = B\n",
             "option 'ignore' in section 'flake8' already exists",
         ),
-        ("[flake8]\nper-file-ignores = a.py\n", "'per-file-ignores': it ends without codes"),
+        ("[flake8]\nper-file-ignores = a.py\n", "'per-file-ignores': codes are missing at the end"),
         ("x\n", "File contains no section headers"),
-        ("[flake8]\ndoctests = true\n", "own.cfg: 'doctests': code in docstrings is not judged"),
-        ("[flake8:local-plugins]\nextension =\n  X = x:X\n", "names code, which is not run"),
+        ("[flake8]\ndoctests = true\n", "own.cfg: 'doctests': code in docstrings is not checked"),
+        ("[flake8:local-plugins]\nextension =\n  X = x:X\n", "names plugins, which are not run"),
     ],
 )
 def test_what_is_not_followed_is_reported(
@@ -318,7 +318,7 @@ def test_what_is_not_followed_is_reported(
     assert [(d.message, d.location.path, d.location.line) for d in said] == [
         (note.message, "CMakeLists.txt", 2)
     ]
-    if "judged with ament's" in note.message:
+    if "using ament's" in note.message:
         run = oracles.ament_flake8
         with pytest.raises(AssertionError, match="failed"):
             run(tmp_path, "--config", "own.cfg")
@@ -327,9 +327,9 @@ def test_what_is_not_followed_is_reported(
 @pytest.mark.parametrize(
     ("argument", "message"),
     [
-        ("argv=['--config', given()]", "which configuration flake8 gets cannot be determined"),
+        ("argv=['--config', given()]", "the configuration of flake8 cannot be determined"),
         ("argv=['--linelength', given()]", "the maximum line length cannot be determined"),
-        ("argv=['--exclude', given()]", "which files are excluded cannot be determined"),
+        ("argv=['--exclude', given()]", "the excluded files cannot be determined"),
         ("argv=['--linelength', 'x']", "ament_flake8 stops: argument --linelength: invalid"),
         ("argv=['--length', '3']", "ament_flake8 stops: unrecognized arguments"),
     ],

@@ -272,7 +272,7 @@ def test_a_schema_makes_nobody_open_other_files(tmp_path: Path, name: str, schem
     directory = _write(tmp_path / "schemas", {name: schema, "a.xml": use})
     os.mkfifo(directory / "pipe")
     found = _schema_findings(Package.at(directory))
-    message = f"names the schema '{name}', which is not looked at: it names other files"
+    message = f"names the schema '{name}', which is not checked: it includes other files"
     assert found == [("PX052", message)]
 
 
@@ -297,7 +297,7 @@ def test_a_schema_that_takes_for_ever_is_ended() -> None:
         f"{doubling}<define name='d60'>{choice}</define></grammar>"
     )
     files = {"a.rng": schema, "a.xml": MODEL.format("<b/>" * 60), "b.xml": "<b>\n"}
-    message = "names the schema 'a.rng', which is not looked at: it takes too long"
+    message = "names the schema 'a.rng', which is not checked: it takes too long"
     ((code, told),) = _schema_findings(Package.of(files))
     assert code == "PX052"
     assert told.startswith(message)

@@ -266,8 +266,8 @@ def test_licenses_that_are_not_allowed(workspace: Path, capsys: pytest.CaptureFi
     configuration.write_text('[check]\nlicenses = ["MIT", "BSD-3-Clause"]\n')
     code, output = check(capsys, "talker", "--select", "SC008", "--quiet")
     assert (code, output.count("SC008")) == (1, 1)
-    said = "license 'Apache-2.0' is not allowed here; allowed: MIT, BSD-3-Clause"
-    assert said in output
+    message = "license 'Apache-2.0' is not allowed here; allowed: MIT, BSD-3-Clause"
+    assert message in output
     assert output.startswith("talker/package.xml:")
     configuration.write_text('[check]\nlicenses = ["MIT", "Apache-2.0"]\n')
     assert check(capsys, "talker", "--select", "SC008", "--quiet") == (0, "")

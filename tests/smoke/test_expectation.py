@@ -313,8 +313,8 @@ def expecting(
 )
 def test_rate(rate: float | None, observation: Observation, problem: str | None) -> None:
     problems, notes = compare(expecting(rate), observation, 5.5)
-    said = f"talker.py publishes {STRING}" + (f" at {rate:g} Hz" if rate else "")
-    assert list(map(str, problems)) == ([f"{problem}: {said}"] if problem else [])
+    message = f"talker.py publishes {STRING}" + (f" at {rate:g} Hz" if rate else "")
+    assert list(map(str, problems)) == ([f"{problem}: {message}"] if problem else [])
     assert notes == []
 
 

@@ -34,8 +34,8 @@ tool does not know who holds the copyright.
         Severity.ERROR,
         other_severities={Severity.INFO: "no test of the package runs ament_copyright on the file"},
         message=(
-            '"Use of this source code …" begins the header of no license that '
-            "is known: ament_copyright fails"
+            '"Use of this source code …" does not begin any known license '
+            "header: ament_copyright fails"
         ),
         documentation="""\
 **Why.** ``ament_copyright`` fails under ``colcon test``: it compares word for word, and knows

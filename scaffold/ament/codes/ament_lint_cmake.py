@@ -149,9 +149,9 @@ they go wrong unnoticed. The linter judges a line as a whole: a command with arg
     AmentCode(
         "CM080",
         "cmake-file-name",
-        "``CMakeLists.txt`` is spelt otherwise, or a find module is not in upper case",
+        "``CMakeLists.txt`` is spelled differently, or a find module is not in upper case",
         LINT_CMAKE,
-        message=("CMake looks for CMakeLists.txt, spelt exactly so"),
+        message=("CMake looks for CMakeLists.txt, spelled exactly so"),
         documentation="""\
 **Why.** CMake does not find a ``CMakelists.txt``: the package does not build. For
 ``FindFoo.cmake`` it is only ``ament_lint_cmake`` that fails, under ``colcon test``.
@@ -182,7 +182,7 @@ and gets the line ``# lint_cmake: -convention/filename``.
         "find-module-handler-misnamed",
         "``find_package_handle_standard_args()`` gets another name than that of the find module",
         LINT_CMAKE,
-        message=("BAR is handed over in FindFOO.cmake: expected FOO"),
+        message=("BAR is passed in FindFOO.cmake: expected FOO"),
         documentation="""\
 **Why.** ``find_package()`` looks at ``<file name>_FOUND``; another variable does not reach
 it. ``ament_lint_cmake`` fails under ``colcon test``, and it requires upper case.

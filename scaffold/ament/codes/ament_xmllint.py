@@ -36,7 +36,7 @@ ROWS = (
 ``colcon test``; also when the schema is not there.
 
 **Fix.** Correct the file, or the place of the schema. For schemas that are
-not looked at, see PX052.
+not checked, see PX052.
 
 **Source.** ``ament_xmllint/main.py``.
 """,
@@ -47,7 +47,7 @@ not looked at, see PX052.
         "Whether an XML file fits the schema that it names is not checked",
         XMLLINT,
         Severity.INFO,
-        message=("names the schema 'a.xsd', which is not looked at: it names other files"),
+        message=("names the schema 'a.xsd', which is not checked: it includes other files"),
         documentation="""\
 **Why.** ``ament_xmllint`` validates the file under ``colcon test``, so it may fail there
 although nothing is reported here. A check neither fetches anything nor lets a schema open

@@ -23,8 +23,8 @@ def check(text: PythonText, options: Options) -> Iterator[Finding]:
     for name, (complexity, node) in counted.items():
         if complexity > most:
             column = text.column(node.lineno, node.col_offset)
-            said = f"'{name}' has {complexity} paths through it, {most} are allowed"
-            yield Finding("C901", node.lineno, column, said)
+            message = f"'{name}' is too complex ({complexity} paths, {most} allowed)"
+            yield Finding("C901", node.lineno, column, message)
 
 
 def _count(body: Sequence[ast.stmt], outer: str, counted: dict[str, tuple[int, ast.stmt]]) -> None:

@@ -44,7 +44,7 @@ def _finding(text: PythonText, code: str, node: ast.expr) -> Finding:
 
 
 def _call(node: ast.Call, name: str, inner_maps: set[ast.AST]) -> str:
-    """Return the code for a call of a name, empty when there is nothing to say."""
+    """Return the code for a call of a name; empty if nothing is wrong."""
     if not node.args:
         return _empty_call(node, name)
     first = node.args[0]
@@ -90,10 +90,10 @@ def _of_one(node: ast.Call, name: str, first: ast.expr) -> str:
         if name == "dict" and not node.keywords and _is_pair(first.elt):
             return "C404" if is_list else "C402"
         if is_list:
-            found = {"list": "C411", "set": "C403", "any": "C419", "all": "C419"}
+            codes = {"list": "C411", "set": "C403", "any": "C419", "all": "C419"}
         else:
-            found = {"list": "C400", "set": "C401"}
-        return found.get(name, "")
+            codes = {"list": "C400", "set": "C401"}
+        return codes.get(name, "")
     if isinstance(first, (ast.Dict, ast.DictComp)):
         return "C418" if name == "dict" and not node.keywords else ""
     if isinstance(first, (ast.Tuple, ast.List)):

@@ -16,7 +16,7 @@ _ALL = ("",)
 
 
 def _skips_file(text: PythonText) -> bool:
-    """Tell whether a comment takes the whole file away from flake8."""
+    """Tell whether a comment makes flake8 skip the whole file."""
     lowered = text.text.lower()
     if "flake8" not in lowered:
         return False
@@ -24,7 +24,7 @@ def _skips_file(text: PythonText) -> bool:
 
 
 def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
-    """Take flake8's name off findings that a comment silences; drop unreported ones."""
+    """Remove flake8 from findings that a comment silences; drop those no other linter reports."""
     if _skips_file(text):
         return _without(findings, lambda _: True)
     if "noqa" not in text.text.lower():
@@ -34,7 +34,7 @@ def apply(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
 
 
 def apply_of_plugins(text: PythonText, findings: Iterable[Finding]) -> list[Finding]:
-    """Do the same where flake8 is told to read no comments: some plugins read them all the same."""
+    """Do the same under ``disable_noqa``, for the plugins that read the comments themselves."""
     silenced = _Silenced(text)
     return _without(findings, silenced.covers_by_plugin)
 
@@ -66,7 +66,7 @@ class _Silenced:
         }
 
     def covers(self, finding: Finding) -> bool:
-        """Tell whether flake8 keeps quiet about a finding."""
+        """Tell whether a comment silences a finding."""
         if finding.code.startswith("Q") and finding.line in self._quotes:
             return True
         line = finding.line
@@ -75,7 +75,7 @@ class _Silenced:
         return finding.code.startswith(self._codes[line])
 
     def covers_by_plugin(self, finding: Finding) -> bool:
-        """Tell whether the plugin for quotes or for imports keeps quiet about a finding."""
+        """Tell whether a comment silences a finding of the plugins for quotes and imports."""
         if not finding.code.startswith("I"):
             return finding.code.startswith("Q") and finding.line in self._quotes
         matched = re.search(_OF_IMPORTS, self._text.lines[finding.line - 1], re.IGNORECASE)
@@ -94,7 +94,7 @@ class _Silenced:
 
 
 def _groups(text: PythonText) -> dict[int, tuple[int, int]]:
-    """Return first and last row of the rows that a string or a backslash ties together."""
+    """Return the first and last row of each statement part that a string or backslash joins."""
     result: dict[int, tuple[int, int]] = {}
     first = last = 0
     for token in text.tokens:

@@ -51,7 +51,7 @@ class OptionsError(Exception):
 
 
 class Options(NamedTuple):
-    """What flake8 is asked for, with flake8's own defaults."""
+    """The options of flake8, with flake8's own defaults."""
 
     max_line_length: int = 79
     max_doc_length: int | None = None
@@ -113,7 +113,7 @@ AMENT = Options(
     ),
     import_order_style="google",
 )
-"""The configuration that ament_flake8 brings along."""
+"""The configuration that ament_flake8 ships with."""
 
 
 def normal(path: str, directory: str) -> str:
@@ -152,7 +152,7 @@ def _longest(code: str, prefixes: Names) -> int:
 
 
 def read(text: str, directory: str) -> tuple[Options, list[str]]:
-    """Return the options of a configuration file, and what of it is not judged here.
+    """Return the options in a configuration file, and notes on what is not supported.
 
     Args:
         text: What is in the file.
@@ -170,12 +170,14 @@ def read(text: str, directory: str) -> tuple[Options, list[str]]:
         raise OptionsError(" ".join(str(error).split())) from error
     notes = []
     if parser.has_section(LOCAL_PLUGINS):
-        notes.append(f"[{LOCAL_PLUGINS}] names code, which is not run: its codes are not judged")
+        notes.append(
+            f"[{LOCAL_PLUGINS}] names plugins, which are not run: their codes are not checked"
+        )
     values: dict[str, Any] = {}
     if SECTION in parser:
         values = dict(_values(parser[SECTION], directory))
     if values.pop("doctests", False):
-        notes.append("'doctests': code in docstrings is not judged")
+        notes.append("'doctests': code in docstrings is not checked")
     values.pop("require_plugins", None)
     return Options(**values), notes
 
@@ -204,7 +206,7 @@ def _ignored_codes(section: SectionProxy, key: str) -> Names:
     codes = _names(section, key)
     for code in codes:
         if not re.fullmatch(_CODE, code, re.ASCII):
-            raise ValueError(f"{code!r} is no code")
+            raise ValueError(f"{code!r} is not a code")
     return codes
 
 
@@ -220,11 +222,11 @@ def _text(section: SectionProxy, key: str) -> str:
     return str(section.get(key, ""))
 
 
-def _choice(*known: str) -> Callable[[SectionProxy, str], str]:
+def _choice(*allowed: str) -> Callable[[SectionProxy, str], str]:
     def choose(section: SectionProxy, key: str) -> str:
         value = _text(section, key)
-        if value not in known:
-            raise ValueError(f"{value!r} is none of {', '.join(known)}")
+        if value not in allowed:
+            raise ValueError(f"{value!r} is not one of {', '.join(allowed)}")
         return value
 
     return choose
@@ -266,9 +268,9 @@ def _by_file(section: SectionProxy, key: str) -> tuple[tuple[str, Names], ...]:
             codes.append(token[0])
             is_separated = False
         else:
-            raise ValueError(f"no list of files and codes at {token[0]!r}")
+            raise ValueError(f"expected a list of files or codes at {token[0]!r}")
     if text.strip() and not after_colon:
-        raise ValueError("it ends without codes")
+        raise ValueError("codes are missing at the end")
     return (*result, *((name, tuple(codes)) for name in files if codes))
 
 

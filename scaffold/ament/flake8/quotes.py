@@ -1,6 +1,6 @@
 """Q000 to Q003: single quotes for strings, double quotes for docstrings and long strings.
 
-That is what ament wants; the options of a package may want others.
+That is ament's configuration; a package's own may differ.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _OTHER = {"'": '"', '"': "'"}
 
 
 class _Quotes(NamedTuple):
-    """The quotes that are wanted."""
+    """The quotes that the configuration requires."""
 
     inline: str
     multiline: str
@@ -42,15 +42,15 @@ class _Quotes(NamedTuple):
     avoid_escape: bool
 
     def message(self, code: str) -> str:
-        """Return what is wrong."""
+        """Return the message for a code."""
         if code == "Q000":
             wanted, bad = _NAMES[self.inline], _NAMES[_OTHER[self.inline]]
-            return f"{bad} quotes around a string that {wanted} quotes would do for"
+            return f"{bad}-quoted string; use {wanted} quotes"
         if code == "Q003":
-            return "escaped quotes that other quotes around the string would save"
+            return "escaped quotes inside of a string; use the other quotes around it"
         of_docstring = code == "Q002"
         bad = _NAMES[_OTHER[self.docstring if of_docstring else self.multiline]]
-        return f"{bad} quotes around a {'docstring' if of_docstring else 'multi-line string'}"
+        return f"{bad}-quoted {'docstring' if of_docstring else 'multi-line string'}"
 
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
@@ -99,7 +99,7 @@ def _may_fail(text: str) -> bool:
 def _literals(
     tokens: list[Token], *, opened: bool
 ) -> Iterator[tuple[str, Position, Position, Token]]:
-    """Yield string literals; an f-string with all that is in it counts as one, unless opened."""
+    """Yield string literals; an f-string and its contents are one unless ``opened``."""
     depth = 0
     parts: list[str] = []
     start = (0, 0)

@@ -1,8 +1,8 @@
-"""Docstrings with the verdict of pydocstyle itself, for what our port of its rules lacks.
+"""Docstrings checked by pydocstyle itself, for the codes that our port does not have.
 
-Some codes and options are in no default configuration: docstrings that are missing, decorators
-that are passed over. Where a package asks for them, pydocstyle reads the file as well; our rules
-still give the messages, the places and the fixes of what both report.
+Codes for missing docstrings and options such as ignored decorators are in no default configuration.
+Where a package enables them, pydocstyle reads the file as well; messages, places and fixes of what
+both report are still ours.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def is_needed(settings: Settings) -> bool:
 
 
 def check(text: PythonText, settings: Settings) -> Iterator[Finding]:
-    """Yield what is wrong with the docstrings of a file, with the linters that say so."""
+    """Yield the findings about the docstrings of a file, with the linters that report them."""
     own = {(item.line, item.code): item for item in docstrings.check(text)}
     flake8 = _of_flake8(text, settings.flake8) if settings.linters & FLAKE8 else set()
     pep257 = _places(text) if settings.linters & PEP257 else set()
@@ -47,13 +47,13 @@ def check(text: PythonText, settings: Settings) -> Iterator[Finding]:
         return
     for line, code in sorted(flake8 | pep257):
         linters = FLAKE8 * ((line, code) in flake8) | PEP257 * ((line, code) in pep257)
-        known = own.get((line, code)) or Finding(code, line, 1)
-        yield known._replace(linters=linters)
+        finding = own.get((line, code)) or Finding(code, line, 1)
+        yield finding._replace(linters=linters)
 
 
 def _of_flake8(text: PythonText, options: Options) -> Places | None:
     decorators = options.ignore_decorators
-    said = _places(
+    places = _places(
         text,
         ignore_decorators=re.compile(decorators) if decorators else None,
         property_decorators=set(options.property_decorators.split(",")),
@@ -61,7 +61,7 @@ def _of_flake8(text: PythonText, options: Options) -> Places | None:
         ignore_self_only_init=options.ignore_self_only_init,
     )
     convention = codes.CONVENTIONS.get(options.docstring_convention, codes.ALL)
-    return None if said is None else {place for place in said if place[1] in convention}
+    return None if places is None else {place for place in places if place[1] in convention}
 
 
 def _places(text: PythonText, **options: object) -> Places | None:
@@ -69,7 +69,7 @@ def _places(text: PythonText, **options: object) -> Places | None:
     pydocstyle = load()
     source = "".join(text.lines)
     try:
-        found = [*pydocstyle.ConventionChecker().check_source(source, text.name, **options)]
+        violations = [*pydocstyle.ConventionChecker().check_source(source, text.name, **options)]
     except Exception:  # noqa: BLE001  whatever pydocstyle stumbles over
         return None
-    return {(item.line, item.code) for item in found}
+    return {(violation.line, violation.code) for violation in violations}

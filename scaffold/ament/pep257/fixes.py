@@ -1,4 +1,4 @@
-"""Fixes of docstrings: their form alone, never their words; what is not plain is left alone."""
+"""Fixes for docstrings: their form only; anything that is not plain is left alone."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ _NO_SENTENCE = r">>>|[:@*-]|(?=[^\s./]*[./])\S+$"
 
 
 def fix(definition: Definition, code: str) -> tuple[tuple[Replacement, ...], str]:
-    """Return what fixes a finding, and a title; nothing if a person has to decide."""
+    """Return the edits that fix a finding, and a title; no edits if a person has to decide."""
     if not definition.is_docstring or "\f" in definition.docstring:
         return (), ""
     if code in _AROUND:
-        mend_around, title = _AROUND[code]
-        return tuple(mend_around(definition)), title
-    mend, title = _INSIDE.get(code) or _of_section(code)
+        make_edits, title = _AROUND[code]
+        return tuple(make_edits(definition)), title
+    make_splices, title = _INSIDE.get(code) or _of_section(code)
     if "\\" in definition.docstring and not (code in _LOOKS_AT_ESCAPES or _is_raw(definition)):
         return (), ""
-    splices = tuple(mend(definition))
+    splices = tuple(make_splices(definition))
     # A summary that moves to the second line was too long before.
     if not splices or (code != "D213" and _is_too_long(definition, splices)):
         return (), ""
@@ -42,9 +42,9 @@ def _is_raw(definition: Definition) -> bool:
 
 
 def _of_section(code: str) -> tuple[Callable[[Definition], Iterator[Splice]], str]:
-    from scaffold.ament.pep257.section_fixes import TITLES, mend
+    from scaffold.ament.pep257.section_fixes import TITLES, splices
 
-    return partial(mend, code), TITLES.get(code, "")
+    return partial(splices, code), TITLES.get(code, "")
 
 
 def _placed(definition: Definition, splice: Splice) -> Replacement:
@@ -215,7 +215,7 @@ def _raw(definition: Definition) -> Iterator[Splice]:
         yield 0, len(literal), f"r{literal}"
 
 
-def _full_stop(definition: Definition) -> Iterator[Splice]:
+def _period(definition: Definition) -> Iterator[Splice]:
     literal = definition.docstring
     start, end = _text(definition)
     summary_end = literal.find("\n", start, end)
@@ -243,7 +243,7 @@ def _capital(definition: Definition) -> Iterator[Splice]:
         yield start, start + 1, first[0].upper()
 
 
-def _command(definition: Definition) -> Iterator[Splice]:
+def _imperative(definition: Definition) -> Iterator[Splice]:
     from scaffold.ament.pep257.mood import correct
 
     first = definition.value.split()[0]
@@ -254,7 +254,7 @@ def _command(definition: Definition) -> Iterator[Splice]:
 
 
 _LOOKS_AT_ESCAPES = frozenset({"D213", "D301", "D400", "D403", "D415"})
-"""Codes whose fix keeps away from backslashes itself."""
+"""Codes whose fix handles backslashes."""
 
 UNSAFE = frozenset({"D401"})
 """Codes whose fix changes words."""
@@ -272,12 +272,12 @@ _INSIDE: dict[str, tuple[Callable[[Definition], Iterator[Splice]], str]] = {
     "D207": (_indentation, "indent the docstring like its quotes"),
     "D208": (_indentation, "indent the docstring like its quotes"),
     "D209": (_closing_line, "put the closing quotes on a line of their own"),
-    "D210": (_strip, "remove the blanks around the text"),
+    "D210": (_strip, "remove the spaces around the text"),
     "D213": (_second_line, "start the summary on the second line"),
     "D300": (_double_quotes, 'use """'),
     "D301": (_raw, 'use r"""'),
-    "D400": (_full_stop, "end the summary with a full stop"),
-    "D401": (_command, "start the summary with a command"),
+    "D400": (_period, "end the summary with a period"),
+    "D401": (_imperative, "write the summary in the imperative"),
     "D403": (_capital, "start the summary with a capital letter"),
-    "D415": (_full_stop, "end the summary with a full stop"),
+    "D415": (_period, "end the summary with a period"),
 }

@@ -15,7 +15,7 @@ from scaffold.ament.finding import FLAKE8, PEP257, Finding
 from scaffold.ament.pep257.definitions import CLASS, Definition, definitions, leading_space
 from scaffold.ament.python_text.text import PythonText
 
-Said = Iterator[tuple[str, str]]
+Violations = Iterator[tuple[str, str]]
 
 _PEP257 = """
     D200 D201 D202 D204 D205 D206 D207 D208 D209 D210 D211 D300 D301 D302 D400 D401 D402 D403
@@ -26,24 +26,24 @@ IN_FLAKE8 = frozenset(_PEP257.split())
 """flake8-docstrings follows the convention ``pep257``; ament_pep257 reports all codes here."""
 
 PROPERTIES = frozenset({"property", "cached_property", "functools.cached_property"})
-"""Decorators that excuse a function from D401, in flake8-docstrings only."""
+"""Decorators that exempt a function from D401, in flake8-docstrings only."""
 
 
 def check(text: PythonText) -> Iterator[Finding]:
-    """Yield what is wrong with the docstrings of a file, with the linters that say so."""
+    """Yield the findings about the docstrings of a file, with the linters that report them."""
     for definition in definitions(text):
-        said = dict(_judge(definition))
-        if said:
+        messages = dict(_judge(definition))
+        if messages:
             from scaffold.ament.pep257.fixes import UNSAFE, fix
         at = definition.literal
-        for code, message in said.items():
+        for code, message in messages.items():
             linters = PEP257 | (FLAKE8 if code in IN_FLAKE8 else 0)
             if code == "D401" and PROPERTIES.intersection(definition.decorators):
                 linters &= ~FLAKE8
             if definition.skipped == "all" or code in definition.skipped:
                 linters &= ~PEP257
             if linters:
-                mended, title = fix(definition, code)
+                edits, title = fix(definition, code)
                 yield Finding(
                     code,
                     at.line,
@@ -51,16 +51,16 @@ def check(text: PythonText) -> Iterator[Finding]:
                     message,
                     at.end_line,
                     at.end_column,
-                    mended,
+                    edits,
                     title,
                     linters,
                     code in UNSAFE,
                 )
 
 
-def _judge(definition: Definition) -> Said:
+def _judge(definition: Definition) -> Violations:
     if definition.is_bytes:
-        yield "D300", "the docstring is bytes, on which both ament linters fail"
+        yield "D300", "the docstring is bytes: both linters of ament crash on it"
         return
     if not definition.value.strip():
         yield "D419", "the docstring is empty"
@@ -78,14 +78,14 @@ def _judge(definition: Definition) -> Said:
         yield from check_sections(definition)
 
 
-def _one_liner(definition: Definition) -> Said:
+def _one_liner(definition: Definition) -> Violations:
     lines = definition.value.split("\n")
     if len(lines) > 1 and sum(1 for line in lines if line.strip()) == 1:
         yield "D200", f"a one-line docstring is spread over {len(lines)} lines"
 
 
-def _blank_lines_in_function(definition: Definition) -> Said:
-    before, after = _blanks(definition)
+def _blank_lines_in_function(definition: Definition) -> Violations:
+    before, after = _blank_lines(definition)
     if before:
         yield "D201", f"blank lines before the docstring of a function ({before})"
     follows = definition.around[1]
@@ -95,15 +95,15 @@ def _blank_lines_in_function(definition: Definition) -> Said:
             yield "D202", f"blank lines after the docstring of a function ({after})"
 
 
-def _blank_lines_in_class(definition: Definition) -> Said:
-    before, after = _blanks(definition)
+def _blank_lines_in_class(definition: Definition) -> Violations:
+    before, after = _blank_lines(definition)
     if before:
         yield "D211", f"blank lines before the docstring of a class ({before})"
     if after != 1 and any(line.strip() for line in definition.around[1].split("\n")[1:]):
         yield "D204", f"expected 1 blank line after the docstring of a class, found {after}"
 
 
-def _blanks(definition: Definition) -> tuple[int, int]:
+def _blank_lines(definition: Definition) -> tuple[int, int]:
     """Count the blank lines right before and right after the docstring."""
     before, after = definition.around
     above = [not line.strip() for line in before.split("\n")[:-1]]
@@ -115,7 +115,7 @@ def _summary(definition: Definition) -> str:
     return definition.value.strip().split("\n")[0]
 
 
-def _blank_after_summary(definition: Definition) -> Said:
+def _blank_after_summary(definition: Definition) -> Violations:
     lines = definition.value.strip().split("\n")
     if len(lines) > 1:
         blanks = sum(takewhile(bool, (not line.strip() for line in lines[1:])))
@@ -123,7 +123,7 @@ def _blank_after_summary(definition: Definition) -> Said:
             yield "D205", f"expected 1 blank line after the summary line, found {blanks}"
 
 
-def _indentation(definition: Definition) -> Said:
+def _indentation(definition: Definition) -> Violations:
     lines = definition.docstring.split("\n")
     if len(lines) == 1:
         return
@@ -140,7 +140,7 @@ def _indentation(definition: Definition) -> Said:
         yield "D207", "the docstring is indented less than its quotes"
 
 
-def _closing_quotes(definition: Definition) -> Said:
+def _closing_quotes(definition: Definition) -> Violations:
     filled = [line for line in definition.value.split("\n") if line.strip()]
     if len(filled) > 1:
         last = definition.docstring.split("\n")[-1].strip()
@@ -148,20 +148,20 @@ def _closing_quotes(definition: Definition) -> Said:
             yield "D209", "the closing quotes of a multi-line docstring are not on their own line"
 
 
-def _surrounding_space(definition: Definition) -> Said:
+def _surrounding_space(definition: Definition) -> Violations:
     lines = definition.value.split("\n")
     if lines[0].startswith(" ") or (len(lines) == 1 and lines[0].endswith(" ")):
         yield "D210", "whitespace between the quotes and the text of the docstring"
 
 
-def _summary_line(definition: Definition) -> Said:
+def _summary_line(definition: Definition) -> Violations:
     if len(definition.value.split("\n")) > 1:
         first = definition.docstring.split("\n")[0].strip().lower()
         if re.fullmatch("(?:u|r|ur)?(?:\"\"\"|''')", first) is None:
             yield "D213", "the summary of a multi-line docstring does not start on the second line"
 
 
-def _quotes(definition: Definition) -> Said:
+def _quotes(definition: Definition) -> Violations:
     docstring = definition.docstring
     wanted = "'''[^']" if '"""' in definition.value else '"""[^"]'
     if not re.match(f"[uU]?[rR]?{wanted}", docstring):
@@ -169,13 +169,13 @@ def _quotes(definition: Definition) -> Said:
         yield "D300", f'the docstring uses {matched[1] if matched else "other"} quotes, not """'
 
 
-def _backslashes(definition: Definition) -> Said:
+def _backslashes(definition: Definition) -> Violations:
     docstring = definition.docstring
     if re.search(r"\\[^\nuN]", docstring) and not docstring.startswith(("r", "ur")):
         yield "D301", 'a docstring with backslashes is not raw (r""")'
 
 
-def _ending(definition: Definition) -> Said:
+def _ending(definition: Definition) -> Violations:
     summary = _summary(definition)
     if not summary.endswith("."):
         yield "D400", f"the first line of the docstring ends with {summary[-1]!r}, not with '.'"
@@ -186,7 +186,7 @@ def _ending(definition: Definition) -> Said:
         )
 
 
-def _mood(definition: Definition) -> Said:
+def _mood(definition: Definition) -> Violations:
     name = definition.name
     if name.startswith("test") or name == "runTest":
         return
@@ -194,18 +194,21 @@ def _mood(definition: Definition) -> Said:
     first = re.sub(r"[\W_]+", "", words[0])
     from scaffold.ament.pep257.mood import correct
 
-    wanted = correct(first)
-    if wanted is not None:
-        said = f", not {wanted!r}" if wanted else ""
-        yield "D401", f"the first line of the docstring is not a command: it says {first!r}{said}"
+    expected = correct(first)
+    if expected is not None:
+        correction = f": use {expected!r}" if expected else ""
+        yield (
+            "D401",
+            f"docstring summary should be imperative, not {first!r}{correction}",
+        )
 
 
-def _signature(definition: Definition) -> Said:
+def _signature(definition: Definition) -> Violations:
     if definition.name + "(" in _summary(definition).replace(" ", ""):
         yield "D402", f"the first line of the docstring is the signature of '{definition.name}'"
 
 
-def _capital(definition: Definition) -> Said:
+def _capital(definition: Definition) -> Violations:
     first = definition.value.split()[0]
     letters = string.ascii_letters + "'"
     if first == first.upper() or any(item not in letters for item in first):
@@ -214,12 +217,12 @@ def _capital(definition: Definition) -> Said:
         yield "D403", f"the first word of the docstring is {first!r}, not {first.capitalize()!r}"
 
 
-def _overload(definition: Definition) -> Said:
+def _overload(definition: Definition) -> Violations:
     if "overload" in definition.decorators:
         yield "D418", f"'{definition.name}' is an @overload and has a docstring"
 
 
-_CHECKS: tuple[Callable[[Definition], Said], ...] = (
+_CHECKS: tuple[Callable[[Definition], Violations], ...] = (
     _one_liner,
     _blank_after_summary,
     _indentation,
@@ -231,7 +234,7 @@ _CHECKS: tuple[Callable[[Definition], Said], ...] = (
     _ending,
 )
 
-_FUNCTION_CHECKS: tuple[Callable[[Definition], Said], ...] = (
+_FUNCTION_CHECKS: tuple[Callable[[Definition], Violations], ...] = (
     _blank_lines_in_function,
     _mood,
     _signature,

@@ -1,4 +1,4 @@
-"""D401: is the first word of a docstring a command?
+"""D401: whether the first word of a docstring is an imperative.
 
 The words are pydocstyle's own lists. They are read as files: importing pydocstyle takes longer
 than checking a package.
@@ -19,7 +19,9 @@ def correct(word: str) -> str | None:
     lowered = word.lower()
     if lowered in _blacklist():
         return ""
-    if lowered in _known():  # as most words are: without the stems of all words of the list
+    if (
+        lowered in _imperative_words()
+    ):  # as most words are: without the stems of all words of the list
         return None
     forms = _imperatives().get(_stem(lowered))
     if not forms or lowered in forms:
@@ -39,7 +41,7 @@ def _blacklist() -> frozenset[str]:
 
 
 @lru_cache(maxsize=1)
-def _known() -> frozenset[str]:
+def _imperative_words() -> frozenset[str]:
     return frozenset(_words("imperatives.txt"))
 
 
@@ -56,10 +58,10 @@ def _imperatives() -> dict[str, set[str]]:
     head = b"scaffold-words-1\n" + stamp(os.path.join(_data(), "imperatives.txt")).encode()
     data = cache.read_sealed(place, head) if kept else None
     if data is not None:
-        known: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
-        return known
+        stems: dict[str, set[str]] = marshal.loads(data)  # noqa: S302  own file
+        return stems
     result: dict[str, set[str]] = {}
-    for word in _known():
+    for word in _imperative_words():
         result.setdefault(_stem(word), set()).add(word)
     if kept:
         cache.write_sealed(place, head, marshal.dumps(result))

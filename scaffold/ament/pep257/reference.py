@@ -1,4 +1,4 @@
-"""Runs pydocstyle itself along with our port of its rules, for ``check --reference``.
+"""Compares our port of pydocstyle's rules with pydocstyle itself, for ``check --reference``.
 
 Slow by design: pydocstyle is imported and every file is read again. What differs is a defect of
 ros2-scaffold, never of the checked package.
@@ -35,7 +35,7 @@ class Difference(NamedTuple):
 
     @property
     def message(self) -> str:
-        """What it says, in one line."""
+        """The difference in one line."""
         who = "pydocstyle" if self.only_reference else "ros2-scaffold"
         return f"only {who} reports {self.code}"
 
@@ -54,13 +54,13 @@ def _of_file(path: str, data: bytes) -> list[Difference]:
     text = PythonText(path.rpartition("/")[2], decoded.text)
     if not decoded.is_clean or text.tree is None:
         return []
-    said = _reference(path.rpartition("/")[2], data)
-    if said is None:
+    expected = _reference(path.rpartition("/")[2], data)
+    if expected is None:
         return []
     ours = {(item.line, item.code) for item in docstrings.check(text) if item.linters & PEP257}
     return [
-        Difference(path, line, code, only_reference=(line, code) in said)
-        for line, code in sorted(ours ^ said)
+        Difference(path, line, code, only_reference=(line, code) in expected)
+        for line, code in sorted(ours ^ expected)
     ]
 
 
@@ -78,7 +78,7 @@ def load() -> Any:  # noqa: ANN401  it has no types
 
 
 def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
-    """Return line and code of what pydocstyle says; ``None`` when it fails on the file."""
+    """Return the lines and codes that pydocstyle reports; ``None`` when it crashes on the file."""
     pydocstyle = load()
     with tempfile.TemporaryDirectory(prefix="ros2-scaffold-") as scratch:
         file = os.path.join(scratch, name)
@@ -87,9 +87,9 @@ def _reference(name: str, data: bytes) -> set[tuple[int, str]] | None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                said = list(pydocstyle.check([file], select=AMENT))
+                violations = list(pydocstyle.check([file], select=AMENT))
             except Exception:  # noqa: BLE001  whatever pydocstyle stumbles over
                 return None
-    if not all(isinstance(item, pydocstyle.Error) for item in said):
+    if not all(isinstance(item, pydocstyle.Error) for item in violations):
         return None
-    return {(item.line, item.code) for item in said}
+    return {(item.line, item.code) for item in violations}

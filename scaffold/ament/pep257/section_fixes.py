@@ -22,10 +22,10 @@ class _Place:
         self.indent = leading_space(section.line)
         self.at = starts[section.row] + len(self.indent)
         self.end = starts[section.row] + len(section.line)
-        self.blanks = sum(1 for _ in takewhile(lambda line: not line.strip(), section.after))
+        self.blank_lines = sum(1 for _ in takewhile(lambda line: not line.strip(), section.after))
         """Blank lines right after the name."""
-        self.is_empty = self.blanks == len(section.after)
-        first = "" if self.is_empty else section.after[self.blanks].strip()
+        self.is_empty = self.blank_lines == len(section.after)
+        first = "" if self.is_empty else section.after[self.blank_lines].strip()
         self.dashes = first if set(first) == {"-"} else ""
 
     def start(self, behind: int) -> int:
@@ -33,9 +33,9 @@ class _Place:
         return self.starts[self.section.row + behind]
 
 
-def mend(code: str, definition: Definition) -> Iterator[Splice]:
-    """Yield what fixes a code in all sections of a docstring."""
-    if code not in _MENDING or (code in _TO_NUMPY and not _is_numpy_afterwards(definition)):
+def splices(code: str, definition: Definition) -> Iterator[Splice]:
+    """Yield the splices that fix a code in all sections of a docstring."""
+    if code not in _FIXES or (code in _TO_NUMPY and not _is_numpy_afterwards(definition)):
         return
     lines = definition.docstring.split("\n")
     starts = [0]
@@ -43,7 +43,7 @@ def mend(code: str, definition: Definition) -> Iterator[Splice]:
         starts.append(starts[-1] + len(line) + 1)
     for section in sections(definition):
         if section.row:
-            yield from _MENDING[code][0](_Place(section, lines, starts))
+            yield from _FIXES[code][0](_Place(section, lines, starts))
 
 
 def _is_numpy_afterwards(definition: Definition) -> bool:
@@ -90,22 +90,22 @@ def _underline(place: _Place) -> Iterator[Splice]:
 
 
 def _no_blanks_above_dashes(place: _Place) -> Iterator[Splice]:
-    if place.dashes and place.blanks:
-        yield place.start(1), place.start(1 + place.blanks), ""
+    if place.dashes and place.blank_lines:
+        yield place.start(1), place.start(1 + place.blank_lines), ""
 
 
 def _length_of_dashes(place: _Place) -> Iterator[Splice]:
     wanted = "-" * len(place.section.title)
     if place.dashes and place.dashes != wanted:
-        line = place.section.after[place.blanks]
-        at = place.start(1 + place.blanks) + len(leading_space(line))
+        line = place.section.after[place.blank_lines]
+        at = place.start(1 + place.blank_lines) + len(leading_space(line))
         yield at, at + len(place.dashes), wanted
 
 
 def _indentation_of_dashes(place: _Place) -> Iterator[Splice]:
     if place.dashes:
-        line = place.section.after[place.blanks]
-        at = place.start(1 + place.blanks)
+        line = place.section.after[place.blank_lines]
+        at = place.start(1 + place.blank_lines)
         yield at, at + len(leading_space(line)), place.indent
 
 
@@ -127,14 +127,14 @@ def _no_blanks_above_content(place: _Place) -> Iterator[Splice]:
     if place.is_empty:
         return
     if not place.dashes:
-        first, blanks = 1, place.blanks
+        first, blank_lines = 1, place.blank_lines
     else:
-        first = 2 + place.blanks
-        blanks = sum(1 for _ in takewhile(lambda line: not line.strip(), after[first - 1 :]))
-        if blanks == len(after[first - 1 :]):
+        first = 2 + place.blank_lines
+        blank_lines = sum(1 for _ in takewhile(lambda line: not line.strip(), after[first - 1 :]))
+        if blank_lines == len(after[first - 1 :]):
             return
-    if blanks:
-        yield place.start(first), place.start(first + blanks), ""
+    if blank_lines:
+        yield place.start(first), place.start(first + blank_lines), ""
 
 
 def _blank_at_end(place: _Place) -> Iterator[Splice]:
@@ -145,13 +145,13 @@ def _blank_at_end(place: _Place) -> Iterator[Splice]:
         yield at, at, "\n"
 
 
-_MENDING: Mapping[str, tuple[Callable[[_Place], Iterator[Splice]], str]] = {
+_FIXES: Mapping[str, tuple[Callable[[_Place], Iterator[Splice]], str]] = {
     "D215": (_indentation_of_dashes, "indent the dashes like the name"),
-    "D405": (_name, "write the name with capitals"),
+    "D405": (_name, "capitalize the name"),
     "D406": (_name_alone, "leave the name alone on its line"),
     "D407": (_underline, "underline the name of the section"),
     "D408": (_no_blanks_above_dashes, "remove the blank lines above the dashes"),
-    "D409": (_length_of_dashes, "as many dashes as the name has letters"),
+    "D409": (_length_of_dashes, "make the dashes as long as the name"),
     "D410": (_blank_after, "leave a blank line after the section"),
     "D411": (_blank_before, "leave a blank line before the section"),
     "D412": (_no_blanks_above_content, "remove the blank lines above the content"),
@@ -162,4 +162,4 @@ _MENDING: Mapping[str, tuple[Callable[[_Place], Iterator[Splice]], str]] = {
 _TO_NUMPY = frozenset({"D406", "D407"})
 """Codes whose fix makes a section one of NumPy's style."""
 
-TITLES = {code: title for code, (_, title) in _MENDING.items()}
+TITLES = {code: title for code, (_, title) in _FIXES.items()}

@@ -15,7 +15,7 @@ from textwrap import dedent
 from scaffold.ament.pep257.definitions import METHOD, Definition, leading_space
 from scaffold.record import NamedTuple
 
-Said = Iterator[tuple[str, str]]
+Violations = Iterator[tuple[str, str]]
 
 Names = tuple[str, ...]
 
@@ -89,29 +89,29 @@ class Section(NamedTuple):
         return self.name.title()
 
 
-def check(definition: Definition) -> Said:
+def check(definition: Definition) -> Violations:
     """Yield what is wrong with the sections of a docstring."""
     for section in sections(definition):
         yield from (_numpy if section.is_numpy else _google)(section, definition)
 
 
 def sections(definition: Definition) -> list[Section]:
-    """Return the sections of a docstring: of the one style, or else of the other."""
+    """Return the sections of a docstring: NumPy's, or else Google's."""
     lines = definition.docstring.split("\n")
     return _sections(lines, NUMPY) or _sections(lines, GOOGLE)
 
 
 def google_sections(definition: Definition) -> list[Section]:
-    """Return the sections of a docstring that have names of Google's style, whatever its own."""
+    """Return the sections of a docstring with names of Google's style."""
     return _sections(definition.docstring.split("\n"), GOOGLE)
 
 
 def _sections(lines: Sequence[str], names: Names) -> list[Section]:
-    known = _LOWER[names]
+    lowered = _LOWER[names]
     rows = [
         row
         for row, line in enumerate(lines)
-        if _leading_words(line.lower()) in known and _is_section(line, lines[row - 1])
+        if _leading_words(line.lower()) in lowered and _is_section(line, lines[row - 1])
     ]
     ends = [*rows[1:], -1]
     return [
@@ -144,7 +144,7 @@ def _leading_words(line: str) -> str | None:
     return matched[0] if matched else None
 
 
-def _numpy(section: Section, definition: Definition) -> Said:
+def _numpy(section: Section, definition: Definition) -> Violations:
     yield from _common(section, definition, NUMPY)
     if section.line.strip().lstrip(section.name):
         yield "D406", f"the section name is {section.line.strip()!r}, not {section.title!r} alone"
@@ -152,7 +152,7 @@ def _numpy(section: Section, definition: Definition) -> Said:
         yield from _undocumented(_numpy_parameters(section), definition)
 
 
-def _google(section: Section, definition: Definition) -> Said:
+def _google(section: Section, definition: Definition) -> Violations:
     yield from _common(section, definition, GOOGLE)
     if section.line.strip().lstrip(section.name) != ":":
         yield "D416", f"the section name is {section.line.strip()!r}, not '{section.title}:'"
@@ -160,7 +160,7 @@ def _google(section: Section, definition: Definition) -> Said:
         yield from _undocumented(_google_arguments(section), definition)
 
 
-def _common(section: Section, definition: Definition, names: Names) -> Said:
+def _common(section: Section, definition: Definition, names: Names) -> Violations:
     title = section.title
     if section.name not in names and title in names:
         yield "D405", f"the section name is {section.name!r}, not {title!r}"
@@ -176,27 +176,27 @@ def _common(section: Section, definition: Definition, names: Names) -> Said:
     yield from _underline(section, definition)
 
 
-def _underline(section: Section, definition: Definition) -> Said:
+def _underline(section: Section, definition: Definition) -> Violations:
     title = section.title
-    blank = next((at for at, line in enumerate(section.after) if line.strip()), None)
-    if blank is None:
+    count = next((at for at, line in enumerate(section.after) if line.strip()), None)
+    if count is None:
         yield "D407", f"no dashes below the section name {title!r}"
         yield "D414", f"the section {title!r} is empty"
         return
-    line = section.after[blank]
+    line = section.after[count]
     dashes = line.strip()
     if set(dashes) != {"-"}:
         yield "D407", f"no dashes below the section name {title!r}"
-        if blank:
+        if count:
             yield "D412", f"blank lines between the section name {title!r} and its content"
         return
-    if blank:
+    if count:
         yield "D408", f"blank lines between the section name {title!r} and its dashes"
     if len(dashes) != len(title):
         yield "D409", f"{len(dashes)} dashes below the section name {title!r}, not {len(title)}"
     if leading_space(line) > definition.indent:
         yield "D215", f"the dashes of the section {title!r} are indented more than the docstring"
-    rest = section.after[blank + 1 :]
+    rest = section.after[count + 1 :]
     if not any(line.strip() for line in rest):
         yield "D414", f"the section {title!r} is empty"
     elif not rest[0].strip():
@@ -232,7 +232,7 @@ def _google_arguments(section: Section) -> set[str]:
     return {item[1] for item in matches if item}
 
 
-def _undocumented(documented: set[str], definition: Definition) -> Said:
+def _undocumented(documented: set[str], definition: Definition) -> Violations:
     node = definition.node
     if not isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
         return

@@ -1,1 +1,1 @@
-"""One Python file as flake8 and pydocstyle cut it."""
+"""A Python file as flake8 and pydocstyle tokenize it."""

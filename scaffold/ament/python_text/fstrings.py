@@ -1,4 +1,4 @@
-"""Cuts f-strings open for Pythons older than 3.12, whose tokenizer takes them as one string.
+"""Tokenizes f-strings on Pythons before 3.12, whose tokenizer returns them as one string.
 
 The tokens are those of Python 3.12, on which the linters run on Jazzy: spaces, operators and
 line breaks inside the braces count there.
@@ -72,22 +72,22 @@ class _Opened:
         return TokenInfo(kind, shown, self._place(start), self._place(end), self._line)
 
     def _literal(self, at: int, end: int, *, in_spec: bool) -> Cut:
-        """Yield text and fields up to ``end``, or to the brace that closes a format; its offset."""
+        """Yield text and fields up to ``end`` or a closing brace; return the offset."""
         text = self._text
         start = at
         while at < end:
-            one = text[at]
-            if one in "{}" and text[at + 1 : at + 2] == one and not in_spec:
+            character = text[at]
+            if character in "{}" and text[at + 1 : at + 2] == character and not in_spec:
                 # A doubled brace ends a stretch of text with one brace.
                 yield self._token(FSTRING_MIDDLE, start, at + 1)
                 at = start = at + 2
-            elif one == "{":
+            elif character == "{":
                 if at > start:
                     yield self._token(FSTRING_MIDDLE, start, at)
                 at = start = yield from self._field(at, end)
                 if in_spec and text[at : at + 1] == "}":
                     yield self._token(FSTRING_MIDDLE, at, at)
-            elif one == "}" and in_spec:
+            elif character == "}" and in_spec:
                 break
             else:
                 at += 1
@@ -96,7 +96,7 @@ class _Opened:
         return at
 
     def _field(self, at: int, end: int) -> Cut:
-        """Yield a replacement field; its end is returned."""
+        """Yield the tokens of a replacement field; return the offset after it."""
         yield self._token(tokenize.OP, at, at + 1)
         stop = self._end_of_expression(at + 1, end)
         yield from self._expression(at + 1, stop)
@@ -121,26 +121,26 @@ class _Opened:
         open_brackets: list[str] = []
         quote = ""
         while at < end:
-            one = text[at]
+            character = text[at]
             if quote:
                 if text.startswith(quote, at):
                     at += len(quote) - 1
                     quote = ""
-            elif one in "'\"":
-                quote = text[at : at + 3] if text[at : at + 3] == one * 3 else one
+            elif character in "'\"":
+                quote = text[at : at + 3] if text[at : at + 3] == character * 3 else character
                 at += len(quote) - 1
-            elif one in _CLOSING:
-                open_brackets.append(_CLOSING[one])
+            elif character in _CLOSING:
+                open_brackets.append(_CLOSING[character])
             elif open_brackets:
-                if one == open_brackets[-1]:
+                if character == open_brackets[-1]:
                     open_brackets.pop()
-            elif one in "}:" or (one == "!" and text[at + 1 : at + 2] != "="):
+            elif character in "}:" or (character == "!" and text[at + 1 : at + 2] != "="):
                 return at
             at += 1
         return at
 
     def _expression(self, start: int, end: int) -> Iterator[TokenInfo]:
-        """Yield the tokens of an expression; brackets around it keep line breaks out of it."""
+        """Yield the tokens of an expression, read in parentheses so that it may span lines."""
         if self._text[start:end].isidentifier():
             yield self._token(tokenize.NAME, start, end)
             return
@@ -164,5 +164,5 @@ class _Opened:
 
 
 def _moved(place: Position, row: int, column: int) -> Position:
-    """Move a place within ``(expression)`` to where the expression is."""
+    """Translate a position within ``(expression)`` to one in the file."""
     return row + place[0] - 1, place[1] + (column - 1 if place[0] == 1 else 0)

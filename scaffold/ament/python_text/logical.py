@@ -21,7 +21,7 @@ from scaffold.ament.python_text.tokens import (
 
 
 class LogicalLine:
-    """The tokens of a statement, or of a comment that stands alone."""
+    """The tokens of a statement, or of a comment on its own lines."""
 
     def __init__(
         self, tokens: list[Token], first: Token, lines: list[str], blank_before: int
@@ -107,7 +107,7 @@ class LogicalLine:
 def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
     """Cut a file into logical lines."""
     logical_lines: list[LogicalLine] = []
-    depth = blank = start = 0
+    depth = blank_lines = start = 0
     first: Token | None = None
     for at, token in enumerate(tokens):
         kind = token.type
@@ -121,13 +121,13 @@ def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
             first = first or token
         elif depth == 0 and kind in NEWLINES:
             if first is not None:
-                logical_lines.append(LogicalLine(tokens[start : at + 1], first, lines, blank))
-                blank, first, start = 0, None, at + 1
+                logical_lines.append(LogicalLine(tokens[start : at + 1], first, lines, blank_lines))
+                blank_lines, first, start = 0, None, at + 1
             elif kind == NL and at == start:
-                blank += 1
+                blank_lines += 1
                 start = at + 1
     if first is not None and first.string:
-        logical_lines.append(LogicalLine(tokens[start:], first, lines, blank))
+        logical_lines.append(LogicalLine(tokens[start:], first, lines, blank_lines))
     return logical_lines
 
 

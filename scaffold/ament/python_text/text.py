@@ -1,4 +1,4 @@
-"""One Python file as the linters see it: lines, tokens, logical lines and syntax tree."""
+"""A Python file as the linters read it: lines, tokens, logical lines and syntax tree."""
 
 from __future__ import annotations
 
@@ -85,12 +85,12 @@ class PythonText:
 
     @cached_property
     def is_too_deep(self) -> bool:
-        """Whether the file is nested deeper than anybody writes."""
+        """Whether the file is nested too deeply to be parsed."""
         return self._parsed[1]
 
     @property
     def why_unchecked(self) -> str:
-        """Why the file is not checked: it holds more than anybody writes. Empty if it is."""
+        """Why the file is not checked: it is too large. Empty if it is checked."""
         return self._parsed[2]
 
     @property
@@ -136,7 +136,7 @@ class PythonText:
 
     @cached_property
     def tokens(self) -> list[Token]:
-        """The tokens as Python 3.12 cuts them; empty when the file cannot be cut."""
+        """The tokens as in Python 3.12; empty when the file cannot be tokenized."""
         return read(self.lines)
 
     @cached_property

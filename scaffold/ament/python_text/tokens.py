@@ -1,4 +1,4 @@
-"""Tokens as the tokenizer of Python 3.12 gives them, whatever Python is running."""
+"""Tokens as in Python 3.12, whatever Python is running."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ Position = tuple[int, int]
 
 
 def read(lines: list[str]) -> list[Token]:
-    """Cut a file into tokens; an empty list when that is not possible."""
+    """Tokenize a file; return an empty list when that is not possible."""
     feed = iter([*lines, ""]).__next__
     try:
-        cut = list(tokenize.generate_tokens(feed))
+        tokens = list(tokenize.generate_tokens(feed))
     except (tokenize.TokenError, SyntaxError, StopIteration):
         return []
     if FSTRING_START < 0:
         from scaffold.ament.python_text.fstrings import open_up
 
-        return open_up(cut)
-    return cut
+        return open_up(tokens)
+    return tokens

@@ -110,20 +110,20 @@ class _Style:
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the import statements that are in the wrong place."""
     style = _Style(options.import_order_style)
-    found: list[Finding] = []
+    findings: list[Finding] = []
     before: Statement | None = None
     for node in _nodes(text.tree):
         statement = describe(node, options)
-        found.extend(_judge(statement, style))
+        findings.extend(_judge(statement, style))
         if before is not None:
-            found.extend(_compare(before, statement, text.lines, style))
+            findings.extend(_compare(before, statement, text.lines, style))
         before = statement
     is_known = style.name == AMENT.import_order_style and not options.application_import_names
-    if found and text.tree is not None and is_known:
+    if findings and text.tree is not None and is_known:
         from scaffold.ament.flake8.import_order.fix import attach
 
-        found = attach(text, text.tree, found)
-    yield from found
+        findings = attach(text, text.tree, findings)
+    yield from findings
 
 
 def _nodes(tree: ast.Module | None) -> Iterator[ast.Import | ast.ImportFrom]:
@@ -200,10 +200,10 @@ def _compare(
     at = (statement.line, statement.column)
     is_same = style.is_same_section(before, statement)
     if style.key(statement) < style.key(before):
-        said = f"'{statement.shown}' belongs before '{before.shown}' of line {before.line}"
+        message = f"'{statement.shown}' belongs before '{before.shown}' of line {before.line}"
         if statement.group != before.group:
-            said += f": {GROUPS[statement.group]} before {GROUPS[before.group]}"
-        yield Finding("I100", *at, said)
+            message += f": {GROUPS[statement.group]} before {GROUPS[before.group]}"
+        yield Finding("I100", *at, message)
     between = lines[before.line - 1 : statement.line - 1]
     is_split = any(not line.strip() for line in between)
     if not is_same and not is_split:
@@ -212,5 +212,5 @@ def _compare(
             groups = f"imports of '{before.root}' and '{statement.root}'"
         yield Finding("I201", *at, f"no blank line between {groups}")
     elif is_same and is_split and not style.may_be_split(before, statement):
-        said = f"a blank line within the {GROUPS[statement.group]} imports"
-        yield Finding("I202", *at, said)
+        message = f"a blank line within the {GROUPS[statement.group]} imports"
+        yield Finding("I202", *at, message)

@@ -43,13 +43,13 @@ def _blocks(text: PythonText, tree: ast.Module) -> Iterator[list[_Import]]:
     """Yield runs of imports with nothing but blank lines between them."""
     block: list[_Import] = []
     for node in tree.body:
-        one = _plain(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
-        follows = block and _only_blank(text, block[-1].statement, one)
+        plain = _plain(text, node) if isinstance(node, (ast.Import, ast.ImportFrom)) else None
+        follows = block and _only_blank(text, block[-1].statement, plain)
         if block and not follows:
             yield block
             block = []
-        if one is not None:
-            block.append(one)
+        if plain is not None:
+            block.append(plain)
     if block:
         yield block
 
@@ -110,9 +110,9 @@ def _in_place(text: PythonText, node: ast.ImportFrom) -> str:
 def _sorted(block: Sequence[_Import]) -> str:
     parts: list[str] = []
     group = -1
-    for one in sorted(block, key=lambda item: item.statement.key):
-        if parts and one.statement.group != group:
+    for item in sorted(block, key=lambda item: item.statement.key):
+        if parts and item.statement.group != group:
             parts.append("")
-        parts.append(one.lines)
-        group = one.statement.group
+        parts.append(item.lines)
+        group = item.statement.group
     return "\n".join(parts)

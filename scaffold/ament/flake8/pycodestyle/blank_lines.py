@@ -43,13 +43,13 @@ class _State:
     def judge(self, logical: LogicalLine) -> tuple[str, str]:
         """Return the code and the message for a logical line, empty when it is right."""
         self.before = max(self.before, logical.blank_lines)
-        blank, indent = logical.blank_lines, logical.indent
+        count, indent = logical.blank_lines, logical.indent
         if not self.last and self.before < AT_TOP:
             return "", ""
         if self.last.startswith("@"):
-            return ("E304", f"blank lines after a decorator ({blank})") if blank else ("", "")
-        if blank > AT_TOP or (indent and blank == IN_BLOCK + 1):
-            return "E303", f"too many blank lines ({blank})"
+            return ("E304", f"blank lines after a decorator ({count})") if count else ("", "")
+        if count > AT_TOP or (indent and count == IN_BLOCK + 1):
+            return "E303", f"too many blank lines ({count})"
         start = _start(logical)
         if re.match(_DEFINITION, start):
             return self._judge_definition(logical)
@@ -132,7 +132,7 @@ class _State:
 
 
 def _start(logical: LogicalLine) -> str:
-    """Return enough of the logical line to know what it is."""
+    """Return the first word of the logical line, or all of it where a definition may start."""
     if logical.is_comment:
         return ""
     if logical.first in ("async", "def", "class", "@"):

@@ -28,14 +28,14 @@ MOST_ROWS = 100
 """Earlier lines of a bracket that a line may be indented against."""
 
 _MESSAGES = {
-    "E121": "continuation line is indented less than a hanging indentation asks for",
+    "E121": "continuation line is indented less than a hanging indentation requires",
     "E123": "closing bracket is indented, not aligned with the line of the opening bracket",
-    "E126": "continuation line is indented more than a hanging indentation asks for",
+    "E126": "continuation line is indented more than a hanging indentation requires",
     "E133": "closing bracket is not indented",
     "E122": "continuation line is not indented",
     "E124": "closing bracket does not match the visual indentation",
-    "E127": "continuation line is indented more than the opening bracket asks for",
-    "E128": "continuation line is indented less than the opening bracket asks for",
+    "E127": "continuation line is indented more than the opening bracket requires",
+    "E128": "continuation line is indented less than the opening bracket requires",
     "E131": "continuation line is not aligned with the hanging indentation above it",
     "E125": "continuation line is indented like the block that follows",
     "E129": "visually indented line is indented like the block that follows",
@@ -48,7 +48,8 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the continuation lines that start in the wrong column."""
     is_tabbed = text.indent_char == "\t"
     for logical in text.logical_lines:
-        if logical.tokens[0].start[0] != logical.end_row:
+        # After a last line that is a comment, the end of the file is a row without a line.
+        if logical.tokens[0].start[0] != logical.end_row <= len(logical.lines):
             for (row, column), code in _Walk(logical, options, is_tabbed=is_tabbed).faults():
                 yield Finding(code, row, column + 1, _MESSAGES[code])
 

@@ -25,10 +25,10 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
     """Yield the places of a logical line where spaces are missing or too many."""
     for (row, column), code in _around_equals(logical):
         if code == "E251":
-            said = "whitespace around the '=' of a keyword argument or default"
+            message = "whitespace around the '=' of a keyword argument or default"
         else:
-            said = "whitespace is missing around the '=' of an annotated argument"
-        yield Finding(code, row, column + 1, said)
+            message = "whitespace is missing around the '=' of an annotated argument"
+        yield Finding(code, row, column + 1, message)
     for token, following in pairwise(logical.tokens):
         if (
             token.end == following.start
@@ -36,8 +36,8 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
             and _needs_blank(token.string, following.string)
         ):
             row, column = token.end
-            said = f"whitespace is missing after '{token.string}'"
-            yield Finding("E275", row, column + 1, said)
+            message = f"whitespace is missing after '{token.string}'"
+            yield Finding("E275", row, column + 1, message)
 
 
 def _needs_blank(word: str, following: str) -> bool:

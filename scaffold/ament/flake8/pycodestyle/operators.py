@@ -1,6 +1,6 @@
 """E221 to E228, E231, E271 to E274: spaces around operators and keywords, and after punctuation.
 
-ruff finds the lines, this decides which code they get: a blank on one side only is E225 for
+ruff finds the lines, this decides which code they get: a space on one side only is E225 for
 pycodestyle whatever the operator, and spaces before a line break do not count.
 """
 
@@ -66,13 +66,13 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
         for item in re.finditer(pattern, logical.text):
             for group, side in ((1, "before"), (2, "after")):
                 if "\t" in item[group]:
-                    code, blanks = codes[group + 1], "a tab"
+                    code, whitespace = codes[group + 1], "a tab"
                 elif len(item[group]) > 1:
-                    code, blanks = codes[group - 1], "several spaces"
+                    code, whitespace = codes[group - 1], "several spaces"
                 else:
                     continue
                 row, column = logical.position(item.start(group))
-                yield Finding(code, row, column + 1, f"{blanks} {side} the {what}")
+                yield Finding(code, row, column + 1, f"{whitespace} {side} the {what}")
 
 
 class _Scan:

@@ -1,4 +1,4 @@
-"""E241, E242, W503 to W505: what only configurations of a package's own ask for."""
+"""E241, E242, W503 to W505: codes that only a package's own configuration enables."""
 
 from __future__ import annotations
 
@@ -91,8 +91,8 @@ def _long_text(logical: LogicalLine, most: int) -> Iterator[Finding]:
             return
         for at, line in enumerate(lines):
             if len(line) > most and not _is_one_word(line, token, is_last=at + 1 == len(lines)):
-                said = f"the line of text has {len(line)} characters, {most} are allowed"
-                yield Finding("W505", rows[at], most + 1, said, rows[at], len(line) + 1)
+                message = f"the line of text has {len(line)} characters, {most} are allowed"
+                yield Finding("W505", rows[at], most + 1, message, rows[at], len(line) + 1)
 
 
 def _is_one_word(line: str, token: Token, *, is_last: bool) -> bool:

@@ -98,8 +98,8 @@ def _too_long(text: PythonText, most: int) -> Iterator[Finding]:
         if length <= most or (number == 1 and shown.startswith("#!")):
             continue
         if not _is_excused(text, number, shown, most):
-            said = f"the line has {length} characters, {most} are allowed"
-            yield Finding("E501", number, most + 1, said, number, length + 1)
+            message = f"the line has {length} characters, {most} are allowed"
+            yield Finding("E501", number, most + 1, message, number, length + 1)
 
 
 def _is_excused(text: PythonText, number: int, line: str, most: int) -> bool:

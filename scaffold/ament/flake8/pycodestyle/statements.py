@@ -35,7 +35,7 @@ _TYPES = r"[=!]=\s+type\s*\(([^)]*[^ )]) *\)|\btype\s*\([^)]*[^ )] *\)\s+[=!]="
 _SPACE = r"[\[({][ \t]|[ \t][\]}),;:](?!=)"
 _AMBIGUOUS = ("l", "O", "I")
 
-Said = Iterator[tuple[int, str, str]]
+Faults = Iterator[tuple[int, str, str]]
 """Offset in the logical line, code, message."""
 
 
@@ -74,10 +74,10 @@ def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
                 yield logical
 
 
-def _placed(logical: LogicalLine, said: Said) -> Iterator[Finding]:
+def _placed(logical: LogicalLine, faults: Faults) -> Iterator[Finding]:
     """Yield the findings of a logical line at their places in the file, with the fixes."""
     brackets = _Brackets(logical)
-    for offset, code, message in said:
+    for offset, code, message in faults:
         row, column = logical.position(offset)
         yield _with_fix(logical, brackets, Finding(code, row, column + 1, message))
 
@@ -85,7 +85,7 @@ def _placed(logical: LogicalLine, said: Said) -> Iterator[Finding]:
 def _with_fix(logical: LogicalLine, brackets: _Brackets, finding: Finding) -> Finding:
     if finding.code in ("E201", "E202", "E203"):
         place = finding.line, finding.column - 1
-        fix = _without_blanks(logical, place, brackets.around(place))
+        fix = _without_spaces(logical, place, brackets.around(place))
         return finding._replace(fix=fix, fix_title="remove the whitespace")
     if finding.code in ("E701", "E702"):
         fix = _on_new_line(logical, finding)
@@ -103,14 +103,14 @@ def _on_new_line(logical: LogicalLine, finding: Finding) -> tuple[Replacement, .
         return ()
     if not opens and logical.first in _BLOCK_KEYWORDS:
         return ()  # first the block gets a line of its own
-    behind = finding.column  # of the colon or semicolon, and the text after it
-    start = behind + 1 if opens else behind
-    end = behind + len(line[behind:]) - len(line[behind:].lstrip())
+    column = finding.column  # of the colon or semicolon, and the text after it
+    start = column + 1 if opens else column
+    end = column + len(line[column:]) - len(line[column:].lstrip())
     deeper = " " * 4 if opens else ""
     return ((row, start, row, end + 1, f"\n{indent}{deeper}"),)
 
 
-def _without_blanks(
+def _without_spaces(
     logical: LogicalLine, place: Position, around: Sequence[str]
 ) -> tuple[Replacement, ...]:
     """Return the edits that remove spaces; those around the colon of a slice as well."""
@@ -122,12 +122,12 @@ def _without_blanks(
         return ()
     start = len(line[:column].rstrip(" \t"))
     end = matched.end()
-    blanks = (row, start + 1, row, end + 1, "")
-    behind = re.compile(r"[ \t]+(?=[^ \t\\#])").match(line, end + 1)
+    spaces = (row, start + 1, row, end + 1, "")
+    after_colon = re.compile(r"[ \t]+(?=[^ \t\\#])").match(line, end + 1)
     is_slice = line[end : end + 1] == ":" and around[-1:] == ["["]
-    if is_slice and behind and "lambda" not in logical.text:
-        return (blanks, (row, end + 2, row, behind.end() + 1, ""))
-    return (blanks,)
+    if is_slice and after_colon and "lambda" not in logical.text:
+        return (spaces, (row, end + 2, row, after_colon.end() + 1, ""))
+    return (spaces,)
 
 
 class _Brackets:
@@ -156,7 +156,7 @@ class _Brackets:
             self._open.pop()
 
 
-def spaces(line: str) -> Said:
+def spaces(line: str) -> Faults:
     """E201, E202, E203: spaces inside brackets and before punctuation."""
     for item in re.finditer(_SPACE, line):
         character = item[0].strip()
@@ -168,7 +168,7 @@ def spaces(line: str) -> Said:
             yield at, code, f"whitespace before '{character}'"
 
 
-def comparisons(line: str) -> Said:
+def comparisons(line: str) -> Faults:
     """E711, E712, E721: equality where identity is intended."""
     for item in re.finditer(_SINGLETON, line):
         value = item[1] or item[3]
@@ -182,7 +182,7 @@ def comparisons(line: str) -> Said:
             yield types.start(), "E721", "types compared with '==', not with 'is' or isinstance()"
 
 
-def negations(line: str) -> Said:
+def negations(line: str) -> Faults:
     """E713, E714: ``not`` in front of a test instead of within it."""
     matched = re.search(_NEGATION, line)
     if matched:
@@ -190,27 +190,27 @@ def negations(line: str) -> Said:
         yield matched.start(1), code, f"'not ... {matched[2]} ...' instead of '{wanted}'"
 
 
-def bare_except(line: str) -> Said:
-    """E722: every exception is caught, even the one that ends the program."""
+def bare_except(line: str) -> Faults:
+    """E722: every exception is caught, even SystemExit."""
     if re.match(r"except\s*:", line):
-        yield 0, "E722", "bare 'except:' catches SystemExit and KeyboardInterrupt, too"
+        yield 0, "E722", "bare 'except:' also catches SystemExit and KeyboardInterrupt"
 
 
-def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
+def compounds(line: str) -> Faults:  # noqa: C901  one scan for all of them
     """E701 to E704, E731: several statements on one line."""
     last = len(line) - 1
     depth = dict.fromkeys("([{", 0)
     pairs = {")": "(", "]": "[", "}": "{"}
     before = 0
-    found = line.find(":")
-    while -1 < found < last:
-        for item in line[before:found]:
+    at = line.find(":")
+    while -1 < at < last:
+        for item in line[before:at]:
             if item in depth:
                 depth[item] += 1
             elif item in pairs:
                 depth[pairs[item]] -= 1
-        if max(depth.values()) <= 0 and line[found + 1] != "=":
-            keyword = re.compile(r"\blambda\b").search(line, 0, found)
+        if max(depth.values()) <= 0 and line[at + 1] != "=":
+            keyword = re.compile(r"\blambda\b").search(line, 0, at)
             if keyword:
                 target = line[: keyword.start()].rstrip()
                 if target[-1:] == "=" and target[:-1].strip().isidentifier():
@@ -219,16 +219,16 @@ def compounds(line: str) -> Said:  # noqa: C901  one scan for all of them
             if re.match(r"(async\s+def|def)\b", line):
                 yield 0, "E704", "the body of the function follows on the same line"
             elif re.match(_BLOCK, line):
-                yield found, "E701", "a statement follows the colon on the same line"
-        before = found
-        found = line.find(":", found + 1)
-    found = line.find(";")
-    while found > -1:
-        if found < last:
-            yield found, "E702", "several statements on one line"
+                yield at, "E701", "a statement follows the colon on the same line"
+        before = at
+        at = line.find(":", at + 1)
+    at = line.find(";")
+    while at > -1:
+        if at < last:
+            yield at, "E702", "several statements on one line"
         else:
-            yield found, "E703", "the statement ends with a semicolon"
-        found = line.find(";", found + 1)
+            yield at, "E703", "the statement ends with a semicolon"
+        at = line.find(";", at + 1)
 
 
 def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:  # noqa: C901  one scan for all
@@ -279,8 +279,8 @@ def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
         if token.type == COMMENT:
             return
         if token.start[0] != start and depth and backslash:
-            said = "the backslash between brackets is not needed"
-            yield Finding("E502", backslash[0], backslash[1], said)
+            message = "the backslash between brackets is not needed"
+            yield Finding("E502", backslash[0], backslash[1], message)
         if token.end[0] != end:
             line = logical.lines[token.end[0] - 1].rstrip("\n")
             backslash = (token.end[0], len(line)) if line.endswith("\\") else None

@@ -13,7 +13,7 @@ from scaffold.ament.ruff import RuffDiagnostic
 
 
 def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterator[Finding]:
-    """Yield what pyflakes would say, given what ruff says."""
+    """Yield what pyflakes would report, given the diagnostics of ruff."""
     stricter = _Stricter(text, diagnostics)
     imports = _import_lines(text) if any(item.code == "F401" for item in diagnostics) else {}
     codes = {item.code for item in diagnostics}
@@ -22,22 +22,26 @@ def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterat
     has_star_use = any(item.code == "F405" for item in diagnostics)
     # A second import of the same names takes the place of the first.
     last_stars = {item.message: item.line for item in diagnostics if item.code == "F403"}
-    for one in diagnostics:
-        finding = plain(one)
-        if one.code == "F401":
+    for diagnostic in diagnostics:
+        finding = plain(diagnostic)
+        if diagnostic.code == "F401":
             node = imports.get(finding.line)
             finding = finding if node is None else _moved(text, finding, node)
-        elif one.code in ("F405", "F822"):
+        elif diagnostic.code in ("F405", "F822"):
             finding = _at(text, finding, exports)
-            if one.code == "F822" and text.name == "__init__.py":
+            if diagnostic.code == "F822" and text.name == "__init__.py":
                 continue
-        elif one.code == "F841":
+        elif diagnostic.code == "F841":
             finding = _at(text, finding, handlers)
-        elif one.code == "F823":
+        elif diagnostic.code == "F823":
             finding = local_names.at_last_use(text, finding)
-        if one.code not in OWN and not stricter.is_alone(one):
+        if diagnostic.code not in OWN and not stricter.is_alone(diagnostic):
             yield finding
-        if one.code == "F403" and not has_star_use and last_stars[one.message] == one.line:
+        if (
+            diagnostic.code == "F403"
+            and not has_star_use
+            and last_stars[diagnostic.message] == diagnostic.line
+        ):
             unused = "nothing of the star import is used"
             yield Finding("F401", finding.line, finding.column, unused)
     yield from local_names.deleted_unused(text)
@@ -69,14 +73,14 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 
 
 class _Stricter:
-    """Knows where ruff goes further than pyflakes does."""
+    """The diagnostics of ruff that pyflakes does not have."""
 
     def __init__(self, text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> None:
         self._text = text
         self._codes = {(item.line, item.code) for item in diagnostics}
 
     def is_alone(self, diagnostic: RuffDiagnostic) -> bool:
-        """Tell whether only ruff says this."""
+        """Tell whether ruff reports this and pyflakes does not."""
         if diagnostic.code == "F507":
             return diagnostic.line not in self._tuple_formats
         if (

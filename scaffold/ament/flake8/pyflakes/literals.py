@@ -39,8 +39,8 @@ def _repeated(text: PythonText, node: ast.Dict) -> Iterator[Finding]:
             place = node.keys[at]
             if place is not None:
                 code = "F602" if isinstance(place, ast.Name) else "F601"
-                said = f"the key {ast.unparse(place)} is given {count} times with other values"
-                yield _finding(text, code, place, said)
+                message = f"the key {ast.unparse(place)} is given {count} times with other values"
+                yield _finding(text, code, place, message)
 
 
 def _value(node: ast.expr | None) -> Hashable:

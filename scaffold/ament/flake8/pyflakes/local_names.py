@@ -15,7 +15,7 @@ _Conditional = (ast.If, ast.While)
 
 
 def used_by_alias(text: PythonText) -> set[tuple[int, str]]:
-    """Return the lines and modules of imports that another name of the module speaks for.
+    """Return the lines and modules of imports that pyflakes counts as used by an alias.
 
     ``import a`` counts as used where ``import a as b`` is, both at the top of the file.
     """
@@ -59,7 +59,7 @@ def at_last_use(text: PythonText, finding: Finding) -> Finding:
 
 
 def read_after_rebinding(text: PythonText) -> set[tuple[int, str]]:
-    """Return the handlers, by line and name, whose exception is given another value to be read.
+    """Return the handlers, by line and name, whose exception is assigned again and then read.
 
     To pyflakes that is one variable, to ruff the exception itself is not used.
     """

@@ -63,7 +63,7 @@ class _Binding:
         return self.kind in (DEFINED, IMPORTED, SUBMODULE)
 
     def redefines(self, other: _Binding) -> bool:
-        """Tell whether this binding makes an unused other one pointless."""
+        """Tell whether this binding redefines another, unused one."""
         if self.kind == ANNOTATED:
             return False
         if self.kind == SUBMODULE and other.kind in (IMPORTED, SUBMODULE):
@@ -82,7 +82,7 @@ class _Scope:
         self.is_comprehension = is_comprehension
 
 
-Said = tuple[Place, str, int]
+Redefinition = tuple[Place, str, int]
 
 
 class _Walk:
@@ -97,7 +97,7 @@ class _Walk:
         self.forks: dict[ast.AST | None, list[frozenset[ast.AST]]] = {}
         """The branches of statements that were asked about."""
         self.deferred: list[tuple[Callable[[], None], list[_Scope]]] = []
-        self.found: list[Said] = []
+        self.redefinitions: list[Redefinition] = []
         self.hidden: list[tuple[str, _Binding]] = []
         self.defers_annotations = any(
             isinstance(node, ast.ImportFrom)
@@ -106,7 +106,7 @@ class _Walk:
             for node in self.tree.body
         )
 
-    def run(self) -> list[Said]:
+    def run(self) -> list[Redefinition]:
         """Walk, and return the findings: node, name, line of what is replaced."""
         self.statements(self.tree.body)
         at = 0
@@ -118,8 +118,8 @@ class _Walk:
         for name, binding in self.hidden:
             if not binding.used and name not in exported:
                 line = binding.node.lineno
-                self.found.extend((place, name, line) for place in binding.hidden_by)
-        return self.found
+                self.redefinitions.extend((place, name, line) for place in binding.hidden_by)
+        return self.redefinitions
 
     def unused_imports(self) -> Iterator[tuple[str, Place]]:
         """Yield the imports that nothing used, after ``run``."""
@@ -369,7 +369,7 @@ class _Walk:
             and not existing.is_overload
             and not self.in_other_fork(value.node, existing.node)
         ):
-            self.found.append((value.node, name, existing.node.lineno))
+            self.redefinitions.append((value.node, name, existing.node.lineno))
         if existing is None:
             self.hide(name, value, for_loop=for_loop)
         else:
@@ -408,10 +408,10 @@ class _Walk:
         """Tell whether two nodes are on different branches of their innermost common statement."""
         path, other_path = self.path(node), self.path(other)
         common = None
-        for one, two in zip(path, other_path, strict=False):
-            if one is not two:
+        for node_, two in zip(path, other_path, strict=False):
+            if node_ is not two:
                 break
-            common = one
+            common = node_
         if common not in self.forks:
             self.forks[common] = [frozenset(part) for part in _branches(common)]
         return any(
