@@ -5,11 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report, Severity
+from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.messages import MessageTypes
 
 _FIELDS = ("frame_id", "child_frame_id")
 _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_async"})
+_TRANSFORM = "geometry_msgs/msg/TransformStamped"
 _CODE = (
     "from geometry_msgs.msg import TransformStamped\n\n\n"
     "def make(buffer, time):\n"
@@ -18,10 +20,20 @@ _CODE = (
     "    sent.header.frame_id = {}\n"
     "    return transform, sent\n"
 )
+_OTHERS = (
+    "from sensor_msgs.msg import LaserScan\nfrom team_msgs.msg import Goal\n\n\n"
+    "def make():\n"
+    "    scan = LaserScan()\n    scan.header.frame_id = {}\n"
+    "    goal = Goal()\n    goal.header.frame_id = {}\n"
+    "    return scan, goal\n"
+)
 
 
 class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
+
+    A warning in a transform, where tf2 removes the slash, and in a message of a package that is
+    not of ROS, as not all frames in these are looked up.
 
     **Why.** tf2 rejects it in every program that uses the message: ``Invalid argument
     "/base_link" passed to lookupTransform ... frame_ids cannot start with a '/'``.
@@ -33,6 +45,9 @@ class FrameWithSlash(MessageRule):
 
     code = "MS007"
     name = "frame-with-slash"
+    other_severities = {
+        Severity.WARNING: "it is in a TransformStamped, or in a message of a package of one's own"
+    }
     examples = (
         Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
         Example("a test", {"test/test_a.py": _CODE.format("'/map'", "'/base'", "'/map'")}),
@@ -46,21 +61,46 @@ class FrameWithSlash(MessageRule):
             ),
             Report(
                 "6:44",
-                "frame '/base' starts with '/': tf2 rejects it; remove the slash",
+                "frame '/base' starts with '/': tf2 knows the frame without it; remove the slash",
                 fix="remove the slash",
+                severity=Severity.WARNING,
             ),
             Report(
                 "7:28",
-                "frame '/map' starts with '/': tf2 rejects it; remove the slash",
+                "frame '/map' starts with '/': tf2 knows the frame without it; remove the slash",
                 fix="remove the slash",
+                severity=Severity.WARNING,
             ),
             fixed={"node.py": _CODE.format("'map'", '"base"', "'map'")},
+        ),
+        Example(
+            "in messages of ROS and of a package of one's own",
+            {"node.py": _OTHERS.format("'/laser'", "'/world'")},
+            Report(
+                "7:28",
+                "frame '/laser' starts with '/': tf2 rejects it; remove the slash",
+                fix="remove the slash",
+            ),
+            Report(
+                "9:28",
+                "frame '/world' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                fix="remove the slash",
+                severity=Severity.WARNING,
+            ),
+            neighbours={
+                "team_msgs": {
+                    "package.xml": "<package><name>team_msgs</name></package>",
+                    "msg/Goal.msg": "std_msgs/Header header\n",
+                }
+            },
+            fixed={"node.py": _OTHERS.format("'laser'", "'world'")},
         ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         # Frames that a test makes up as input are never looked up.
-        for node in () if types.module.in_tests else _frames(types):
+        for node, owner in () if types.module.in_tests else _frames(types):
             value = types.facts.evaluator.evaluate(node)
             if not (isinstance(value, str) and value.startswith("/")):
                 continue
@@ -70,19 +110,33 @@ class FrameWithSlash(MessageRule):
             if isinstance(node, ast.Constant) and text[:2] in {"'/", '"/'} and value != "/":
                 edit = Edit(types.module.path, start + 1, start + 2, "")
                 fix = Fix("remove the slash", (edit,))
-            message = f"frame {value!r} starts with '/': tf2 rejects it; remove the slash"
-            yield self.report(types.module.location(node), message, fix)
+            severity = Severity.ERROR
+            effect = "tf2 rejects it"
+            if owner == _TRANSFORM:
+                severity, effect = Severity.WARNING, "tf2 knows the frame without it"
+            elif owner and owner.partition("/")[0] not in ROS_PACKAGES:
+                severity, effect = Severity.WARNING, "tf2 rejects it where the frame is looked up"
+            message = f"frame {value!r} starts with '/': {effect}; remove the slash"
+            yield self.report(types.module.location(node), message, fix, severity=severity)
 
 
-def _frames(types: MessageTypes) -> Iterator[ast.expr]:
-    """Yield the expressions that are used as frames."""
+def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the expressions that are used as frames, with the message they are in if known."""
     for name in _FIELDS:
         for store in types.facts.evaluator.stores(name):
             # ``self.frame_id`` is an attribute of the node, not of a message.
             if store.value is not None and store.class_ is None:
-                yield store.value
+                yield store.value, _message(types, store.node.value)
     for call in types.module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and call.func.attr in _LOOKUPS:
-            yield from call.args[:2]
-        elif call.keywords and types.class_of(call.func):
-            yield from (word.value for word in call.keywords if word.arg in _FIELDS)
+            yield from ((argument, "") for argument in call.args[:2])
+        elif call.keywords and (class_ := types.class_of(call.func)):
+            yield from ((word.value, class_.name) for word in call.keywords if word.arg in _FIELDS)
+
+
+def _message(types: MessageTypes, node: ast.expr) -> str:
+    """Return the type of the message that has a frame; empty if it is not known."""
+    if isinstance(node, ast.Attribute) and node.attr == "header":
+        node = node.value
+    message = types.type_of(node)
+    return message.name if message else ""

@@ -5,13 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
+from scaffold.api.launch import started_nodes
+from scaffold.api.parameters import parameter_file, parameter_paths
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
 _TYPE = "expected Parameter.Type.{}"
 _CLASSES = {"bool": "BOOL", "float": "DOUBLE", "int": "INTEGER", "str": "STRING"}
+_NO_DEFAULT = "parameters without a default"
 _NODE = (
     "from rcl_interfaces.msg import ParameterDescriptor, ParameterType\n"
     "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
@@ -45,6 +48,9 @@ class ParameterDefaultUnusable(RclpyRule):
 
     code = "ND083"
     name = "parameter-default-unusable"
+    other_severities = {
+        Severity.WARNING: "there is no default, and a file of the package sets the parameter"
+    }
     examples = (
         Example("a default", {"talker.py": _NODE.format("1.0", "description='Hz'", "'slow'")}),
         Example(
@@ -86,13 +92,36 @@ class ParameterDefaultUnusable(RclpyRule):
             Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
         ),
         Example(
+            "names that a YAML file and a launch file set",
+            {
+                "talker.py": _PLAIN.format("'rate'").replace("'rate'", "'gain'", 1)
+                + "        self.declare_parameter('rate')\n",
+                "config/talker.yaml": "/**:\n  ros__parameters:\n    gain: 2\n",
+                "launch/talk.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    talker = Node(package='a', executable='b', parameters=[{'rate': 1.0}])\n"
+                "    return LaunchDescription([talker])\n",
+            },
+            Report(
+                "talker.py:7:32",
+                "parameter 'gain' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "talker.py:8:32",
+                "parameter 'rate' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "an empty list",
             {"talker.py": _PLAIN.format("'names', []")},
             Report("7:32", "parameter 'names' becomes a byte array: the default is an empty list"),
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for parameter in (p for p in file.parameters if is_of_node(file, p)):
             node = parameter.default_node
             problem = _type_problem(parameter) or (
@@ -104,7 +133,23 @@ class ParameterDefaultUnusable(RclpyRule):
         for parameter in file.parameters:
             problem = _missing_problem(parameter)
             if problem:
-                yield self.report(parameter.name_location, problem)
+                is_set = parameter.default_node is None and parameter.name in _set_names(package)
+                yield self.report(
+                    parameter.name_location,
+                    problem,
+                    severity=Severity.WARNING if is_set else Severity.ERROR,
+                    cause=_NO_DEFAULT if parameter.default_node is None else "",
+                )
+
+
+@fact
+def _set_names(package: Package) -> frozenset[str]:
+    """Return the names of all parameters that files of the package set, of whatever node."""
+    files = (parameter_file(package, path) for path in parameter_paths(package))
+    sections = [section for file in files if file for section in file.sections]
+    names = {entry.name for section in sections for entry in section.entries}
+    names |= {given.name for node in started_nodes(package) for given in node.parameters}
+    return frozenset(names)
 
 
 def _default_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> str:

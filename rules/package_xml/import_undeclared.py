@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.manifest import declared, required_packages
+from scaffold.api.catalog import transitive_dependencies
+from scaffold.api.manifest import declared, required_packages, requirements
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
+_INTERFACES = ("_msgs", "_interfaces", "_srvs")
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
@@ -29,8 +31,9 @@ class ImportUndeclared(Rule):
     code = "PX020"
     name = "import-undeclared"
     other_severities = {
-        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, "
-        "and torch, which many install with pip"
+        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, what comes with "
+        "these and only launch files import, numpy where messages bring it, and torch, which many "
+        "install with pip"
     }
     examples = (
         Example(
@@ -143,6 +146,45 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "what comes with `ros2 launch`, and with messages",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>sensor_msgs</exec_depend>\n</package>\n",
+                "launch/a.launch.py": "import ament_index_python\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import numpy\n",
+            },
+            Report(
+                "launch/a.launch.py:1:1",
+                "imports 'ament_index_python', which no dependency in package.xml "
+                "provides; add <exec_depend>ament_index_python</exec_depend>",
+                fix="declare ament_index_python",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "talker/node.py:1:1",
+                "imports 'numpy', which no dependency in package.xml provides; add "
+                "<exec_depend>python3-numpy</exec_depend>",
+                fix="declare python3-numpy",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>ament_index_python</exec_depend>\n"
+                "  <exec_depend>python3-numpy</exec_depend>\n"
+                "  <exec_depend>sensor_msgs</exec_depend>\n</package>\n"
+            },
+        ),
+        Example(
+            "a key for pip",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>python-transforms3d-pip</exec_depend>\n</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import transforms3d\n",
+            },
+        ),
+        Example(
             "a library that pip is asked for",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
@@ -173,6 +215,7 @@ class ImportUndeclared(Rule):
                 "imports 'numpy', which no dependency in package.xml provides; add "
                 "<test_depend>python3-numpy</test_depend>",
                 fix="declare python3-numpy",
+                severity=Severity.WARNING,
             ),
             fixed={
                 "package.xml": '<package format="3">\n'
@@ -200,7 +243,8 @@ class ImportUndeclared(Rule):
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            comes_otherwise = need.keys[0] in _LAUNCH or need.module in _INDEX
+            comes_otherwise = _comes_with_launch(need) or _comes_with_messages(need, there)
+            comes_otherwise |= need.module in _INDEX
             yield self.report(
                 need,
                 message,
@@ -208,6 +252,18 @@ class ImportUndeclared(Rule):
                 severity=Severity.WARNING if comes_otherwise else Severity.ERROR,
                 cause=f"dependency {need.keys[0]}",
             )
+
+
+def _comes_with_launch(need: requirements.Requirement) -> bool:
+    key = need.keys[0]
+    return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"launch_ros"}))
+
+
+def _comes_with_messages(need: requirements.Requirement, there: requirements.Declared) -> bool:
+    """Tell whether a module is numpy, which the Python code of every message needs."""
+    return need.module == "numpy" and any(
+        name == "rclpy" or name.endswith(_INTERFACES) for name in (*there.direct, *there.along)
+    )
 
 
 def _is_required(package: Package, module: str) -> bool:

@@ -39,6 +39,8 @@ _TIMES = (
 )
 _UNCHECKED = (".get_parameter_or",)
 """What works with anything as long as the parameter is declared."""
+_CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
+"""What calls ``int()`` on its nanoseconds, which are annotated as an int."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 
@@ -64,6 +66,13 @@ class ArgumentTypeUnfit(TypeRule):
                 "port.py": "from rclpy.node import Node\n\n"
                 "node = Node('port')\nnode.declare_parameter('port', 1)\n"
                 "print(node.get_parameter_or('port', 2))\n"
+            },
+        ),
+        Example(
+            "a float, which is made an int",
+            {
+                "period.py": "from rclpy.duration import Duration\n\n\n"
+                "PERIOD = Duration(seconds=0, nanoseconds=1e9 / 30)\n"
             },
         ),
         Example(
@@ -128,6 +137,8 @@ class ArgumentTypeUnfit(TypeRule):
                 f"{in_words(given)}: it cannot be published{hint}",
             )
         parameter = _parameter(finding, matched["callee"])
+        if full_name(called) in _CONVERTING and parameter == "nanoseconds" and given == "float":
+            return None
         needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
         return self.report(
             finding,

@@ -273,7 +273,8 @@ def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
     location = Location(path, finding.line, finding.column, *max(end, finding[1:3]))
     fix = _fix(package, path, finding) if finding.fix else None
     message = finding.message or code.summary
-    return Diagnostic(code.code, code.name, code.severity, location, message, fix)
+    severity = Severity.WARNING if finding.is_doubtful else code.severity
+    return Diagnostic(code.code, code.name, severity, location, message, fix)
 
 
 def _fix(package: Package, path: str, finding: Finding) -> Fix | None:

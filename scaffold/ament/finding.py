@@ -41,3 +41,5 @@ class Finding(NamedTuple):
     linters: int = FLAKE8
     fix_is_unsafe: bool = False
     """Whether the fix may change what the code does, or its words."""
+    is_doubtful: bool = False
+    """Whether the code may run all the same: a warning, whatever its code usually is."""

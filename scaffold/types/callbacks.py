@@ -16,6 +16,11 @@ _CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
 _SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
 _PARAMETER = r"\w+(?:\s*:\s*[\w.\[\]\"']+)?"
 _END = r"(\s*,?\s*\)\s*(?:->[^\n]*)?:)"
+_REBOUND = (
+    r"(?:^|[;:])[ \t]*{0}[ \t]*(?::[^=\n]*)?=(?!=)[^\n]*(?<!,)$"
+    r"|\b(?:for|as)[ \t]+{0}\b|\b{0}[ \t]*:="
+)
+"""Matches what gives a name another value; not a keyword argument on a line of its own."""
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _IMPORT = f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n"
 _LONGEST = 2_000
@@ -61,16 +66,34 @@ def _annotated(segment: str) -> str:
         found = list(re.finditer(pattern, segment))
         if len(found) == 1 and given:
             start, end = found[0].span()
-            segment = f"{segment[:start]}{_typed(found[0], given)}{segment[end:]}"
+            typed = _typed(found[0], given, _body(segment, start, end))
+            segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 
 
-def _typed(definition: re.Match[str], given: tuple[str, ...]) -> str:
+def _typed(definition: re.Match[str], given: tuple[str, ...], body: str) -> str:
     head, first, comma, second, tail = definition.groups()
-    result = f'{head}{_name(first)}: "{given[0]}"'
+    result = f"{head}{_parameter(first, given[0], body)}"
     if second:
-        result += f"{comma}{_name(second)}" + (f': "{given[1]}"' if len(given) > 1 else "")
+        type_ = given[1] if len(given) > 1 else ""
+        result += f"{comma}{_parameter(second, type_, body)}"
     return result + tail
+
+
+def _parameter(parameter: str, type_: str, body: str) -> str:
+    """Return a parameter with its type, or bare if the function gives the name another value."""
+    name = _name(parameter)
+    is_rebound = re.search(_REBOUND.format(name), body, re.MULTILINE)
+    return f'{name}: "{type_}"' if type_ and not is_rebound else name
+
+
+def _body(segment: str, start: int, end: int) -> str:
+    """Return the lines of a function: those that are indented further than its ``def``."""
+    line = segment.rfind("\n", 0, start) + 1
+    indent = re.match(r"[ \t]*", segment[line:start])
+    after = re.compile(rf"^(?!{indent[0] if indent else ''}[ \t]|[ \t]*(?:#|$))", re.MULTILINE)
+    last = after.search(segment, segment.find("\n", end) + 1)
+    return segment[end : last.start() if last else len(segment)]
 
 
 def _name(parameter: str) -> str:

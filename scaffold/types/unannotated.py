@@ -2,7 +2,7 @@
 
 An annotation may be wrong, as nothing checks it: ``topic: String`` where a str is passed. What
 takes its place has the same length, so that everything else stays where it is. Parameters of
-callbacks keep theirs: what they subscribe to is what they get.
+callbacks keep theirs: what they subscribe to is what they get, unless they are given another value.
 """
 
 from __future__ import annotations
@@ -47,8 +47,9 @@ def _annotations(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
             case ast.FunctionDef() | ast.AsyncFunctionDef():
                 if node.returns is not None:
                     yield "result", node.returns
-                for argument in _arguments(node.args) if node.name not in handed_over else ():
-                    if argument.annotation is not None:
+                kept = _never_rebound(node) if node.name in handed_over else set()
+                for argument in _arguments(node.args):
+                    if argument.annotation is not None and argument.arg not in kept:
                         yield "parameter", argument.annotation
             case ast.AnnAssign(value=value):
                 yield "declaration" if value is None else "variable", node.annotation
@@ -67,6 +68,16 @@ def _handed_over(nodes: list[ast.AST]) -> set[str]:
                 elif isinstance(value, ast.Name):
                     names.add(value.id)
     return names
+
+
+def _never_rebound(function: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:
+    """Return the parameters that keep the value that they come with."""
+    rebound = {
+        node.id
+        for node in ast.walk(function)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    return {argument.arg for argument in _arguments(function.args)} - rebound
 
 
 def _arguments(arguments: ast.arguments) -> Iterator[ast.arg]:

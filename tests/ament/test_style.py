@@ -204,6 +204,27 @@ def test_places_names_and_severities() -> None:
     assert said["E203"].location[:3] == ("b.py", 1, 14)
 
 
+@pytest.mark.parametrize(
+    ("text", "code", "severity"),
+    [
+        ("print(version)\n", "F821", Severity.ERROR),
+        ("exec(open('version.py').read())\nprint(version)\n", "F821", Severity.WARNING),
+        ("exec('', {})\nprint(version)\n", "F821", Severity.ERROR),
+        ("__all__ = ['hello']\n", "F822", Severity.ERROR),
+        (
+            "__all__ = ['hello']\n\n\ndef __getattr__(name):\n    return name\n",
+            "F822",
+            Severity.WARNING,
+        ),
+    ],
+)
+def test_a_name_that_may_be_made_when_run_is_a_warning(
+    text: str, code: str, severity: Severity
+) -> None:
+    severities = [d.severity for d in check(Package.of({"a.py": text})) if d.code == code]
+    assert severities == [severity]
+
+
 def test_every_code_of_the_table_has_a_name() -> None:
     names = [one.name for one in codes.STYLE.values()]
     assert len(set(names)) == len(names)

@@ -158,6 +158,45 @@ class Other(Node):
     assert found == ["17:TY003", "20:TY003", "23:TY003", "27:TY004", "38:TY003"]
 
 
+def test_a_parameter_that_is_given_another_value_has_no_type(check: Check, source: Path) -> None:
+    node = """from nav_msgs.msg import OccupancyGrid
+from rclpy.node import Node
+from sensor_msgs.msg import LaserScan
+
+
+class Mapper(Node):
+    def __init__(self):
+        super().__init__('mapper')
+        self.publisher = self.create_publisher(OccupancyGrid, 'map', 1)
+        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)
+        self.create_subscription(LaserScan, 'back', self.on_back, 10)
+        self.create_subscription(LaserScan, 'left', self.on_left, 10)
+
+    def on_scan(self, msg):
+        print(msg.ranges)
+        # no longer the scan
+        msg = OccupancyGrid()
+        msg.info.width = 2
+        self.publisher.publish(msg)
+
+    def on_back(self, msg: LaserScan):
+        for msg in self.grids():
+            print(msg.info)
+
+    def on_left(self, msg):
+        print(dict(
+            msg=msg,
+        ))
+        print(msg.info)
+
+    def grids(self):
+        msg = 2
+        return msg
+"""
+    make_package(source, "mapper", {"mapper/node.py": node})
+    assert check("mapper") == ["mapper/mapper/node.py:29:TY003"]
+
+
 def test_annotations_of_the_user_are_not_believed(check: Check, source: Path) -> None:
     node = """from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node

@@ -149,7 +149,7 @@ def test_the_file_of_the_user_excludes_nothing(
 def test_severity_decides_the_exit_code(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (workspace / "talker" / "talker" / "extra.py").write_text("import numpy\n\nnumpy.zeros(1)\n")
+    (workspace / "talker" / "talker" / "extra.py").write_text("import scipy\n\nscipy.pi\n")
     words = ("--select", "PX020", "--format", "json")
     configuration = workspace / "ros2-scaffold.toml"
     for text, severity, code in (

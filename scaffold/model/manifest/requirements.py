@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, transitive_dependencies
@@ -35,6 +35,8 @@ class Requirement(NamedTuple):
     """The first import of it."""
     for_tests: bool
     """Only tests import it."""
+    for_launch: bool
+    """Only launch files import it."""
 
 
 class Declared(NamedTuple):
@@ -57,8 +59,13 @@ def required_packages(package: Package) -> list[Requirement]:
                 continue
             known = result.get(item.root)
             for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
+            for_launch = path.endswith("launch.py")
             if known is None or (known.for_tests and not for_tests):
-                result[item.root] = Requirement(keys, item.root, item.location, for_tests)
+                result[item.root] = Requirement(
+                    keys, item.root, item.location, for_tests, for_launch
+                )
+            elif not for_launch and for_tests <= known.for_tests:
+                result[item.root] = known._replace(for_launch=False)
     return sorted(result.values(), key=lambda need: need.location)
 
 
@@ -168,7 +175,7 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
         return ()
     known = keys_of_module(root)
     if known:
-        return known
+        return known + _keys_for_pip(known)
     names = node.module.split(".")
     if root in ROS1_PACKAGES:
         return ()
@@ -176,6 +183,18 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     if is_interface or package.workspace.get(root) is not None:
         return (root,)
     return ()
+
+
+def _keys_for_pip(keys: Sequence[str]) -> tuple[str, ...]:
+    """Return what rosdep calls the same modules where it gets them from Python's index."""
+    names = [key.removeprefix("python3-").removesuffix("-pip") for key in keys]
+    return tuple(
+        other
+        for key, name in zip(keys, names, strict=True)
+        if key != name
+        for other in (f"python3-{name}-pip", f"python-{name}-pip")
+        if other not in keys
+    )
 
 
 def _local_names(package: Package) -> frozenset[str]:

@@ -36,7 +36,7 @@ def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterat
         elif diagnostic.code == "F823":
             finding = local_names.at_last_use(text, finding)
         if diagnostic.code not in OWN and not stricter.is_alone(diagnostic):
-            yield finding
+            yield finding._replace(is_doubtful=stricter.is_made_when_run(diagnostic))
         if (
             diagnostic.code == "F403"
             and not has_star_use
@@ -73,7 +73,7 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 
 
 class _Stricter:
-    """The diagnostics of ruff that pyflakes does not have."""
+    """The diagnostics of ruff that pyflakes does not have, and those that may be wrong."""
 
     def __init__(self, text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> None:
         self._text = text
@@ -100,6 +100,28 @@ class _Stricter:
             ) in self._rebound
         rival = {"F502": "F506", "F523": "F525"}.get(diagnostic.code)
         return (diagnostic.line, rival) in self._codes
+
+    def is_made_when_run(self, diagnostic: RuffDiagnostic) -> bool:
+        """Tell whether the module may have a name that nothing in its text defines."""
+        if diagnostic.code == "F821":
+            return self._executes_text
+        return diagnostic.code == "F822" and self._has_getattr
+
+    @cached_property
+    def _executes_text(self) -> bool:
+        """Whether ``exec(text)`` may define names; one with a dictionary defines them there."""
+        return "exec" in self._text.text and any(
+            isinstance(node.func, ast.Name) and node.func.id == "exec" and len(node.args) == 1
+            for node in self._text.nodes(ast.Call)
+        )
+
+    @cached_property
+    def _has_getattr(self) -> bool:
+        """Whether the module answers for names that it lacks (PEP 562)."""
+        return self._text.tree is not None and any(
+            isinstance(node, ast.FunctionDef) and node.name == "__getattr__"
+            for node in self._text.tree.body
+        )
 
     @cached_property
     def _tuple_formats(self) -> set[int]:
