@@ -13,6 +13,7 @@ from scaffold.api.rclpy import (
     RclpyFile,
     Service,
     Subscription,
+    Synchronizer,
     Timer,
     class_of,
     numbers_taken,
@@ -56,6 +57,21 @@ _SERVER = (
 )
 
 
+_VIEWER = (
+    "from message_filters import Subscriber, TimeSynchronizer\n"
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import CameraInfo, Image\n\n\n"
+    "class Viewer(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('viewer')\n"
+    "        self.image = Subscriber(self, Image, 'image')\n"
+    "        self.info = Subscriber(self, CameraInfo, 'info')\n"
+    "        self.sync = TimeSynchronizer([self.image, self.info], 10)\n"
+    "        self.sync.registerCallback(self.view)\n\n"
+    "    def view(self{}):\n"
+    "        pass\n"
+)
+
+
 class CallbackArity(RclpyRule):
     """A callback does not accept the arguments that rclpy passes.
 
@@ -63,7 +79,8 @@ class CallbackArity(RclpyRule):
     ``TypeError`` when they are first called.
 
     **Fix.** A subscription passes the message (and optionally its info), a service the request
-    and the response, a timer nothing, an action server the goal handle.
+    and the response, a timer nothing, an action server the goal handle, a synchronizer a message
+    of each topic.
 
     **Source.** ``rclpy/subscription.py``, ``rclpy/service.py``, ``rclpy/executors.py``.
     """
@@ -107,6 +124,16 @@ class CallbackArity(RclpyRule):
                 "the goal handle: the goal is aborted",
             ),
         ),
+        Example("a message of each topic", {"viewer.py": _VIEWER.format(", image, info")}),
+        Example(
+            "a message of one topic",
+            {"viewer.py": _VIEWER.format(", image")},
+            Report(
+                "12:36",
+                "callback 'view' takes 1 argument, but the synchronizer passes 2 "
+                "messages: TypeError",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -142,6 +169,10 @@ def _given(entity: Entity) -> tuple[tuple[int, ...], str] | None:
     """Return the possible numbers of arguments of a callback, and their description."""
     if isinstance(entity, Subscription):
         return (1, 2), "a subscription passes the message: RuntimeError"
+    if isinstance(entity, Synchronizer):
+        number = len(entity.inputs or ())
+        passes = f"the synchronizer passes {number} messages: TypeError"
+        return ((number,), passes) if entity.inputs else None
     if isinstance(entity, Timer):
         return (0,), "a timer passes none: TypeError"
     if isinstance(entity, Service):

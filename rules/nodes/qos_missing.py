@@ -56,7 +56,7 @@ class QosMissing(RclpyRule):
             return None
         if entity.owner is None and entity.name_argument is None:
             return None  # a method of this name that is not rclpy's
-        if entity.argument("qos_profile") is None:
+        if entity.argument("qos_profile") is None and entity.qos is None:
             what = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
             return f"{what}() is missing a depth or a QoS profile: TypeError"
         qos = entity.qos

@@ -16,6 +16,8 @@ from scaffold.model.rclpy.attributes import (
     defined_by,
     given_from_outside,
     is_read_in_full,
+    is_unused,
+    is_used_elsewhere,
     names_of_bases,
     used_by_classes,
 )
@@ -35,6 +37,7 @@ from scaffold.model.rclpy.entities import (
     RclpyCall,
     Service,
     Subscription,
+    Synchronizer,
     Timer,
 )
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_paths
@@ -87,6 +90,7 @@ __all__ = [
     "RclpyFile",
     "Service",
     "Subscription",
+    "Synchronizer",
     "Timer",
     "callback_arguments",
     "called_function",
@@ -101,6 +105,8 @@ __all__ = [
     "is_of_node",
     "is_of_rclpy",
     "is_read_in_full",
+    "is_unused",
+    "is_used_elsewhere",
     "known_names",
     "log_calls",
     "message_made",

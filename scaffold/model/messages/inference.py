@@ -16,7 +16,13 @@ from scaffold.model.package import Package
 from scaffold.model.python.attributes import Store
 from scaffold.model.python.scopes import Binding
 from scaffold.model.rclpy.api import PARAMETER, class_of, future_given
-from scaffold.model.rclpy.entities import ActionServer, Endpoint, Service, Subscription
+from scaffold.model.rclpy.entities import (
+    ActionServer,
+    Callback,
+    Endpoint,
+    Service,
+    Subscription,
+)
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -289,28 +295,32 @@ class MessageTypes:
     def _parameters(self) -> Mapping[ast.AST, MessageClass | None]:
         """The parameters that rclpy passes messages to; ``None`` where callbacks disagree."""
         result: dict[ast.AST, MessageClass | None] = {}
-        for endpoint, index, part in self._passed():
-            parameter = self._callback_parameter(endpoint, index)
+        for endpoint, callback, index, part in self._passed():
+            parameter = self._callback_parameter(callback, index)
             class_ = self._class_of_endpoint(endpoint, part)
             if parameter is not None:
                 same = result.get(parameter, class_) == class_
                 result[parameter] = class_ if same else None
         return result
 
-    def _passed(self) -> Iterator[tuple[Endpoint, int, str]]:
-        """Yield endpoints with the index of a parameter and the part that it gets."""
+    def _passed(self) -> Iterator[tuple[Endpoint, Callback | None, int, str]]:
+        """Yield endpoints with a callback, the index of its parameter and the part that it gets."""
         for endpoint in self.facts.endpoints:
             if isinstance(endpoint, Subscription) and not endpoint.argument("raw"):
-                yield endpoint, 0, ""
+                yield endpoint, endpoint.callback, 0, ""
             elif isinstance(endpoint, Service):
-                yield endpoint, 0, "Request"
-                yield endpoint, 1, "Response"
+                yield endpoint, endpoint.callback, 0, "Request"
+                yield endpoint, endpoint.callback, 1, "Response"
+        for synchronizer in self.facts.synchronizers:
+            for index, given in enumerate(synchronizer.inputs or ()):
+                for callback in synchronizer.callbacks if isinstance(given, Endpoint) else ():
+                    yield given, callback, index, ""
 
     @cached_property
     def _goal_handles(self) -> Mapping[ast.AST, MessageClass | None]:
         result: dict[ast.AST, MessageClass | None] = {}
         for endpoint in self.facts.action_servers:
-            parameter = self._callback_parameter(endpoint, 0)
+            parameter = self._callback_parameter(endpoint.callback, 0)
             if parameter is not None and isinstance(endpoint, ActionServer):
                 class_ = self._class_of_endpoint(endpoint, "Goal")
                 same = result.get(parameter, class_) == class_
@@ -323,8 +333,7 @@ class MessageTypes:
         dotted = endpoint.interface.replace("/", ".")
         return self.class_named(f"{dotted}.{part}" if part else dotted)
 
-    def _callback_parameter(self, endpoint: Endpoint, index: int) -> ast.arg | None:
-        callback = endpoint.callback
+    def _callback_parameter(self, callback: Callback | None, index: int) -> ast.arg | None:
         if callback is None or callback.function is None or callback.is_partial:
             return None
         function = callback.function

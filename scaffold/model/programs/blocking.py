@@ -13,7 +13,13 @@ from scaffold.model.programs.threads import (
     names_other_executor,
     spins_elsewhere,
 )
-from scaffold.model.rclpy.entities import ActionServer, Service, Subscription, Timer
+from scaffold.model.rclpy.entities import (
+    ActionServer,
+    Service,
+    Subscription,
+    Synchronizer,
+    Timer,
+)
 from scaffold.model.rclpy.nodes import NodeClass
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -44,7 +50,7 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
 
 def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
     """Yield the functions that callbacks of timers, topics and services run, each once."""
-    yield from _run_by(file, (Timer, Subscription, Service))
+    yield from _run_by(file, (Timer, Subscription, Synchronizer, Service))
 
 
 def in_goal_callbacks(file: RclpyFile) -> Iterator[Executed]:

@@ -13,6 +13,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+    from scaffold.model.rclpy.entities import Entity
     from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeClass
 
@@ -77,6 +78,35 @@ def is_read_in_full(node: NodeClass) -> bool:
             return False
         owner = owner.base
     return True
+
+
+def is_unused(package: Package, file: RclpyFile, entity: Entity) -> bool:
+    """Tell whether nothing in the package uses what was created, after it is stored."""
+    if entity.attribute:
+        names = file.module.index.attributes(entity.attribute)
+        is_read = any(isinstance(node.ctx, ast.Load) for node in names)
+        return not is_read and not is_used_elsewhere(package, file, entity.attribute)
+    parent = file.module.parent(entity.call)
+    if entity.variable:
+        variables = file.module.index.names(entity.variable)
+        is_read = any(isinstance(name.ctx, ast.Load) for name in variables)
+        return isinstance(parent, ast.Assign) and not is_read
+    return isinstance(parent, ast.Expr)
+
+
+def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool:
+    """Tell whether other modules of the package use an attribute that a class of a file sets.
+
+    A class that sets an attribute of the same name on ``self`` uses its own.
+    """
+    for module in package.modules(mentioning=(attribute,)):
+        nodes = module.index.attributes(attribute) if module.path != file.module.path else ()
+        is_own = any(not isinstance(node.ctx, ast.Load) for node in nodes) and all(
+            isinstance(node.value, ast.Name) and node.value.id == "self" for node in nodes
+        )
+        if nodes and not is_own:
+            return True
+    return False
 
 
 @fact

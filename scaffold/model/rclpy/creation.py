@@ -19,20 +19,23 @@ from scaffold.model.rclpy.entities import (
     Parameter,
     ParameterRead,
     Publisher,
+    Qos,
     Service,
     Subscription,
+    Synchronizer,
     Timer,
 )
 from scaffold.model.rclpy.evaluator import NOTE
 from scaffold.model.rclpy.parameters.declarations import SIGNATURES as DECLARATIONS
 from scaffold.model.rclpy.parameters.declarations import Declaration
 from scaffold.model.rclpy.parameters.descriptors import descriptor_of
-from scaffold.model.rclpy.qos import qos_of
+from scaffold.model.rclpy.qos import PROFILES, qos_of
 
 if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 _QOS = ("msg_type", "topic", "qos_profile")
+_SYNCHRONIZER = ("fs", "queue_size", "slop", "allow_headerless")
 _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "create_publisher": _QOS,
     "create_lifecycle_publisher": _QOS,
@@ -47,6 +50,9 @@ _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "get_parameter_type": ("name",),
     "ActionServer": ("node", "action_type", "action_name", "execute_callback"),
     "ActionClient": ("node", "action_type", "action_name"),
+    "Subscriber": ("node", "msg_type", "topic"),
+    "TimeSynchronizer": _SYNCHRONIZER[:2],
+    "ApproximateTimeSynchronizer": _SYNCHRONIZER,
 }
 NODE_METHODS = tuple(name for name in _SIGNATURES if name.islower())
 """The methods of a node that create or read something."""
@@ -59,12 +65,19 @@ _ENDPOINTS: Mapping[str, type[Endpoint]] = {
     "create_client": Client,
     "ActionServer": ActionServer,
     "ActionClient": ActionClient,
+    "Subscriber": Subscription,
 }
-_ACTIONS = {
+_CLASSES = {
     f"rclpy.action.{module}{kind}": kind
     for kind in ("ActionServer", "ActionClient")
     for module in ("", "server.", "client.")
+} | {
+    f"message_filters.{kind}": kind
+    for kind in ("Subscriber", "TimeSynchronizer", "ApproximateTimeSynchronizer")
 }
+"""The classes whose constructors create something."""
+_DEFAULT_DEPTH = 10
+"""Of the subscriptions of ``message_filters``, which need no quality of service."""
 
 
 class Creation:
@@ -88,8 +101,8 @@ class Creation:
             is_node = self._facts.owner_of(func.value) is not None
             return func.attr if is_node or self._may_be_of_rclpy(func) else None
         for name in self._facts.module.qualified_names(call.func):
-            if name in _ACTIONS:
-                return _ACTIONS[name]
+            if name in _CLASSES:
+                return _CLASSES[name]
         return None
 
     def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
@@ -104,6 +117,12 @@ class Creation:
         evaluator = self._facts.evaluator
         if method in _ENDPOINTS:
             yield self._endpoint(created, method)
+        elif method in {"TimeSynchronizer", "ApproximateTimeSynchronizer"}:
+            yield Synchronizer(
+                created,
+                inputs=self._inputs(created.arguments.get("fs")),
+                callbacks=self._registered(call),
+            )
         elif method == "create_timer":
             period = created.arguments.get("timer_period_sec")
             value, notes = evaluator.trace(period.node if period else None)
@@ -126,20 +145,62 @@ class Creation:
         type_ = created.arguments.get(kind.type_parameter)
         name = created.arguments.get(kind.name_parameter)
         text, notes = self._facts.evaluator.trace(name.node if name else None)
-        qos = created.arguments.get("qos_profile")
+        qos = self._qos(created, method)
         made = kind(
             created,
             interface=self._facts.interface(type_.node) if type_ else None,
             name=text if isinstance(text, str) else UNKNOWN,
             from_parameters=_parameters_in(notes) if isinstance(text, str) else frozenset(),
-            qos=qos_of(self._facts.evaluator, qos.node) if qos else None,
-            callback=self._callback_argument(
-                created, "execute_callback" if kind is ActionServer else "callback"
-            ),
+            qos=qos,
+            callback=self._callback_of(created, method),
         )
         if isinstance(made, Publisher):
             made.is_lifecycle = method == "create_lifecycle_publisher"
         return made
+
+    def _qos(self, created: Created, method: str) -> Qos | None:
+        given = created.arguments.get("qos_profile")
+        if given is not None:
+            return qos_of(self._facts.evaluator, given.node)
+        if method == "Subscriber" and not created.has_unknown_arguments:
+            return Qos(created.location, None, _DEFAULT_DEPTH, *PROFILES["default"][1:])
+        return None
+
+    def _callback_of(self, created: Created, method: str) -> Callback | None:
+        if method == "Subscriber":
+            return next(iter(self._registered(created.call)), None)
+        return self._callback_argument(
+            created, "execute_callback" if method == "ActionServer" else "callback"
+        )
+
+    def _registered(self, call: ast.Call) -> list[Callback]:
+        """Return the callbacks that are registered at a message filter."""
+        result: list[Callback] = []
+        for attribute in self._facts.module.index.attributes("registerCallback"):
+            parent = self._facts.module.parent(attribute)
+            if not isinstance(parent, ast.Call) or parent.func is not attribute:
+                continue
+            if parent.args and self._facts.evaluator.single_value(attribute.value) is call:
+                callback = self._facts.callback(parent.args[0])
+                has_more = bool(len(parent.args) > 1 or parent.keywords)
+                result.append(callback._replace(is_partial=callback.is_partial or has_more))
+        return result
+
+    def _inputs(self, given: Argument | None) -> list[Entity | None] | None:
+        """Return the subscriptions that a synchronizer waits for, if their number is known."""
+        if given is None:
+            return None
+        made = self._facts.evaluator.single_value(given.node)
+        elements = self._facts.evaluator.elements(made)
+        if not elements.complete or any(item.conditional for item in elements.items):
+            return None
+        calls = [self._facts.evaluator.single_value(item.node) for item in elements.items]
+        return [
+            next(self._created_by(call, "Subscriber"), None)
+            if isinstance(call, ast.Call) and self._creating_method(call) == "Subscriber"
+            else None
+            for call in calls
+        ]
 
     def _created(self, call: ast.Call, method: str) -> Created:
         arguments: dict[str, Argument] = {}
@@ -156,7 +217,7 @@ class Creation:
                 arguments[word.arg] = self._argument(word.arg, word.value)
         attribute, variable = self.target(call)
         func = self._facts.method_of(call)
-        if func is not None and method not in _ACTIONS.values():
+        if func is not None and method not in _CLASSES.values():
             owner = self._facts.owner_of(func.value)
         else:
             owner = self._facts.owner_of(arguments["node"].node) if "node" in arguments else None

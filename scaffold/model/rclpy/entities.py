@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.values import UNKNOWN, Unknown
@@ -177,6 +177,23 @@ class Subscription(Endpoint):
     def topic(self) -> str | Unknown:
         """The topic as written."""
         return self.name
+
+
+class Synchronizer(Entity):
+    """``message_filters.TimeSynchronizer(...)``, or its approximate kind."""
+
+    def __init__(
+        self,
+        created: Created,
+        *,
+        inputs: Sequence[Entity | None] | None,
+        callbacks: Sequence[Callback],
+    ) -> None:
+        super().__init__(created)
+        self.inputs = inputs
+        """What it waits for, ``None`` for what is no known subscription; ``None`` if not known."""
+        self.callbacks = callbacks
+        """What ``registerCallback`` is called with."""
 
 
 class Service(Endpoint):

@@ -27,6 +27,7 @@ from scaffold.model.rclpy.entities import (
     RclpyCall,
     Service,
     Subscription,
+    Synchronizer,
     Timer,
 )
 from scaffold.model.rclpy.evaluator import NodeEvaluator
@@ -445,10 +446,13 @@ class RclpyFile:
     def callbacks(self) -> Sequence[tuple[Entity, Callback]]:
         """What the executor calls: callbacks of timers, subscriptions, services and actions."""
         return [
-            (entity, entity.callback)
-            for entity in self.entities
-            if isinstance(entity, Timer | Endpoint) and entity.callback is not None
+            (entity, callback) for entity in self.entities for callback in _callbacks_of(entity)
         ]
+
+    @cached_property
+    def synchronizers(self) -> Sequence[Synchronizer]:
+        """What waits for messages of several topics."""
+        return [item for item in self.entities if isinstance(item, Synchronizer)]
 
     def calls_in(self, function: FunctionNode | ast.Lambda) -> Sequence[ast.Call]:
         """Return the calls in the body of a function, except those of functions inside."""
@@ -499,6 +503,13 @@ class RclpyFile:
     def rclpy_calls(self) -> Sequence[RclpyCall]:
         """The calls that start, run or end rclpy, in the order of the text."""
         return list(rclpy_calls(self))
+
+
+def _callbacks_of(entity: Entity) -> Sequence[Callback]:
+    if isinstance(entity, Synchronizer):
+        return entity.callbacks
+    callback = entity.callback if isinstance(entity, Timer | Endpoint) else None
+    return [callback] if callback is not None else []
 
 
 def _is_lifecycle(names: frozenset[str]) -> bool:

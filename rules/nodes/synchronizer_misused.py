@@ -1,0 +1,120 @@
+"""ND104: message filters get messages with stamps, and pass them on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import Endpoint, Synchronizer, is_unused
+
+_NODE = (
+    "from message_filters import ApproximateTimeSynchronizer, Subscriber\n"
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n"
+    "from std_msgs.msg import String\n\n\n"
+    "class Viewer(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('viewer')\n"
+    "        self.image = Subscriber(self, Image, 'image')\n"
+    "        self.other = Subscriber(self, {0}, 'other')\n"
+    "        self.sync = ApproximateTimeSynchronizer([self.image, self.other], {1})\n"
+    "{2}"
+    "    def view(self, image, other):\n"
+    "        pass\n"
+)
+_REGISTER = "        self.sync.registerCallback(self.view)\n\n"
+
+
+class SynchronizerMisused(MessageRule):
+    """A message filter has no callback, or can never match the messages that it gets.
+
+    **Why.** Nothing happens, without any error: a synchronizer without ``registerCallback`` drops
+    what it matches; one with a ``slop`` or ``queue_size`` of 0 matches nothing. Messages
+    without a header have no stamp to match: they are dropped with a warning.
+
+    **Fix.** ``registerCallback(self.on_messages)``; ``allow_headerless=True``, or a type with a
+    header.
+
+    **Source.** ``message_filters/__init__.py``.
+    """
+
+    code = "ND104"
+    name = "synchronizer-misused"
+    examples = (
+        Example("matches", {"viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER)}),
+        Example(
+            "no callback",
+            {"viewer.py": _NODE.format("Image", "10, 0.1", "\n")},
+            Report(
+                "12:21",
+                "no callback is registered: the matched messages are dropped; call "
+                "registerCallback()",
+            ),
+        ),
+        Example(
+            "messages without a header",
+            {"viewer.py": _NODE.format("String", "10, 0.1", _REGISTER)},
+            Report(
+                "11:39",
+                "std_msgs/msg/String has no header, so no stamp: it is never "
+                "matched; use a type with a header, or ApproximateTimeSynchronizer "
+                "with allow_headerless=True",
+            ),
+        ),
+        Example(
+            "messages without a header, which are matched by the time they arrive",
+            {"viewer.py": _NODE.format("String", "10, 0.1, allow_headerless=True", _REGISTER)},
+        ),
+        Example(
+            "no slop",
+            {"viewer.py": _NODE.format("Image", "10, slop=0.0", _REGISTER)},
+            Report("12:84", "a slop of 0 matches nothing: the callback never runs"),
+        ),
+    )
+
+    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+        file = types.facts
+        if not file.module.mentions("message_filters") or file.module.in_tests:
+            return
+        for synchronizer in file.synchronizers:
+            if not synchronizer.callbacks and is_unused(package, file, synchronizer):
+                message = (
+                    "no callback is registered: the matched messages are dropped; "
+                    "call registerCallback()"
+                )
+                yield self.report(synchronizer, message)
+            yield from self._check_arguments(synchronizer)
+            yield from self._check_inputs(types, synchronizer)
+        for subscription in file.subscriptions:
+            is_filter = subscription.argument("node") is not None
+            if is_filter and not subscription.callback and is_unused(package, file, subscription):
+                message = (
+                    "no callback is registered, and no synchronizer gets this filter: "
+                    "its messages are dropped; call registerCallback()"
+                )
+                yield self.report(subscription, message)
+
+    def _check_arguments(self, synchronizer: Synchronizer) -> Iterator[Diagnostic]:
+        for name in ("slop", "queue_size"):
+            given = synchronizer.argument(name)
+            if given is not None and type(given.value) in {int, float} and given.value == 0:
+                yield self.report(given, f"a {name} of 0 matches nothing: the callback never runs")
+
+    def _check_inputs(
+        self, types: MessageTypes, synchronizer: Synchronizer
+    ) -> Iterator[Diagnostic]:
+        allowed = synchronizer.argument("allow_headerless")
+        if allowed is not None and allowed.value is not False:
+            return
+        for given in synchronizer.inputs or ():
+            argument = given.type_argument if isinstance(given, Endpoint) else None
+            class_ = types.class_of(argument.node) if argument else None
+            if argument is None or class_ is None or class_.allows("header"):
+                continue
+            is_exact = synchronizer.argument("slop") is None
+            happens = "AttributeError at the first message" if is_exact else "it is never matched"
+            message = (
+                f"{class_.name} has no header, so no stamp: {happens}; use a type with a header, "
+                "or ApproximateTimeSynchronizer with allow_headerless=True"
+            )
+            yield self.report(argument, message)
