@@ -8,7 +8,7 @@ from scaffold.model.python.facts import (
     imports_by_path,
     paths_importing,
 )
-from scaffold.model.python.guards import is_for_ros1, is_guarded_by, is_handled
+from scaffold.model.python.guards import conditions_on, is_for_ros1, is_guarded_by, is_handled
 from scaffold.model.python.module import Import, PythonModule
 from scaffold.model.python.returns import (
     is_generator,
@@ -31,6 +31,7 @@ __all__ = [
     "PythonModule",
     "Unknown",
     "argument_error",
+    "conditions_on",
     "exports_of",
     "imports_by_path",
     "is_for_ros1",

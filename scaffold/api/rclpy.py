@@ -62,6 +62,7 @@ from scaffold.model.rclpy.parameters.objects import (
 )
 from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
 from scaffold.model.rclpy.qos import conflict_of
+from scaffold.model.rclpy.times import clocks_of
 
 __all__ = [
     "CALLBACKS",
@@ -95,6 +96,7 @@ __all__ = [
     "callback_arguments",
     "called_function",
     "class_of",
+    "clocks_of",
     "conflict_of",
     "defined_by",
     "excess_arguments",

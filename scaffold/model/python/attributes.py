@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
 
 
+_DEEPEST = 10
+"""Names that refer to names."""
+
+
 class Store(NamedTuple):
     """One place where an attribute gets a value."""
 
@@ -161,6 +165,21 @@ class AttributeEvaluator(Evaluator):
             stored = () if is_open else [binding.value for binding in bindings]
         values = [value for value in stored if value is not None and not _is_none(value)]
         return values if None not in stored else ()
+
+    def origins(self, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
+        """Return all expressions that a value may come from, through names and attributes.
+
+        ``None`` aside; what is not known, such as an argument, is returned as it is.
+        """
+        values: Sequence[ast.expr] = ()
+        if isinstance(node, ast.IfExp):
+            values = (node.body, node.orelse)
+        elif isinstance(node, ast.Name | ast.Attribute):
+            values = self.values(node)
+        if not values or depth > _DEEPEST:
+            return (node,)
+        found = [item for value in values for item in self.origins(value, depth + 1)]
+        return list(dict.fromkeys(found))
 
     def _follow(self, node: ast.expr) -> ast.expr:
         for _ in range(10):

@@ -6,6 +6,7 @@ import ast
 
 from scaffold.model.python.module import PythonModule, last_names
 
+_LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _ALL = frozenset({"Exception", "BaseException"})
 
 
@@ -67,6 +68,31 @@ def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
             return False
         child = parent
     return False
+
+
+def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
+    """Return the conditions in its function that decide whether a node is run.
+
+    Those of branches and loops around it, what is ahead of it in ``and``, and the conditions of
+    earlier branches that leave.
+    """
+    result: list[ast.expr] = []
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.If | ast.IfExp | ast.While) and child is not parent.test:
+            result.append(parent.test)
+        if isinstance(parent, ast.BoolOp) and isinstance(child, ast.expr):
+            result += parent.values[: parent.values.index(child)]
+        if isinstance(child, ast.stmt):
+            field, number = module.index.place(child)
+            block = getattr(parent, field, None)
+            for earlier in block[:number] if isinstance(block, list) else ():
+                if isinstance(earlier, ast.If) and isinstance(earlier.body[-1], _LEAVING):
+                    result.append(earlier.test)
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            break
+        child = parent
+    return result
 
 
 def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:

@@ -1,0 +1,159 @@
+"""ND105: times that are compared are of the same clock."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.python import conditions_on, is_handled
+from scaffold.api.rclpy import RclpyFile, clocks_of
+
+_NAMES = {
+    "ROS_TIME": "the ROS clock",
+    "STEADY_TIME": "a steady clock",
+    "SYSTEM_TIME": "the system clock",
+}
+_NODE = (
+    "from rclpy.clock import ClockType\nfrom rclpy.node import Node\n"
+    "from rclpy.time import Time\n\n\n"
+    "class Driver(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('driver')\n"
+    "        self.last = {}\n\n"
+    "    def tick(self):\n"
+    "        {}now = self.get_clock().now()\n"
+    "        self.age = now - self.last\n\n"
+    "    def on_command(self, msg):\n"
+    "        self.last = self.get_clock().now()\n"
+)
+
+
+class ClocksMixed(RclpyRule):
+    """Times of different clocks are subtracted or compared.
+
+    **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` is of the
+    system clock, the clock of a node is a ROS clock, also while it shows the system's time.
+
+    **Fix.** Begin with ``self.get_clock().now()``, or with
+    ``Time(clock_type=ClockType.ROS_TIME)``.
+
+    **Source.** ``rclpy/time.py``, ``Time.__sub__``.
+    """
+
+    code = "ND105"
+    name = "clocks-mixed"
+    examples = (
+        Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
+        Example(
+            "a time of that clock",
+            {"driver.py": _NODE.format("Time(clock_type=ClockType.ROS_TIME)", "")},
+        ),
+        Example(
+            "begins with another clock",
+            {"driver.py": _NODE.format("Time()", "")},
+            Report(
+                "13:20",
+                "times of the ROS clock and of the system clock cannot be "
+                "subtracted: TypeError; use Time(clock_type=ClockType.ROS_TIME) or "
+                "the clock of the node",
+            ),
+        ),
+        Example(
+            "asks first",
+            {
+                "driver.py": _NODE.format(
+                    "Time()", "if not self.last.nanoseconds:\n            return\n        "
+                )
+            },
+        ),
+        Example(
+            "a stamp and the system clock",
+            {
+                "age.py": "from rclpy.clock import Clock\nfrom rclpy.time import Time\n\n\n"
+                "def is_old(msg, limit):\n"
+                "    stamp = Time.from_msg(msg.header.stamp)\n"
+                "    return Clock().now() - stamp > limit\n"
+            },
+            Report(
+                "7:12",
+                "times of the system clock and of the ROS clock cannot be "
+                "subtracted: TypeError; use Time(clock_type=ClockType.ROS_TIME) or "
+                "the clock of the node",
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("Time(", "Clock("):
+            return
+        for node in (*file.module.walk(ast.BinOp), *file.module.walk(ast.Compare)):
+            match node:
+                case ast.BinOp(left=left, op=ast.Sub() as operator, right=right):
+                    pass
+                case ast.Compare(left=left, ops=[operator], comparators=[right]):
+                    pass
+                case _:
+                    continue
+            pair = _mixed(file, node, left, right)
+            if pair is not None and not isinstance(operator, ast.Is | ast.IsNot | ast.In):
+                verb = "subtracted" if isinstance(node, ast.BinOp) else "compared"
+                first, second = (_NAMES.get(kind, kind) for kind in pair)
+                message = (
+                    f"times of {first} and of {second} cannot be {verb}: TypeError; "
+                    "use Time(clock_type=ClockType.ROS_TIME) or the clock of the node"
+                )
+                yield self.report(file.module.location(node), message)
+
+
+def _mixed(
+    file: RclpyFile, node: ast.AST, left: ast.expr, right: ast.expr
+) -> tuple[str, str] | None:
+    """Return the different clocks of two times, if they are sure to meet."""
+    sides = clocks_of(file, left), clocks_of(file, right)
+    pairs = [(x, y) for x in sides[0].values() for y in sides[1].values()]
+    known = [(x, y) for x, y in pairs if x and y and x != y]
+    if not known or is_handled(file.module, node, "TypeError"):
+        return None
+    if len(known) < len(pairs):
+        for side, clocks in zip((left, right), sides, strict=True):
+            if len({*clocks.values()}) > 1 and not _begins_wrong(file, node, side, clocks):
+                return None
+    return known[0]
+
+
+def _begins_wrong(
+    file: RclpyFile, node: ast.AST, side: ast.expr, clocks: Mapping[ast.expr, str | None]
+) -> bool:
+    """Return whether an attribute has its first value in an operation, whatever comes later.
+
+    It has not if a condition asks for it, or for what is set together with it.
+    """
+    if not isinstance(side, ast.Attribute):
+        return False
+    first = next(iter(clocks))
+    constructor = file.function_of(first)
+    if constructor is None or getattr(constructor, "name", "") != "__init__":
+        return False
+    setters = {file.function_of(store.node) for store in file.evaluator.stores(side.attr)} - {
+        constructor
+    }
+    function = file.function_of(node)
+    if function in setters and any(
+        store.node.lineno < getattr(node, "lineno", 0)
+        for store in file.evaluator.stores(side.attr)
+        if file.function_of(store.node) is function
+    ):
+        return False
+    together = {side.attr} | {
+        attribute.attr
+        for setter in setters
+        if setter is not None
+        for attribute in file.module.below(setter, ast.Attribute)
+        if isinstance(attribute.ctx, ast.Store)
+    }
+    return not any(
+        isinstance(part, ast.Attribute) and part.attr in together
+        for condition in conditions_on(file.module, node)
+        for part in ast.walk(condition)
+    )

@@ -1,0 +1,170 @@
+"""ND106: time steps have a fraction of a second."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile
+
+_PARTS = ("sec", "nanosec")
+_STEPS = frozenset({"dt", "delta_t", "delta_time", "time_delta", "time_step", "timestep", "d_t"})
+_WRAPPERS = frozenset({"float", "int", "abs", "max", "min", "round"})
+_NODE = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu\n\n\n"
+    "class Odometry(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('odometry')\n"
+    "        self.last = None\n"
+    "        self.create_subscription(Imu, 'imu', self.on_imu, 10)\n\n"
+    "    def on_imu(self, msg):\n"
+    "        now = msg.header.stamp\n"
+    "        if self.last is not None:\n"
+    "            dt = {}\n"
+    "            self.yaw += msg.angular_velocity.z * dt\n"
+    "        self.last = now\n"
+)
+_BOTH = "now.sec - self.last.sec + (now.nanosec - self.last.nanosec) / 1e9"
+
+
+class StepWithoutFraction(RclpyRule):
+    """A time step is computed from ``sec`` alone, or from ``nanosec`` alone.
+
+    **Why.** The step is 0 within a second, and 1 from one second to the next: what is integrated
+    stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec`` begins at 0
+    with every second: its difference is negative then.
+
+    **Fix.** ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``.
+
+    **Source.** ``builtin_interfaces/msg/Time``.
+    """
+
+    code = "ND106"
+    name = "step-without-fraction"
+    examples = (
+        Example("both parts", {"odometry.py": _NODE.format(_BOTH)}),
+        Example(
+            "whole seconds",
+            {"odometry.py": _NODE.format("float(now.sec - self.last.sec)")},
+            Report(
+                "14:24",
+                "time step from 'sec' alone: it is 0 or 1, whatever the time "
+                "between; use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / "
+                "1e9",
+            ),
+        ),
+        Example(
+            "nanoseconds",
+            {"odometry.py": _NODE.format("(now.nanosec - self.last.nanosec) * 1e-9")},
+            Report(
+                "14:19",
+                "time step from 'nanosec' alone: it is negative whenever a second "
+                "ends; use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
+            ),
+        ),
+        Example(
+            "seconds to wait",
+            {
+                "odometry.py": _NODE.format(
+                    "1.0\n            if now.sec - self.last.sec > 5:\n                return"
+                )
+            },
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions(".sec", "seconds_nanoseconds", ".nanosec"):
+            return
+        for node in file.module.walk(ast.BinOp):
+            if not isinstance(node.op, ast.Sub):
+                continue
+            for part in _PARTS:
+                if not (_is_part(file, node.left, part) and _is_part(file, node.right, part)):
+                    continue
+                if _has_other_part(file, node, part) or not _is_step(file, node):
+                    continue
+                happens = (
+                    "it is 0 or 1, whatever the time between"
+                    if part == "sec"
+                    else "it is negative whenever a second ends"
+                )
+                message = (
+                    f"time step from {part!r} alone: {happens}; use "
+                    "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9"
+                )
+                yield self.report(file.module.location(node), message)
+
+
+def _is_part(file: RclpyFile, node: ast.expr, part: str) -> bool:
+    """Return whether an expression is one part of a time, wherever that comes from."""
+    found = [_is_plain_part(file, origin, part) for origin in _origins(file, node)]
+    return bool(found) and all(x is not False for x in found) and True in found
+
+
+def _origins(file: RclpyFile, node: ast.expr) -> Sequence[ast.expr]:
+    match node:
+        case ast.Call(func=ast.Name(id=name), args=[inner]) if name in _WRAPPERS:
+            return _origins(file, inner)
+        case ast.Attribute(attr="sec" | "nanosec"):
+            return [node]
+    found = file.evaluator.origins(node)
+    return found if len(found) != 1 or found[0] is node else _origins(file, found[0])
+
+
+def _is_plain_part(file: RclpyFile, node: ast.expr, part: str) -> bool | None:
+    """Return whether an expression is one part of a time; ``None`` for a start value."""
+    match node:
+        case ast.Call(func=ast.Name(id=name), args=[inner]) if name in _WRAPPERS:
+            return _is_plain_part(file, inner, part)
+        case ast.Attribute(attr=attribute):
+            return attribute == part
+        case ast.Subscript(
+            value=ast.Call(func=ast.Attribute(attr="seconds_nanoseconds")),
+            slice=ast.Constant(value=int(number)),
+        ) if number in {0, 1}:
+            return _PARTS[number] == part
+        case ast.Constant(value=int() | float()):
+            return None
+    return False
+
+
+def _has_other_part(file: RclpyFile, node: ast.AST, part: str) -> bool:
+    """Return whether the function uses the other part of a time as well."""
+    function = file.function_of(node) or file.module.tree
+    other = _PARTS[1 - _PARTS.index(part)]
+    return any(
+        attribute.attr in {other, "nanoseconds"}
+        for attribute in file.module.below(function, ast.Attribute)
+    )
+
+
+def _is_step(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether a difference is used as a factor, as a divisor, or called a step."""
+    parent = file.module.parent(node)
+    match parent:
+        case ast.Call(func=ast.Name(id=name)) if name in _WRAPPERS:
+            return _is_step(file, parent)
+        case ast.BinOp(op=ast.Mult() | ast.Div()):
+            return True
+        case ast.Assign(targets=[ast.Name(id=name) | ast.Attribute(attr=name) as target]):
+            return name in _STEPS or any(
+                isinstance(use.ctx, ast.Load) and _is_factor(file, use)
+                for use in _uses(file, target)
+            )
+    return False
+
+
+def _uses(file: RclpyFile, target: ast.expr) -> Sequence[ast.Name | ast.Attribute]:
+    if isinstance(target, ast.Attribute):
+        return file.module.index.attributes(target.attr)
+    name = target.id if isinstance(target, ast.Name) else ""
+    function = file.module.enclosing_function(target)
+    return [
+        x for x in file.module.index.names(name) if file.module.enclosing_function(x) is function
+    ]
+
+
+def _is_factor(file: RclpyFile, use: ast.expr) -> bool:
+    parent = file.module.parent(use)
+    return isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Mult | ast.Div)

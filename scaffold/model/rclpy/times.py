@@ -1,0 +1,84 @@
+"""The clocks that times of rclpy are of, and what is left of a time in whole seconds."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from scaffold.model.python.returns import returned
+from scaffold.model.rclpy.api import class_of
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import RclpyFile
+
+_DEFAULTS: Mapping[str, tuple[int, str]] = {
+    "rclpy.time.Time.from_msg": (1, "ROS_TIME"),
+    "rclpy.time.Time": (9, "SYSTEM_TIME"),
+    "rclpy.clock.Clock": (9, "SYSTEM_TIME"),
+    "rclpy.clock.ROSClock": (9, "ROS_TIME"),
+}
+"""Where the clock type is passed by place, if it can be, and the type without it."""
+_DEEPEST = 5
+
+
+def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.expr, str | None]:
+    """Return the clock types that a time may have, by the expressions that it may come from.
+
+    ``None`` for an expression whose clock type is not known.
+    """
+    result: dict[ast.expr, str | None] = {}
+    for origin in file.evaluator.origins(node):
+        result[origin] = _clock_of(file, origin, depth) if depth <= _DEEPEST else None
+    return result
+
+
+def _clock_of(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
+        is_span = class_of(file, node.right) == "rclpy.duration.Duration"
+        return _only(clocks_of(file, node.left, depth + 1)) if is_span else None
+    if not isinstance(node, ast.Call):
+        return None
+    made = _made(file, node)
+    if made is not None:
+        return made
+    match node:
+        case ast.Call(func=ast.Attribute(attr="now", value=clock), args=[], keywords=[]):
+            clocks = {
+                origin: _type_of_clock(file, origin) for origin in file.evaluator.origins(clock)
+            }
+            return _only(clocks)
+    function = file.callback(node.func).function
+    if isinstance(function, ast.FunctionDef) and not function.decorator_list:
+        values = [statement.value for statement in returned(function)]
+        found = [_only(clocks_of(file, x, depth + 1)) if x else None for x in values]
+        return found[0] if found and len({*found}) == 1 else None
+    return None
+
+
+def _only(clocks: Mapping[ast.expr, str | None]) -> str | None:
+    kinds = {*clocks.values()}
+    return kinds.pop() if len(kinds) == 1 else None
+
+
+def _type_of_clock(file: RclpyFile, node: ast.expr) -> str | None:
+    match node:
+        case ast.Call(func=ast.Attribute(attr="get_clock"), args=[], keywords=[]):
+            return "ROS_TIME"
+        case ast.Call():
+            return _made(file, node)
+    return None
+
+
+def _made(file: RclpyFile, call: ast.Call) -> str | None:
+    """Return the clock type of a time or a clock that is made."""
+    name = file.module.qualified_name(call.func) or ""
+    if name not in _DEFAULTS or any(word.arg is None for word in call.keywords):
+        return None
+    place, default = _DEFAULTS[name]
+    given = call.args[place : place + 1]
+    given += [word.value for word in call.keywords if word.arg == "clock_type"]
+    if not given:
+        return default
+    type_ = file.module.qualified_name(file.evaluator.single_value(given[0])) or ""
+    return type_.rpartition(".")[2] if "ClockType." in type_ else None
