@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
 from scaffold.api.messages import MessageTypes
-from scaffold.api.rclpy import Endpoint, Synchronizer, is_unused
+from scaffold.api.rclpy import Synchronizer, is_unused
 
 _NODE = (
     "from message_filters import ApproximateTimeSynchronizer, Subscriber\n"
@@ -107,7 +107,7 @@ class SynchronizerMisused(MessageRule):
         if allowed is not None and allowed.value is not False:
             return
         for given in synchronizer.inputs or ():
-            argument = given.type_argument if isinstance(given, Endpoint) else None
+            argument = given.type_argument if given is not None else None
             class_ = types.class_of(argument.node) if argument else None
             if argument is None or class_ is None or class_.allows("header"):
                 continue

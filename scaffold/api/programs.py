@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from scaffold.model.programs.blocking import (
     Executed,
+    Phases,
     Waits,
     in_callbacks,
     in_constructors,
     in_goal_callbacks,
     may_run_meanwhile,
+    phases_of,
     waits_alone,
     waits_in,
 )
@@ -39,6 +41,7 @@ __all__ = [
     "Execution",
     "KnownNode",
     "NamedEndpoint",
+    "Phases",
     "Shutdowns",
     "Waits",
     "calls_others",
@@ -55,6 +58,7 @@ __all__ = [
     "names_other_executor",
     "nodes_of",
     "one_sided",
+    "phases_of",
     "programs_of",
     "publish_calls",
     "run_of",

@@ -8,7 +8,13 @@ from scaffold.model.python.facts import (
     imports_by_path,
     paths_importing,
 )
-from scaffold.model.python.guards import conditions_on, is_for_ros1, is_guarded_by, is_handled
+from scaffold.model.python.guards import (
+    caught_around,
+    conditions_on,
+    is_for_ros1,
+    is_guarded_by,
+    is_handled,
+)
 from scaffold.model.python.module import Import, PythonModule
 from scaffold.model.python.returns import (
     is_generator,
@@ -31,6 +37,7 @@ __all__ = [
     "PythonModule",
     "Unknown",
     "argument_error",
+    "caught_around",
     "conditions_on",
     "exports_of",
     "imports_by_path",

@@ -63,6 +63,13 @@ from scaffold.model.rclpy.parameters.objects import (
 from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
 from scaffold.model.rclpy.qos import conflict_of
 from scaffold.model.rclpy.times import clocks_of
+from scaffold.model.rclpy.transforms import (
+    Lookup,
+    buffer_made,
+    buffers_in,
+    is_spun_by_listener,
+    lookups_in,
+)
 
 __all__ = [
     "CALLBACKS",
@@ -81,6 +88,7 @@ __all__ = [
     "Endpoint",
     "Entity",
     "Excess",
+    "Lookup",
     "NodeClass",
     "NodeDefinition",
     "Parameter",
@@ -93,6 +101,8 @@ __all__ = [
     "Subscription",
     "Synchronizer",
     "Timer",
+    "buffer_made",
+    "buffers_in",
     "callback_arguments",
     "called_function",
     "class_of",
@@ -107,10 +117,12 @@ __all__ = [
     "is_of_node",
     "is_of_rclpy",
     "is_read_in_full",
+    "is_spun_by_listener",
     "is_unused",
     "is_used_elsewhere",
     "known_names",
     "log_calls",
+    "lookups_in",
     "message_made",
     "name_asked",
     "names_compared",

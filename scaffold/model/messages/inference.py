@@ -313,8 +313,8 @@ class MessageTypes:
                 yield endpoint, endpoint.callback, 1, "Response"
         for synchronizer in self.facts.synchronizers:
             for index, given in enumerate(synchronizer.inputs or ()):
-                for callback in synchronizer.callbacks if isinstance(given, Endpoint) else ():
-                    yield given, callback, index, ""
+                if given is not None:
+                    yield from ((given, callback, index, "") for callback in synchronizer.callbacks)
 
     @cached_property
     def _goal_handles(self) -> Mapping[ast.AST, MessageClass | None]:

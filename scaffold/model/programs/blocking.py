@@ -84,6 +84,24 @@ def in_constructors(file: RclpyFile) -> Iterator[Executed]:
             yield Executed(reached, f"the constructor of {node.name}", None)
 
 
+class Phases(NamedTuple):
+    """The functions of a file by when they are run; what both run is in both."""
+
+    constructing: frozenset[ast.AST]
+    """Run while nodes are made."""
+    running: frozenset[ast.AST]
+    """Run by callbacks."""
+
+
+def phases_of(file: RclpyFile) -> Phases:
+    """Return which functions constructors of nodes run, and which callbacks run."""
+    callbacks = (*in_callbacks(file), *in_goal_callbacks(file))
+    return Phases(
+        frozenset(executed.function for executed in in_constructors(file)),
+        frozenset(executed.function for executed in callbacks),
+    )
+
+
 _BLOCKED = "is blocked in this call"
 
 

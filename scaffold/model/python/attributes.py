@@ -107,6 +107,8 @@ class AttributeEvaluator(Evaluator):
         for store in stores:
             if store.class_ is not None and store.class_ not in family:
                 continue
+            if isinstance(store.node.value, ast.Attribute) and store.node.value.attr == "header":
+                continue  # of a message: `image.header.stamp`
             if store.class_ is None or store.value is None or self._is_only_default(store.node):
                 return None
             values.append(store.value)

@@ -70,6 +70,24 @@ def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:
     return False
 
 
+def caught_around(module: PythonModule, node: ast.AST) -> frozenset[str]:
+    """Return the last parts of the names of what is caught around a node in its function."""
+    result: set[str] = set()
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
+            for handler in parent.handlers:
+                result |= last_names(handler.type) if handler.type else _ALL
+        if isinstance(parent, ast.With):
+            for item in parent.items:
+                if "suppress" in last_names(item.context_expr):
+                    result |= last_names(item.context_expr)
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            break
+        child = parent
+    return frozenset(result)
+
+
 def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
     """Return the conditions in its function that decide whether a node is run.
 

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from scaffold.model.rclpy.file import RclpyFile
 
 _QOS = ("msg_type", "topic", "qos_profile")
-_SYNCHRONIZER = ("fs", "queue_size", "slop", "allow_headerless")
 _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "create_publisher": _QOS,
     "create_lifecycle_publisher": _QOS,
@@ -50,10 +49,14 @@ _SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "get_parameter_type": ("name",),
     "ActionServer": ("node", "action_type", "action_name", "execute_callback"),
     "ActionClient": ("node", "action_type", "action_name"),
+}
+_SYNCHRONIZER = ("fs", "queue_size", "slop", "allow_headerless")
+_FILTERS: Mapping[str, tuple[str, ...]] = {
     "Subscriber": ("node", "msg_type", "topic"),
     "TimeSynchronizer": _SYNCHRONIZER[:2],
     "ApproximateTimeSynchronizer": _SYNCHRONIZER,
 }
+"""The classes of ``message_filters``."""
 NODE_METHODS = tuple(name for name in _SIGNATURES if name.islower())
 """The methods of a node that create or read something."""
 _READS = frozenset({"get_parameter", "get_parameter_or", "has_parameter", "get_parameter_type"})
@@ -71,10 +74,7 @@ _CLASSES = {
     f"rclpy.action.{module}{kind}": kind
     for kind in ("ActionServer", "ActionClient")
     for module in ("", "server.", "client.")
-} | {
-    f"message_filters.{kind}": kind
-    for kind in ("Subscriber", "TimeSynchronizer", "ApproximateTimeSynchronizer")
-}
+} | {f"message_filters.{kind}": kind for kind in _FILTERS}
 """The classes whose constructors create something."""
 _DEFAULT_DEPTH = 10
 """Of the subscriptions of ``message_filters``, which need no quality of service."""
@@ -186,7 +186,7 @@ class Creation:
                 result.append(callback._replace(is_partial=callback.is_partial or has_more))
         return result
 
-    def _inputs(self, given: Argument | None) -> list[Entity | None] | None:
+    def _inputs(self, given: Argument | None) -> list[Endpoint | None] | None:
         """Return the subscriptions that a synchronizer waits for, if their number is known."""
         if given is None:
             return None
@@ -196,7 +196,7 @@ class Creation:
             return None
         calls = [self._facts.evaluator.single_value(item.node) for item in elements.items]
         return [
-            next(self._created_by(call, "Subscriber"), None)
+            self._endpoint(self._created(call, "Subscriber"), "Subscriber")
             if isinstance(call, ast.Call) and self._creating_method(call) == "Subscriber"
             else None
             for call in calls
@@ -205,7 +205,9 @@ class Creation:
     def _created(self, call: ast.Call, method: str) -> Created:
         arguments: dict[str, Argument] = {}
         unknown = False
-        for parameter, arg in zip(_SIGNATURES[method], call.args, strict=False):
+        for parameter, arg in zip(
+            _SIGNATURES.get(method) or _FILTERS[method], call.args, strict=False
+        ):
             if isinstance(arg, ast.Starred):
                 unknown = True
                 break

@@ -186,7 +186,7 @@ class Synchronizer(Entity):
         self,
         created: Created,
         *,
-        inputs: Sequence[Entity | None] | None,
+        inputs: Sequence[Endpoint | None] | None,
         callbacks: Sequence[Callback],
     ) -> None:
         super().__init__(created)

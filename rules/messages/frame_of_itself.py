@@ -1,0 +1,161 @@
+"""MS013: a transform is between two frames."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, lookups_in
+
+_NODE = (
+    "from geometry_msgs.msg import TransformStamped\nfrom rclpy.node import Node\n"
+    "from tf2_ros import TransformBroadcaster\n\n\n"
+    "class Odometry(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('odometry')\n"
+    "        self.frame = 'odom'\n"
+    "        self.broadcaster = TransformBroadcaster(self)\n\n"
+    "    def send(self, odom):\n"
+    "        transform = TransformStamped()\n"
+    "        transform.header = odom.header\n"
+    "        transform.header.frame_id = {}\n"
+    "        transform.child_frame_id = {}\n"
+    "        self.broadcaster.sendTransform(transform)\n"
+)
+
+
+class FrameOfItself(RclpyRule):
+    """A transform leads from a frame to the same frame, or is looked up between one frame.
+
+    **Why.** tf2 ignores it: ``TF_SELF_TRANSFORM: Ignoring transform ... with frame_id and
+    child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever
+    moves.
+
+    **Fix.** Name the frame that moves as the child: ``child_frame_id = 'base_link'``.
+
+    **Source.** ``tf2/src/buffer_core.cpp``, ``setTransformImpl``.
+    """
+
+    code = "MS013"
+    name = "frame-of-itself"
+    examples = (
+        Example("two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}),
+        Example(
+            "the same name",
+            {"odometry.py": _NODE.format("self.frame", "'odom'")},
+            Report("16:36", "the child frame is the parent frame: tf2 ignores the transform"),
+        ),
+        Example(
+            "the frame of a header",
+            {
+                "odometry.py": _NODE.format("'odom'", "odom.header.frame_id").replace(
+                    "        transform.header.frame_id = 'odom'\n", ""
+                )
+            },
+            Report("15:36", "the child frame is the parent frame: tf2 ignores the transform"),
+        ),
+        Example(
+            "the child of the same message",
+            {
+                "odometry.py": _NODE.format("'odom'", "odom.child_frame_id").replace(
+                    "        transform.header.frame_id = 'odom'\n", ""
+                )
+            },
+        ),
+        Example(
+            "a lookup",
+            {
+                "follower.py": "from rclpy.time import Time\nimport rclpy\nimport tf2_ros\n\n\n"
+                "def place(buffer):\n"
+                "    return buffer.lookup_transform('map', 'map', Time())\n"
+            },
+            Report("7:43", "both frames are the same: the transform is always the identity"),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if file.module.in_tests:
+            return
+        for child, parent in (*_stored_frames(file), *_given_frames(file)):
+            if _are_same(file, child, parent):
+                message = "the child frame is the parent frame: tf2 ignores the transform"
+                yield self.report(file.module.location(child), message)
+        for lookup in lookups_in(file):
+            target, source = map(lookup.arguments.get, ("target_frame", "source_frame"))
+            if target is not None and source is not None and _are_same(file, source, target):
+                message = "both frames are the same: the transform is always the identity"
+                yield self.report(file.module.location(source), message)
+
+
+def _stored_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield what is assigned to ``child_frame_id``, with the frame of the header there."""
+    for store in file.evaluator.stores("child_frame_id"):
+        parent = _parent_frame(file, store.node)
+        if store.value is not None and parent is not None:
+            yield store.value, parent
+
+
+def _given_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield child and parent frames in calls such as ``TransformStamped(header=Header(...))``."""
+    for call in file.module.walk(ast.Call) if file.module.mentions("child_frame_id=") else ():
+        words = {word.arg: word.value for word in call.keywords}
+        child, header = words.get("child_frame_id"), words.get("header")
+        for word in header.keywords if isinstance(header, ast.Call) else ():
+            if word.arg == "frame_id" and child is not None:
+                yield child, word.value
+
+
+def _parent_frame(file: RclpyFile, child: ast.Attribute) -> ast.expr | None:
+    """Return what the frame in the header of a message is, which has a child frame, too."""
+    holder = file.module.text(child.value)
+    frame = _last_stored(file, child, f"{holder}.header.frame_id")
+    if frame is not None:
+        return frame
+    header = _last_stored(file, child, f"{holder}.header")
+    if isinstance(header, ast.Name | ast.Attribute):
+        return ast.parse(f"{ast.unparse(header)}.frame_id", mode="eval").body
+    return None
+
+
+def _last_stored(file: RclpyFile, at: ast.AST, path: str) -> ast.expr | None:
+    """Return what is assigned to an attribute in the same block, if that is done once."""
+    found: list[ast.expr] = []
+    block = file.module.parent(file.module.parent(at) or at)
+    for store in file.evaluator.stores(path.rpartition(".")[2]):
+        if file.function_of(store.node) is not file.function_of(at):
+            continue
+        if file.module.text(store.node) != path:
+            continue
+        if store.value is None or file.module.parent(file.module.parent(store.node) or at) != block:
+            return None
+        found.append(store.value)
+    return found[0] if len(found) == 1 else None
+
+
+def _are_same(file: RclpyFile, child: ast.expr, parent: ast.expr) -> bool:
+    return _value(file, child, child) == _value(file, child, parent)
+
+
+def _value(file: RclpyFile, at: ast.AST, node: ast.expr) -> str:
+    """Return what identifies the value of an expression: its text, or what it is worth."""
+    text, notes = file.evaluator.trace(node) if hasattr(node, "lineno") else (None, None)
+    if isinstance(text, str) and not notes:
+        return repr(text.lstrip("/"))
+    words = ast.unparse(node)
+    if isinstance(node, ast.Attribute) and words.endswith((".frame_id", ".child_frame_id")):
+        stored = _last_stored(file, at, words)
+        if stored is not None and ast.unparse(stored) != words:
+            return _value(file, at, stored)
+    if isinstance(node, ast.Name | ast.Attribute) and hasattr(node, "lineno"):
+        return _origin(file, node)
+    return words
+
+
+def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
+    """Return where the value of a name comes from; of one that changes, its place."""
+    if isinstance(node, ast.Name):
+        bound = file.module.index.lookup(node.id, node)
+        if bound is not None and len(bound[1]) > 1:
+            return f"{node.id} in line {node.lineno}, column {node.col_offset}"
+    return ast.unparse(file.evaluator.single_value(node))

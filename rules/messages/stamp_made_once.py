@@ -1,0 +1,206 @@
+"""MS012: stamps are made when messages are."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.programs import Phases, phases_of
+from scaffold.api.rclpy import RclpyFile
+
+_NODE = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
+    "class Sensor(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('sensor')\n"
+    "        self.publisher = self.create_publisher(Temperature, 'temperature', {})\n"
+    "        self.stamp = self.get_clock().now().to_msg()\n"
+    "        self.reading = Temperature()\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        self.reading.header.stamp = {}\n"
+    "        self.publisher.publish(self.reading)\n"
+)
+
+
+class StampMadeOnce(RclpyRule):
+    """A callback stamps its messages with a time that only the constructor reads.
+
+    **Why.** All messages have the time when the node was started: tf2 has no transforms for them
+    any more, ``message_filters`` matches them with nothing, RViz drops them.
+
+    **Fix.** ``msg.header.stamp = self.get_clock().now().to_msg()`` where the message is made.
+
+    **Source.** ``std_msgs/msg/Header``.
+    """
+
+    code = "MS012"
+    name = "stamp-made-once"
+    other_severities = {Severity.WARNING: "a message that is made once is sent again"}
+    examples = (
+        Example(
+            "the time of the message",
+            {"sensor.py": _NODE.format("10", "self.get_clock().now().to_msg()")},
+        ),
+        Example(
+            "the time of the start",
+            {"sensor.py": _NODE.format("10", "self.stamp")},
+            Report(
+                "14:37",
+                "self.stamp is made in the constructor alone: all messages have the "
+                "time of the start; use self.get_clock().now().to_msg()",
+            ),
+        ),
+        Example(
+            "renewed",
+            {
+                "sensor.py": _NODE.format("10", "self.stamp")
+                + "        self.stamp = self.get_clock().now().to_msg()\n"
+            },
+        ),
+        Example(
+            "a message that is made and stamped once",
+            {
+                "sensor.py": _NODE.format("10", "self.stamp")
+                .replace("        self.reading.header.stamp = self.stamp\n", "")
+                .replace(
+                    "= Temperature()",
+                    "= Temperature()\n        self.reading.header.stamp = self.stamp",
+                )
+            },
+            Report(
+                "11:9",
+                "this stamp is never renewed: all messages have the time of the "
+                "start; set header.stamp where the message is published",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "for who comes late",
+            {
+                "sensor.py": "from rclpy.qos import QoSProfile\n"
+                + _NODE.format("QoSProfile(depth=1, durability='TRANSIENT_LOCAL')", "self.stamp")
+            },
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        stamps = [
+            *file.evaluator.stores("stamp"),
+            *file.evaluator.stores("header"),
+        ]
+        if not stamps or file.module.in_tests or file.module.mentions(*_STATIC):
+            return
+        phases = phases_of(file)
+        for store in stamps:
+            function = file.function_of(store.node)
+            if store.value is None or function is None:
+                continue
+            if function in phases.running and _is_made_once(file, phases, store.value):
+                what = file.module.text(store.value)
+                message = (
+                    f"{what} is made in the constructor alone: all messages have the time of "
+                    "the start; use self.get_clock().now().to_msg()"
+                )
+                yield self.report(file.module.location(store.value), message)
+            elif _is_time(file, store.value) and _is_sent_again(file, phases, store.node):
+                message = (
+                    "this stamp is never renewed: all messages have the time of the start; "
+                    "set header.stamp where the message is published"
+                )
+                at = file.module.location(store.node)
+                yield self.report(at, message, severity=Severity.WARNING)
+
+
+_STATIC = ("StaticTransformBroadcaster", "TRANSIENT_LOCAL", "TransientLocal", "transient_local")
+"""What is published once for who comes late keeps its stamp."""
+
+
+def _is_time(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether an expression is the time at which it is evaluated."""
+    origins = file.evaluator.origins(node)
+    for origin in origins:
+        match origin:
+            case ast.Call(func=ast.Attribute(attr="to_msg", value=inner)):
+                if not any(_is_now(x) for x in file.evaluator.origins(inner)):
+                    return False
+            case _:
+                return False
+    return bool(origins)
+
+
+def _is_now(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".now")
+
+
+def _is_made_once(file: RclpyFile, phases: Phases, node: ast.expr) -> bool:
+    """Return whether a stamp or a header is an attribute that only constructors set."""
+    if not isinstance(node, ast.Attribute) or file.evaluator.self_class(node.value) is None:
+        return False
+    if not _set_in_constructor(file, phases, node.attr):
+        return False
+    values = file.evaluator.values(node)
+    return bool(values) and all(_is_time(file, x) or _is_stamped(file, x) for x in values)
+
+
+def _is_stamped(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether it is a header that is made with the time, and never changed."""
+    if not isinstance(node, ast.Call) or file.module.qualified_name(node.func) != _HEADER:
+        return False
+    if _later(file, node):
+        return False
+    return any(word.arg == "stamp" and _is_time(file, word.value) for word in node.keywords)
+
+
+_HEADER = "std_msgs.msg.Header"
+
+
+def _later(file: RclpyFile, made: ast.Call) -> Sequence[ast.Attribute]:
+    """Return where the stamp of an attribute of ``self`` is set."""
+    parent = file.module.parent(made)
+    target = parent.targets[0] if isinstance(parent, ast.Assign) else None
+    if not isinstance(target, ast.Attribute):
+        return []
+    text = file.module.text(target)
+    return [
+        store.node
+        for store in file.evaluator.stores("stamp")
+        if file.module.text(store.node.value) == text
+    ]
+
+
+def _set_in_constructor(file: RclpyFile, phases: Phases, attribute: str) -> bool:
+    functions = {
+        file.function_of(store.node)
+        for store in file.evaluator.stores(attribute)
+        if store.class_ is not None
+    }
+    return bool(functions) and functions <= phases.constructing - phases.running
+
+
+def _is_sent_again(file: RclpyFile, phases: Phases, target: ast.Attribute) -> bool:
+    """Return whether callbacks publish a message with this stamp, and nothing else renews it."""
+    match target.value:
+        case ast.Attribute(attr="header", value=ast.Attribute(value=ast.Name("self")) as message):
+            pass
+        case _:
+            return False
+    if not _set_in_constructor(file, phases, message.attr):
+        return False
+    if file.function_of(target) not in phases.constructing:
+        return False
+    sent = False
+    for use in file.module.index.attributes(message.attr):
+        function = file.function_of(use)
+        parent = file.module.parent(use)
+        if function in phases.constructing - phases.running:
+            continue
+        match parent:
+            case ast.Call(func=ast.Attribute(attr="publish"), args=[given]) if given is use:
+                sent = sent or function in phases.running
+            case ast.Attribute(attr=name) if name not in {"header", "stamp"}:
+                continue
+            case _:
+                return False
+    return sent

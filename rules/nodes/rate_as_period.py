@@ -1,0 +1,192 @@
+"""ND108: periods are given in seconds."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.rclpy import RclpyFile
+
+_RATES = frozenset({"rate", "frequency", "freq", "hz", "fps"})
+_CLEAR = _RATES - {"rate"}
+_PERIODS = frozenset({"period", "interval"})
+_MILLISECONDS = frozenset({"ms", "msec", "msecs", "millis", "milliseconds", "millisec"})
+_LONG = 100
+"""Whole seconds that nobody waits between two calls of a timer; they are milliseconds."""
+_SECONDS: Mapping[str, tuple[int, str]] = {
+    "create_timer": (0, "timer_period_sec"),
+    "Duration": (9, "seconds"),
+    "sleep": (0, "secs"),
+    "wait_for_service": (0, "timeout_sec"),
+    "wait_for_server": (0, "timeout_sec"),
+    "spin_once": (9, "timeout_sec"),
+    "spin_until_future_complete": (9, "timeout_sec"),
+}
+"""Where functions take seconds: at which place, and by which name."""
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        rate = self.declare_parameter('rate', 20.0).value\n"
+    "        self.timer_ms = 50\n"
+    "        self.timer = self.create_timer({}, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class RateAsPeriod(RclpyRule):
+    """A rate or a number of milliseconds is given where a period in seconds is expected.
+
+    **Why.** A timer with a "period" of 20 Hz fires once in 20 seconds; one of 100 milliseconds
+    every 100 seconds.
+
+    **Fix.** ``self.create_timer(1.0 / rate, ...)``; ``self.create_timer(0.1, ...)``.
+
+    **Source.** ``rclpy/node.py``, ``create_timer(timer_period_sec, ...)``.
+    """
+
+    code = "ND108"
+    name = "rate-as-period"
+    other_severities = {Severity.WARNING: "the name may be that of a period after all"}
+    examples = (
+        Example("a period", {"talker.py": _NODE.format("1.0 / rate")}),
+        Example(
+            "a rate",
+            {"talker.py": _NODE.format("rate")},
+            Report(
+                "9:40",
+                "a rate of 20 Hz where the period belongs: one call in 20 s; write 1.0 / rate",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "milliseconds",
+            {"talker.py": _NODE.format("self.timer_ms")},
+            Report("9:40", "milliseconds where seconds are expected; divide by 1000"),
+        ),
+        Example("in seconds", {"talker.py": _NODE.format("self.timer_ms / 1000")}),
+        Example(
+            "a number of milliseconds",
+            {"talker.py": _NODE.format("500")},
+            Report(
+                "9:40",
+                "the period is 500 seconds; write 0.5 for 500 milliseconds",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a period that is called a rate",
+            {"talker.py": _NODE.format("rate").replace("'rate', 20.0", "'rate', 0.05")},
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
+            name = call.func.id if isinstance(call.func, ast.Name) else name
+            if name == "create_rate":
+                yield from self._check_rate(file, call)
+            given = _seconds(file, call, name) if name in _SECONDS else None
+            if given is None:
+                continue
+            at = file.module.location(given)
+            words = _words(file, given)
+            value = file.evaluator.evaluate(given)
+            number = (
+                value if type(value) in {int, float} and isinstance(value, int | float) else None
+            )
+            if words & _MILLISECONDS:
+                message = "milliseconds where seconds are expected; divide by 1000"
+                if number is None or number >= 1:
+                    yield self.report(at, message)
+            elif words & _RATES and name == "create_timer" and not words & _PERIODS:
+                yield from self._check_period(file, given, words, number)
+            elif name == "create_timer" and number is not None and _is_milliseconds(number):
+                message = (
+                    f"the period is {number} seconds; write {number / 1000:g} for "
+                    f"{number} milliseconds"
+                )
+                yield self.report(at, message, severity=Severity.WARNING)
+
+    def _check_period(
+        self, file: RclpyFile, given: ast.expr, words: frozenset[str], number: float | None
+    ) -> Iterator[Diagnostic]:
+        is_clear = not words.isdisjoint(_CLEAR)
+        if number is None and not is_clear:
+            return
+        if number is not None and (number <= 1 or (not is_clear and number < _LEAST_RATE)):
+            return
+        what = "a rate" if number is None else f"a rate of {number:g} Hz"
+        happens = "one call in as many seconds" if number is None else f"one call in {number:g} s"
+        message = f"{what} where the period belongs: {happens}; write 1.0 / rate"
+        severity = None if is_clear and number is not None else Severity.WARNING
+        yield self.report(file.module.location(given), message, severity=severity)
+
+    def _check_rate(self, file: RclpyFile, call: ast.Call) -> Iterator[Diagnostic]:
+        given = _argument(call, 0, "frequency")
+        if given is not None and _words(file, given) & _PERIODS:
+            message = "a period where the rate belongs; write 1.0 / period"
+            yield self.report(file.module.location(given), message)
+
+
+_LEAST_RATE = 1.5
+"""Of what is called a rate: below it may be seconds."""
+
+
+def _is_milliseconds(number: float) -> bool:
+    """Return whether a number is one that people write for milliseconds, not for minutes."""
+    return number >= _LONG and number % 10 == 0 and number % 60 != 0
+
+
+def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
+    for word in call.keywords:
+        if word.arg == name:
+            return word.value
+    given = call.args[place] if len(call.args) > place else None
+    return None if isinstance(given, ast.Starred) else given
+
+
+def _seconds(file: RclpyFile, call: ast.Call, name: str) -> ast.expr | None:
+    """Return the argument of a function that takes seconds."""
+    place, word = _SECONDS[name]
+    if name == "sleep" and file.module.qualified_name(call.func) != "time.sleep":
+        return None
+    if name == "Duration" and file.module.qualified_name(call.func) != "rclpy.duration.Duration":
+        return None
+    return _argument(call, place, word)
+
+
+def _words(file: RclpyFile, node: ast.expr) -> frozenset[str]:
+    """Return the words in the names that a value goes by, up to where it is computed."""
+    words: set[str] = set()
+    for _ in range(10):
+        match node:
+            case ast.Name(id=name) | ast.Attribute(attr=name) if name != "value":
+                words.update(re.split(r"[_\d]+", re.sub(r"([a-z])([A-Z])", r"\1_\2", name).lower()))
+            case ast.Attribute(value=ast.Call() as call):
+                node = call
+                continue
+            case ast.Call(func=ast.Name(id="float" | "int"), args=[inner]):
+                node = inner
+                continue
+            case ast.Call(func=ast.Attribute(attr=method, value=inner), args=args):
+                if method == "get_parameter_value":
+                    node = inner
+                    continue
+                text = file.evaluator.text(args[0]) if args else ""
+                if method in {"get_parameter", "declare_parameter"} and isinstance(text, str):
+                    words.update(re.split(r"[^a-z]+", text.lower()))
+                return frozenset(words)
+            case ast.BinOp() | ast.IfExp() | ast.BoolOp():
+                return frozenset()
+            case _:
+                return frozenset(words)
+        value = file.evaluator.single_value(node)
+        if value is node:
+            return frozenset(words)
+        node = value
+    return frozenset(words)

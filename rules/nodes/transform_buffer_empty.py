@@ -1,0 +1,117 @@
+"""ND112: buffers of tf2 are filled before something is looked up in them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api.programs import in_constructors, spins_elsewhere
+from scaffold.api.python import caught_around
+from scaffold.api.rclpy import (
+    RclpyFile,
+    buffers_in,
+    is_spun_by_listener,
+    is_used_elsewhere,
+    lookups_in,
+)
+
+_ASKING = ("lookup_transform", "can_transform", "transform", "wait_for_transform")
+_NODE = (
+    "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+    "from tf2_ros import Buffer, TransformListener\n\n\n"
+    "class Follower(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('follower')\n"
+    "        self.buffer = Buffer()\n"
+    "{}\n"
+    "    def tick(self):\n"
+    "        self.buffer.lookup_transform('map', 'base_link', Time())\n"
+)
+_LISTEN = "        self.listener = TransformListener(self.buffer, self)\n"
+
+
+class TransformBufferEmpty(RclpyRule):
+    """Transforms are looked up in a buffer that nothing fills, or before anything can.
+
+    **Why.** ``LookupException: "map" passed to lookupTransform argument target_frame does not
+    exist``, every time: a ``Buffer`` gets transforms from a ``TransformListener`` alone, and that
+    one only while the node is spun, which is after the constructor.
+
+    **Fix.** ``self.listener = TransformListener(self.buffer, self)``; look transforms up in
+    callbacks.
+
+    **Source.** ``tf2_ros/transform_listener.py``.
+    """
+
+    code = "ND112"
+    name = "transform-buffer-empty"
+    examples = (
+        Example("a listener", {"follower.py": _NODE.format(_LISTEN)}),
+        Example(
+            "no listener",
+            {"follower.py": _NODE.format("")},
+            Report(
+                "9:23",
+                "no TransformListener fills this buffer: every lookup fails; add "
+                "TransformListener(buffer, node)",
+            ),
+        ),
+        Example(
+            "asked in the constructor",
+            {"follower.py": _NODE.format(_LISTEN + "        self.tick()\n")},
+            Report(
+                "14:9",
+                "lookup_transform() in the constructor of Follower: no transform is "
+                "received before the node is spun; look it up in a callback",
+            ),
+        ),
+        Example(
+            "given to another", {"follower.py": _NODE.format("        self.fill(self.buffer)\n")}
+        ),
+    )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("tf2_ros") or file.module.in_tests:
+            return
+        for made in buffers_in(file):
+            if _is_only_asked(package, file, made):
+                message = (
+                    "no TransformListener fills this buffer: every lookup fails; "
+                    "add TransformListener(buffer, node)"
+                )
+                yield self.report(file.module.location(made), message)
+        if is_spun_by_listener(file) or spins_elsewhere(file):
+            return
+        functions = {executed.function: executed.origin for executed in in_constructors(file)}
+        for lookup in lookups_in(file):
+            function = file.function_of(lookup.call)
+            if function not in functions or lookup.method not in _ASKING:
+                continue
+            if any(spin.function in functions for spin in file.spin_calls):
+                continue
+            if function is None or caught_around(file.module, lookup.call):
+                continue
+            message = (
+                f"{lookup.method}() in {functions[function]}: no transform is received before the "
+                "node is spun; look it up in a callback"
+            )
+            yield self.report(file.module.location(lookup.call), message)
+
+
+def _is_only_asked(package: Package, file: RclpyFile, made: ast.Call) -> bool:
+    """Return whether something is looked up in a buffer, and nothing else is done with it."""
+    attribute, variable = file.stored_in(made)
+    uses: list[ast.expr]
+    if attribute:
+        uses = [x for x in file.module.index.attributes(attribute) if isinstance(x.ctx, ast.Load)]
+        if is_used_elsewhere(package, file, attribute):
+            return False
+    elif variable:
+        uses = [x for x in file.module.index.names(variable) if isinstance(x.ctx, ast.Load)]
+    else:
+        return False
+    parents = [file.module.parent(use) for use in uses]
+    return bool(parents) and all(
+        isinstance(parent, ast.Attribute) and parent.attr.startswith(_ASKING) for parent in parents
+    )

@@ -1,0 +1,88 @@
+"""ND111: what a buffer transforms has its conversion loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import lookups_in
+
+_MODULES = {"geometry_msgs": "tf2_geometry_msgs", "sensor_msgs": "tf2_sensor_msgs"}
+"""The modules that load the conversions for the messages of packages."""
+_KNOWN = frozenset({"tf2_kdl", "tf2_bullet", "tf2_eigen", "tf2_2d", *_MODULES.values()})
+_NODE = (
+    "from geometry_msgs.msg import PointStamped\nfrom rclpy.node import Node\n{}"
+    "from tf2_ros import Buffer, TransformListener\n\n\n"
+    "class Follower(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('follower')\n"
+    "        self.buffer = Buffer()\n"
+    "        self.listener = TransformListener(self.buffer, self)\n\n"
+    "    def follow(self, point: PointStamped):\n"
+    "        return self.buffer.transform(point, 'map')\n"
+)
+
+
+class TransformTypeNotLoaded(MessageRule):
+    """``buffer.transform()`` is called, but no module that knows how to transform is imported.
+
+    **Why.** ``TypeException: Type <class 'geometry_msgs.msg._point_stamped.PointStamped'> is not
+    loaded or supported``: conversions register themselves when their module is imported.
+
+    **Fix.** ``import tf2_geometry_msgs``, with ``# noqa: F401`` where nothing else uses it, and
+    ``<depend>tf2_geometry_msgs</depend>``.
+
+    **Source.** ``tf2_ros/buffer_interface.py``, ``TransformRegistration``.
+    """
+
+    code = "ND111"
+    name = "transform-type-not-loaded"
+    examples = (
+        Example(
+            "imported", {"follower.py": _NODE.format("import tf2_geometry_msgs  # noqa: F401\n")}
+        ),
+        Example(
+            "not imported",
+            {"follower.py": _NODE.format("")},
+            Report(
+                "13:16",
+                "tf2_geometry_msgs is not imported: buffer.transform() raises "
+                "TypeException; add `import tf2_geometry_msgs`",
+            ),
+        ),
+        Example(
+            "imported by another module",
+            {"follower.py": _NODE.format(""), "other.py": "import tf2_geometry_msgs\n"},
+        ),
+    )
+
+    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+        file = types.facts
+        for lookup in lookups_in(file):
+            if lookup.method != "transform" or "new_type" in lookup.arguments:
+                continue
+            given = lookup.arguments.get("object_stamped")
+            class_ = types.type_of(given) if given is not None else None
+            wanted = _MODULES.get(class_.name.partition("/")[0], "") if class_ else ""
+            if _is_loaded(package, wanted):
+                continue
+            module = wanted or "tf2_geometry_msgs"
+            message = (
+                f"{module} is not imported: buffer.transform() raises TypeException; "
+                f"add `import {module}`"
+            )
+            yield self.report(file.module.location(lookup.call), message)
+
+
+def _is_loaded(package: Package, wanted: str) -> bool:
+    """Return whether a module of the package imports conversions: these, or any."""
+    names = {wanted} if wanted else _KNOWN
+    return any(
+        item.root in names or "convert" in item.root or "registration" in item.module
+        for module in package.modules(mentioning=("tf2_",))
+        for item in module.imports
+    ) or any(
+        module.mentions("TransformRegistration")
+        for module in package.modules(mentioning=("TransformRegistration",))
+    )

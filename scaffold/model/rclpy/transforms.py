@@ -1,0 +1,73 @@
+"""How code uses tf2: buffers, and what is looked up in them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import RclpyFile
+
+_SIGNATURES: Mapping[str, tuple[str, ...]] = {
+    "lookup_transform": ("target_frame", "source_frame", "time", "timeout"),
+    "lookup_transform_async": ("target_frame", "source_frame", "time"),
+    "can_transform": ("target_frame", "source_frame", "time", "timeout"),
+    "transform": ("object_stamped", "target_frame", "timeout", "new_type"),
+}
+_BUFFERS = frozenset({"tf2_ros.Buffer", "tf2_ros.buffer.Buffer"})
+LISTENERS = frozenset({"tf2_ros.TransformListener", "tf2_ros.transform_listener.TransformListener"})
+
+
+class Lookup(NamedTuple):
+    """A call that asks a buffer of tf2."""
+
+    method: str
+    call: ast.Call
+    buffer: ast.expr
+    arguments: Mapping[str, ast.expr]
+    """By the names of the parameters."""
+
+
+def lookups_in(file: RclpyFile) -> Iterator[Lookup]:
+    """Yield the calls that ask a buffer of tf2, in the order of the methods."""
+    if not file.module.mentions("tf2_ros"):
+        return
+    for method, names in _SIGNATURES.items():
+        for func in file.module.index.attributes(method):
+            call = file.module.parent(func)
+            if not isinstance(call, ast.Call) or call.func is not func:
+                continue
+            if file.callback(func).function is not None or any(
+                isinstance(arg, ast.Starred) for arg in call.args
+            ):
+                continue
+            if method == "transform" and buffer_made(file, func.value) is None:
+                continue  # of many libraries
+            arguments = dict(zip(names, call.args, strict=False))
+            arguments |= {word.arg: word.value for word in call.keywords if word.arg}
+            yield Lookup(method, call, func.value, arguments)
+
+
+def buffer_made(file: RclpyFile, node: ast.expr) -> ast.Call | None:
+    """Return the call that makes the buffer of tf2 that an expression refers to."""
+    made = file.evaluator.single_value(node)
+    if isinstance(made, ast.Call) and not _BUFFERS.isdisjoint(
+        file.module.qualified_names(made.func)
+    ):
+        return made
+    return None
+
+
+def buffers_in(file: RclpyFile) -> Iterator[ast.Call]:
+    """Yield the calls that make buffers of tf2."""
+    for call in file.module.walk(ast.Call) if file.module.mentions("Buffer(") else ():
+        if not _BUFFERS.isdisjoint(file.module.qualified_names(call.func)):
+            yield call
+
+
+def is_spun_by_listener(file: RclpyFile) -> bool:
+    """Tell whether a listener of the file has a thread of its own, or may have one."""
+    return file.module.mentions("spin_thread")
