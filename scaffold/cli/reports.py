@@ -33,6 +33,17 @@ def validate(options: argparse.Namespace) -> None:
         return
     if options.diff:
         raise InputError("--diff writes a patch to standard output: leave out --output-file")
+    validate_path(path)
+
+
+def validate_path(path: str | None) -> None:
+    """Make sure that a file can be written.
+
+    Raises:
+        InputError: it cannot.
+    """
+    if path is None:
+        return
     if os.path.isdir(path):
         raise InputError(f"--output-file {path}: is a directory; name a file")
     directory = os.path.dirname(path)
@@ -64,7 +75,9 @@ def write(
     reporters.get(options.format)(results, output, shown)
     text = output.getvalue()
     if options.format == "github":
-        _add_job_summary(results)
+        from scaffold.reporters import github
+
+        add_job_summary(github.job_summary(results))
     is_noted = options.format == "text" and path is None
     for note in () if is_noted or shown.quiet else shown.notes:
         terminal.say(note)
@@ -99,16 +112,14 @@ class _Copy(StringIO):
         return self._is_terminal
 
 
-def _add_job_summary(results: Sequence[Result]) -> None:
-    """Add to the summary of a job of GitHub, if this is one."""
-    from scaffold.reporters import github
-
+def add_job_summary(text: str) -> None:
+    """Add Markdown to the summary of a job of GitHub, if this is one."""
     path = os.environ.get(JOB_SUMMARY)
     if not path:
         return
     try:
         with open(path, "a", encoding="utf-8", errors="backslashreplace") as file:
-            file.write(github.job_summary(results))
+            file.write(text)
     except OSError as error:
         terminal.warn(f"the summary of the job is not written: {path}: {error.strerror}")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TextIO
 
 from scaffold.check.result import Result
@@ -38,9 +38,20 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         }
         if at.line != at.end_line:
             del properties["col"], properties["endColumn"]  # GitHub knows them for one line only
-        words = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
         message = f"{path}:{at.line}:{at.column}: {one.code} {printable(one.message)}"
-        out.write(f"::{_COMMANDS[one.severity]} {words}::{_data(message)}\n")
+        out.write(command(_COMMANDS[one.severity], properties, message))
+
+
+def command(level: str, properties: Mapping[str, object], message: str) -> str:
+    """Return the line that makes an annotation of a workflow.
+
+    Args:
+        level: ``error``, ``warning`` or ``notice``.
+        properties: Such as ``file``, ``line`` and ``title``.
+        message: It may have several lines.
+    """
+    words = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
+    return f"::{level} {words}::{_data(message)}\n"
 
 
 def job_summary(results: Sequence[Result]) -> str:
@@ -69,7 +80,7 @@ def _table(findings: Sequence[tuple[Package, Diagnostic]]) -> Iterator[str]:
     yield "|---|---|---|---|"
     for package, one in findings:
         place = f"{in_repository(package, one.location.path)}:{one.location.line}"
-        cells = (one.severity.value, _code(place), one.code, _cell(one.message))
+        cells = (one.severity.value, code(place), one.code, cell(one.message))
         yield f"| {' | '.join(cells)} |"
 
 
@@ -85,14 +96,15 @@ def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
         yield f"| {code} | {name} | {severity.value} | {number} |"
 
 
-def _cell(text: str) -> str:
+def cell(text: str) -> str:
     """Return text for a cell of a table: nothing of it is Markdown or HTML."""
     escaped = "".join(f"\\{item}" if item in "\\`*_[]|~" else item for item in printable(text))
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
-def _code(text: str) -> str:
-    return f"`{printable(text)}`" if not {*"`|"} & {*text} else _cell(text)
+def code(text: str) -> str:
+    """Return text in the font of code for a cell of a table."""
+    return f"`{printable(text)}`" if not {*"`|"} & {*text} else cell(text)
 
 
 def _data(text: str) -> str:

@@ -18,11 +18,14 @@ _TOOL = "ros2_scaffold"
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
     """Write a suite per package; advice is not a failure, as it does not affect the exit code."""
+    suites = [_suite(result) for result in results]
+    write(suites or [suite_of(_TOOL, [case_of(_TOOL, "check", [])])], out)
+
+
+def write(suites: Sequence[ET.Element], out: TextIO) -> None:
+    """Write suites as a file of JUnit."""
     root = ET.Element("testsuites", name=_TOOL)
-    for result in results:
-        root.append(_suite(result))
-    if not results:
-        root.append(_of_cases(_TOOL, [_case(_TOOL, "check", [])]))
+    root.extend(suites)
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(int(suite.get(name, "0")) for suite in root)))
     ET.indent(root)
@@ -41,10 +44,10 @@ def _suite(result: Result) -> ET.Element:
             line
         )
     cases = [
-        _case(package, name, lines, outcome, path)
+        case_of(package, name, lines, outcome, path)
         for (name, path, outcome), lines in by_case.items()
     ]
-    return _of_cases(package, cases or [_case(package, "check", [])])
+    return suite_of(package, cases or [case_of(package, "check", [])])
 
 
 def _outcome(diagnostic: Diagnostic) -> str:
@@ -53,9 +56,10 @@ def _outcome(diagnostic: Diagnostic) -> str:
     return "system-out" if diagnostic.severity is Severity.INFO else "failure"
 
 
-def _case(
+def case_of(
     package: str, name: str, lines: Sequence[str], outcome: str = "", path: str = ""
 ) -> ET.Element:
+    """Return a case; ``outcome`` is empty, ``failure``, ``error`` or ``system-out``."""
     case = ET.Element("testcase", classname=f"{package}.{_TOOL}", name=name)
     if path:
         case.set("file", path)
@@ -68,11 +72,12 @@ def _case(
     return case
 
 
-def _of_cases(name: str, cases: Sequence[ET.Element]) -> ET.Element:
+def suite_of(name: str, cases: Sequence[ET.Element], seconds: float = 0) -> ET.Element:
+    """Return a suite with its counts."""
     suite = ET.Element("testsuite", name=name, tests=str(len(cases)))
     suite.set("failures", str(sum(case.find("failure") is not None for case in cases)))
     suite.set("errors", str(sum(case.find("error") is not None for case in cases)))
     suite.set("skipped", "0")
-    suite.set("time", "0")
+    suite.set("time", f"{seconds:.3f}" if seconds else "0")
     suite.extend(cases)
     return suite

@@ -168,6 +168,9 @@ class Executable:
     """One for every run: a second signal to be tried takes a second run."""
     problems: tuple[Problem, ...] = ()
     notes: tuple[str, ...] = ()
+    source: str = ""
+    """Its file, as the repository knows it; empty if it is unknown."""
+    seconds: float = field(default=0.0, compare=False)
 
     @property
     def ok(self) -> bool:
@@ -193,6 +196,8 @@ class PackageResult:
     name: str
     build: Build
     executables: tuple[Executable, ...] = ()
+    manifest: str = ""
+    """Its package.xml, as the repository knows it."""
 
     @property
     def ok(self) -> bool:

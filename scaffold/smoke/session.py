@@ -8,7 +8,7 @@ import signal
 import time
 from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -16,6 +16,7 @@ from scaffold.errors import InputError
 from scaffold.files.tree import MANIFEST
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package as Source
+from scaffold.reporters.paths import in_repository
 from scaffold.smoke import environment as environments
 from scaffold.smoke import run as trial
 from scaffold.smoke.build import Layout, build
@@ -161,7 +162,12 @@ class _Session:
         finally:
             await self._stations.close()
         return tuple(
-            PackageResult(source.name, builds[source.name], executables.get(source.name, ()))
+            PackageResult(
+                source.name,
+                builds[source.name],
+                executables.get(source.name, ()),
+                in_repository(source, MANIFEST),
+            )
             for source in sources
         )
 
@@ -200,9 +206,7 @@ class _Session:
             timeout=self._options.timeout,
         )
         runs = [
-            (source.name, item)
-            for source in sources
-            for item in self._of_package(plan, source.name)
+            (source.name, item) for source in sources for item in self._of_package(plan, source)
         ]
         done = await _together([item for _, item in runs])
         result: dict[str, list[Executable]] = {}
@@ -226,22 +230,27 @@ class _Session:
         sourced.pop("COLCON_CURRENT_PREFIX", None)
         return sourced
 
-    def _of_package(self, plan: RunSettings, package: str) -> list[Coroutine[Any, Any, Executable]]:
+    def _of_package(
+        self, plan: RunSettings, source: Source
+    ) -> list[Coroutine[Any, Any, Executable]]:
+        package = source.name
         expected = self._expected[package]
         paths = installed(package, plan.variables)
         found = {path.name: path for path in paths or ()}
         where = f"in lib/{package}" if paths is not None else "in a package of the ament index"
         return [
-            self._one(plan, f"{package}/{name}", found[name], expected.get(name, Expectation()))
+            self._one(plan, source, found[name], expected.get(name, Expectation()))
             if name in found
             else _missing(name, where)
             for name in sorted({*found, *expected})
         ]
 
     async def _one(
-        self, plan: RunSettings, label: str, path: Path, expectation: Expectation
+        self, plan: RunSettings, source: Source, path: Path, expectation: Expectation
     ) -> Executable:
+        label = f"{source.name}/{path.name}"
         async with self._slots:
+            begun = time.monotonic()
             self._tell_running(label, started=True)
             trials: list[NodeRun] = []
             for number in self._options.signals:
@@ -255,7 +264,11 @@ class _Session:
                     one = await _observed(plan, path, expectation, run, number)
                 trials.append(one)
             self._tell_running(label, started=False)
-        return _judge(path.name, trials, expectation)
+        return replace(
+            _judge(path.name, trials, expectation),
+            source=in_repository(source, expectation.source) if expectation.source else "",
+            seconds=time.monotonic() - begun,
+        )
 
     def _tell_running(self, label: str, *, started: bool) -> None:
         (self._running.add if started else self._running.discard)(label)

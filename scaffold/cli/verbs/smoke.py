@@ -12,8 +12,9 @@ from scaffold.printable import printable
 
 if TYPE_CHECKING:
     from scaffold.smoke.cleanup.interruption import Interruption
+    from scaffold.smoke.result import Smoke
 
-FORMATS = ("text", "json")
+FORMATS = ("text", "json", "junit", "github")
 SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM")}
 
 
@@ -32,6 +33,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a package or a workspace (default: the current directory)",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
+    parser.add_argument(
+        "--output-file",
+        metavar="FILE",
+        help="write the report to a file instead of standard output",
+    )
+    parser.add_argument(
+        "--report",
+        metavar="DIR",
+        help="write a page with plots, graphs and tables to DIR/index.html as well",
+    )
     parser.add_argument(
         "--verbose",
         action="store_true",
@@ -104,9 +115,9 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
 
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.model.discovery import targets
-    from scaffold.smoke import reports
     from scaffold.smoke.session import Options, packages_of, smoke
 
+    _validate(options)
     packages = packages_of(targets.find(options.paths))
     with _Progress() as progress:
         result = smoke(
@@ -124,10 +135,48 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
             announce=_announce,
             interruption=interruption,
         )
-    reports.report(result, options.format, sys.stdout, verbose=options.verbose)
+    _report(options, result)
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS
+
+
+def _validate(options: argparse.Namespace) -> None:
+    """Make sure that reports can be written, before the work is done.
+
+    Raises:
+        InputError: they cannot.
+    """
+    import os
+
+    from scaffold.cli import reports
+    from scaffold.errors import InputError
+
+    reports.validate_path(options.output_file)
+    directory = options.report
+    if directory is not None and os.path.exists(directory) and not os.path.isdir(directory):
+        raise InputError(f"--report {directory}: is a file; name a directory")
+
+
+def _report(options: argparse.Namespace, result: Smoke) -> None:
+    """Write the report, the page, and the summary of a job."""
+    from io import StringIO
+
+    from scaffold.cli import reports as outputs
+    from scaffold.smoke import reports
+    from scaffold.smoke.reports import github, html
+
+    if options.report is not None:
+        html.write(result, options.report)
+    if options.format == "github":
+        outputs.add_job_summary(github.job_summary(result))
+    if options.output_file is None:
+        reports.report(result, options.format, sys.stdout, verbose=options.verbose)
+        return
+    text = StringIO()
+    reports.report(result, options.format, text, verbose=options.verbose)
+    content = text.getvalue().encode("utf-8", "backslashreplace")
+    outputs.write_file(options.output_file, content, "--output-file")
 
 
 def _announce(text: str) -> None:

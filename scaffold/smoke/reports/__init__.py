@@ -7,7 +7,7 @@ from typing import TextIO
 
 from scaffold.smoke.result import Smoke
 
-FORMATS = ("text", "json")
+FORMATS = ("text", "json", "junit", "github")
 """A format is a module of this package, of that name, with a function ``report``."""
 
 

@@ -54,6 +54,15 @@ def without_escapes(value: Value) -> Value:
     return cast("Value", cleaned)
 
 
+def _plain(text: str, color: str) -> str:  # noqa: ARG001  as if it had one
+    return text
+
+
+def lines_of(executable: Executable, *, verbose: bool) -> list[str]:
+    """Return what was seen of an executable."""
+    return list(_details(executable, _plain, verbose=verbose))
+
+
 def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
     found = result.environment
     yield f"ROS 2 ({found['kind']}): {found['prefix']}, {found['rmw']}"
@@ -63,7 +72,7 @@ def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
         yield ""
         yield from _package(package, paint, verbose=verbose)
     yield ""
-    yield _summary(result, paint)
+    yield summary(result, paint)
 
 
 def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator[str]:
@@ -153,7 +162,8 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
         yield " " * depth + line
 
 
-def _summary(result: Smoke, paint: Paint) -> str:
+def summary(result: Smoke, paint: Paint = _plain) -> str:
+    """Return one line: how much was run, and what is not ok."""
     executables = [executable for package in result.packages for executable in package.executables]
     said = f"{count(len(result.packages), 'package')}, {count(len(executables), 'executable')}"
     seconds = f"in {result.seconds:.1f} s"
@@ -176,4 +186,4 @@ def _painter(out: TextIO) -> Paint:
     """Return a function that wraps text in a color when a terminal shows it."""
     if out.isatty() and not os.environ.get("NO_COLOR"):
         return lambda text, color: f"\033[{color}m{text}\033[0m"
-    return lambda text, _: text
+    return _plain

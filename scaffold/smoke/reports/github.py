@@ -1,0 +1,80 @@
+"""A smoke run as annotations of a workflow of GitHub, and the summary of its job."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterator
+from typing import TextIO
+
+from scaffold.printable import printable
+from scaffold.reporters.github import cell, code, command
+from scaffold.smoke.reports import text
+from scaffold.smoke.reports.details import count
+from scaffold.smoke.result import PackageResult, Smoke
+
+_MOST_ROWS = 100
+"""Executables in a summary: it may have 1 MiB."""
+
+
+def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
+    """Write a command for each problem, and the text: the log of the step shows both."""
+    for package in result.packages:
+        out.writelines(_annotations(package))
+    # What executables have written may look like a command.
+    token = secrets.token_hex()
+    out.write(f"::stop-commands::{token}\n")
+    text.report(result, out, verbose=verbose)
+    out.write(f"::{token}::\n")
+
+
+def job_summary(result: Smoke) -> str:
+    """Return the summary of a job as Markdown."""
+    result = text.without_escapes(result)
+    lines = ["### ros2-scaffold smoke", "", cell(text.summary(result)), ""]
+    rows = [row for package in result.packages for row in _rows(package)]
+    lines += [
+        "| package | executable | result | observed |",
+        "|---|---|---|---|",
+        *rows[:_MOST_ROWS],
+    ]
+    if len(rows) > _MOST_ROWS:
+        lines += ["", f"The first {_MOST_ROWS} of {len(rows)} lines."]
+    return "\n".join(lines) + "\n"
+
+
+def _annotations(package: PackageResult) -> Iterator[str]:
+    if not package.build.ok:
+        properties = {"file": package.manifest, "title": f"{package.name} does not build"}
+        yield command("error", _plain(properties), _lines(package.build.errors))
+    for executable in package.executables:
+        title = f"{package.name} {executable.name}"
+        properties = {"file": executable.source or package.manifest, "title": title}
+        for problem in executable.problems:
+            message = _lines((problem.message, *problem.output))
+            yield command("error", _plain(properties), message)
+
+
+def _plain(properties: dict[str, str]) -> dict[str, object]:
+    return {name: printable(value) for name, value in properties.items() if value}
+
+
+def _lines(lines: tuple[str, ...]) -> str:
+    return "\n".join(map(printable, lines))
+
+
+def _rows(package: PackageResult) -> Iterator[str]:
+    build = package.build
+    if not build.ok:
+        first = cell(next(iter(build.errors), ""))
+        yield f"| {code(package.name)} | | does not build | {first} |"
+    for executable in package.executables:
+        topics = [
+            f"{code(topic.name)} {count(topic.count, 'message')}"
+            + ("" if topic.rate_hz is None else f", {topic.rate_hz:.2f} Hz")
+            for topic in executable.observation.topics
+            if topic.publishers
+        ]
+        problems = [cell(problem.message) for problem in executable.problems]
+        verdict = "ok" if executable.ok else "not ok"
+        seen = "<br>".join([*problems, *topics])
+        yield f"| {code(package.name)} | {code(executable.name)} | {verdict} | {seen} |"

@@ -1,0 +1,52 @@
+"""A smoke run as JUnit: a suite per package, a case for its build and for each executable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TextIO
+from xml.etree import ElementTree as ET
+
+from scaffold.printable import printable
+from scaffold.reporters import junit
+from scaffold.smoke.reports.text import lines_of, without_escapes
+from scaffold.smoke.result import Executable, PackageResult, Smoke
+
+_BUILD = "smoke build"
+
+
+def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
+    """Write the suites; what was seen of an executable is the output of its case."""
+    suites = [_suite(package, verbose=verbose) for package in without_escapes(result).packages]
+    junit.write(suites, out)
+
+
+def _suite(package: PackageResult, *, verbose: bool) -> ET.Element:
+    cases = [_build(package)]
+    cases += [_executable(package, one, verbose=verbose) for one in package.executables]
+    seconds = sum(float(case.get("time", "0")) for case in cases)
+    return junit.suite_of(package.name, cases, seconds)
+
+
+def _build(package: PackageResult) -> ET.Element:
+    build = package.build
+    outcome = "" if build.ok else "failure"
+    case = junit.case_of(package.name, _BUILD, build.errors, outcome, package.manifest)
+    case.set("time", f"{build.seconds:.3f}")
+    if build.warnings:
+        ET.SubElement(case, "system-out").text = "\n".join(build.warnings)
+    return case
+
+
+def _executable(package: PackageResult, executable: Executable, *, verbose: bool) -> ET.Element:
+    problems = [str(problem) for problem in executable.problems]
+    outcome = "failure" if problems else ""
+    name = f"smoke {executable.name}"
+    case = junit.case_of(package.name, name, problems, outcome, executable.source)
+    case.set("time", f"{executable.seconds:.3f}")
+    ET.SubElement(case, "system-out").text = "\n".join(_seen(executable, verbose=verbose))
+    return case
+
+
+def _seen(executable: Executable, *, verbose: bool) -> Iterator[str]:
+    for line in lines_of(executable, verbose=verbose):
+        yield printable(line)
