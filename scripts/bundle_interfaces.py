@@ -8,14 +8,16 @@ Usage:
 
 where the second python has this checkout installed. The argument is a prefix with
 ``share/<package>/msg`` and so on: an environment with the wheels of ROS 2, or ``/opt/ros/jazzy``.
-All packages of ``PACKAGES`` must be there; those that have no wheel (example_interfaces, tf2_msgs)
-are there when their source directories, of the branches for Jazzy, are linked into ``share``.
+All packages of ``PACKAGES`` must be there; those that have no wheel (nav2_msgs, tf2_msgs and others)
+are there when their source directories, of the releases for Jazzy, are linked into ``share``.
 
 Where the content comes from: the definitions of the repositories ros2/common_interfaces,
-ros2/rcl_interfaces, ros2/example_interfaces (Apache-2.0), ros2/unique_identifier_msgs and
-ros2/geometry2 (BSD), in the versions that the output names. Taken are facts that a program must
-know to talk to those packages: names, types, bounds, constants and defaults. Comments, which are
-their authors' texts, are not taken.
+ros2/rcl_interfaces, ros2/example_interfaces, ros-navigation/navigation2,
+ros-controls/ros2_control, ros-perception/vision_msgs (Apache-2.0), ros2/unique_identifier_msgs,
+ros2/geometry2, ros-controls/control_msgs, ros-geographic-info/geographic_info,
+ros-planning/navigation_msgs and ros-drivers/ackermann_msgs (BSD), in the versions that the output
+names. Taken are facts that a program must know to talk to those packages: names, types, bounds,
+constants and defaults. Comments, which are their authors' texts, are not taken.
 """
 
 from __future__ import annotations
@@ -28,13 +30,20 @@ from scaffold.model.interfaces.definitions import KINDS, Definitions, render
 from scaffold.model.interfaces.sources import BUNDLE, PrefixSource
 
 PACKAGES = (
+    "ackermann_msgs",
     "action_msgs",
     "actionlib_msgs",
     "builtin_interfaces",
+    "composition_interfaces",
+    "control_msgs",
+    "controller_manager_msgs",
     "diagnostic_msgs",
     "example_interfaces",
+    "geographic_msgs",
     "geometry_msgs",
     "lifecycle_msgs",
+    "map_msgs",
+    "nav2_msgs",
     "nav_msgs",
     "rcl_interfaces",
     "rosgraph_msgs",
@@ -48,6 +57,7 @@ PACKAGES = (
     "trajectory_msgs",
     "type_description_interfaces",
     "unique_identifier_msgs",
+    "vision_msgs",
     "visualization_msgs",
 )
 HEAD = (

@@ -346,7 +346,7 @@ _COARSE = 0.1
 """A quantity that swings by less is not shown with two decimals."""
 
 
-_BRIEF = ((12, 4, 2), (10, 3, 1), (8, 2, 1), (6, 2, 1), (5, 1, 1))
+_BRIEF = ((12, 4, 2), (10, 3, 1), (8, 2, 1), (6, 2, 1), (5, 1, 1), (3, 1, 1))
 """How many fields of a message are filled in brief, of the root and of what is nested in it."""
 MAX_BRIEF = len(_BRIEF)
 """As brief as can be."""

@@ -548,7 +548,7 @@ def test_spellings(text: str, type_: str) -> None:
         (
             "KeyValue",
             (
-                "'KeyValue' may be diagnostic_msgs/msg/KeyValue or "
+                "'KeyValue' may be diagnostic_msgs/msg/KeyValue, geographic_msgs/msg/KeyValue or "
                 "type_description_interfaces/msg/KeyValue; write which"
             ),
         ),
