@@ -8,7 +8,7 @@ Usage:
 
 where the second python has this checkout installed. The argument is a prefix with
 ``share/<package>/msg`` and so on: an environment with the wheels of ROS 2, or ``/opt/ros/jazzy``.
-All packages of ``PACKAGES`` must be there; those that have no wheel (nav2_msgs, tf2_msgs and others)
+All packages of ``PACKAGES`` must be there; those that have no wheel (such as tf2_msgs)
 are there when their source directories, of the releases for Jazzy, are linked into ``share``.
 
 Where the content comes from: the definitions of the repositories ros2/common_interfaces,

@@ -42,10 +42,10 @@ RECIPES: dict[str, Recipe] = {
             for seconds, height in enumerate([0.0, target, 0.0]):
                 transform = Transform()
                 transform.translation.z = height
-                point = MultiDOFJointTrajectoryPoint()
-                point.transforms = [transform]
-                point.time_from_start.sec = seconds
-                msg.points.append(point)
+                waypoint = MultiDOFJointTrajectoryPoint()
+                waypoint.transforms = [transform]
+                waypoint.time_from_start.sec = seconds
+                msg.points.append(waypoint)
         """,
         log="{len(msg.points)} points",
         checks=("len(message.points) == 3", "message.joint_names == ['base']"),

@@ -1,0 +1,94 @@
+"""What type checkers say of generated packages, with the types of `ros2-scaffold stubs`."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from scaffold.cli.main import main
+from tests.generate.test_generated import KINDS, write
+
+CHECKERS = {
+    "mypy": ["--no-error-summary"],
+    "pyright": ["--outputjson"],
+    "ty": [
+        "check",
+        *("--output-format=concise", "--exclude=typings", "--extra-search-path=typings"),
+    ],
+}
+"""What checks all files of the package in the working directory, by its module."""
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write a package with a node of every kind, and the types of what it imports."""
+    root = tmp_path_factory.mktemp("typed")
+    parts: list[object] = [
+        *({"kind": kind, "name": f"{kind}_node"} for kind in KINDS),
+        {"kind": "publisher", "name": "laser", "message_type": "sensor_msgs/msg/LaserScan"},
+        {"kind": "lifecycle", "name": "camera", "message_type": "sensor_msgs/msg/Image"},
+        {
+            "kind": "publisher_subscriber",
+            "name": "planner",
+            "input_type": "nav_msgs/msg/Odometry",
+            "message_type": "nav_msgs/msg/Path",
+        },
+        {
+            "kind": "action_client",
+            "name": "driver",
+            "action_type": "nav2_msgs/action/NavigateToPose",
+        },
+        {
+            "kind": "action_server",
+            "name": "arm",
+            "action_type": "control_msgs/action/FollowJointTrajectory",
+        },
+    ]
+    directory = write(root, package="typed_package", add=parts, extras=["launch", "types"])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(directory)
+        patch.delenv("AMENT_PREFIX_PATH", raising=False)
+        assert main(["stubs"]) == 0
+    return directory
+
+
+@pytest.mark.parametrize("version", ["3.10", "3.12"])
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_every_kind_of_node_has_the_right_types(
+    package: Path, checker: str, version: str, tmp_path: Path
+) -> None:
+    pytest.importorskip(checker)
+    arguments = list(CHECKERS[checker])
+    if checker == "pyright":
+        settings = json.loads((package / "pyrightconfig.json").read_text())
+        (package / "settings.json").write_text(json.dumps({**settings, "pythonVersion": version}))
+        arguments.append("--project=settings.json")
+    else:
+        arguments.append(f"--python-version={version}")
+    done = subprocess.run(
+        [sys.executable, "-m", checker, *arguments, *(["."] if checker != "pyright" else [])],
+        cwd=package,
+        env={**os.environ, "MYPY_CACHE_DIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_nodes_pass_the_strict_mode_of_mypy(package: Path, tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", package.name],
+        cwd=package,
+        env={**os.environ, "MYPY_CACHE_DIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
