@@ -6,7 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import in_callbacks, in_constructors, may_run_meanwhile
+from scaffold.api.programs import (
+    blocks_node,
+    in_callbacks,
+    in_constructors,
+    names_other_executor,
+    spins_in_one_thread,
+)
 from scaffold.api.rclpy import RclpyFile
 
 SHORT = 0.05
@@ -34,6 +40,28 @@ _NODE = (
     "        self.create_timer(1.0, self.tick)\n\n"
     "    def tick(self):\n"
     "        {}\n"
+)
+_GROUPS = (
+    "import time\n\nimport rclpy\n"
+    "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup\n"
+    "from rclpy.executors import MultiThreadedExecutor\nfrom rclpy.node import Node\n"
+    "from std_msgs.msg import Empty\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        slow = MutuallyExclusiveCallbackGroup()\n"
+    "        fast = MutuallyExclusiveCallbackGroup()\n"
+    "        self.create_timer(1.0, self.tick, callback_group=slow)\n"
+    "        self.create_subscription(Empty, 'stop', self.stop, 1, callback_group={})\n\n"
+    "    def tick(self):\n"
+    "        time.sleep(1.0)\n\n"
+    "    def stop(self, message):\n"
+    "        pass\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    executor = {}()\n"
+    "    executor.add_node(Talker())\n"
+    "    executor.spin()\n"
 )
 
 
@@ -94,6 +122,31 @@ class CallbackBlocks(RclpyRule):
                 "input() blocks callback 'tick', and with it all other callbacks of the node",
             ),
         ),
+        Example(
+            "several threads and a callback group of its own",
+            {"talker.py": _GROUPS.format("fast", "MultiThreadedExecutor")},
+        ),
+        Example(
+            "several threads and a callback group that others share",
+            {"talker.py": _GROUPS.format("slow", "MultiThreadedExecutor")},
+            Report(
+                "19:9",
+                "time.sleep(1) blocks callback 'tick', and with it all other "
+                "callbacks of its callback group",
+            ),
+        ),
+        Example(
+            "a callback group of its own and one thread",
+            {
+                "talker.py": _GROUPS.format("fast", "SingleThreadedExecutor").replace(
+                    "MultiThreaded", "SingleThreaded"
+                )
+            },
+            Report(
+                "19:9",
+                "time.sleep(1) blocks callback 'tick', and with it all other callbacks of the node",
+            ),
+        ),
         Example("with a timeout", {"caller.py": _CALLER.format("timeout_sec=1.0")}),
         Example(
             "without a timeout",
@@ -111,10 +164,10 @@ class CallbackBlocks(RclpyRule):
         for executed in in_callbacks(file):
             for call in file.calls_in(executed.function):
                 name = _blocking(file, call)
-                if name and not may_run_meanwhile(file, executed):
-                    message = f"{name} blocks {executed.origin}, and with it all other"
+                if name and blocks_node(file, executed):
+                    message = f"{name} blocks {executed.origin}, and with it all other callbacks"
                     at = file.module.location(call)
-                    yield self.report(at, f"{message} callbacks of the node")
+                    yield self.report(at, f"{message} of {_blocked(file)}")
 
     def _check_server_waits(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
@@ -127,6 +180,11 @@ class CallbackBlocks(RclpyRule):
                             message = f"{name}() without timeout_sec blocks {origin} until the"
                             at = file.module.location(call)
                             yield self.report(at, f"{message} server is available")
+
+
+def _blocked(file: RclpyFile) -> str:
+    has_threads = names_other_executor(file) and not spins_in_one_thread(file)
+    return "its callback group" if has_threads else "the node"
 
 
 def _blocking(file: RclpyFile, call: ast.Call) -> str:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.programs import Executed, in_callbacks, in_constructors, may_run_meanwhile
+from scaffold.api.programs import Executed, blocks_node, in_callbacks, in_constructors
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -18,6 +18,21 @@ _NODE = (
     "    def tick(self):\n        pass\n"
 )
 _LOOP = "        while rclpy.ok():\n            self.tick()\n\n"
+_CALLBACK = (
+    "import rclpy\nfrom rclpy.callback_groups import ReentrantCallbackGroup\n"
+    "from rclpy.executors import MultiThreadedExecutor\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.exits = 0\n"
+    "        self.create_timer(1.0, self.work, callback_group=ReentrantCallbackGroup())\n\n"
+    "    def work(self):\n"
+    "        while rclpy.ok():\n"
+    "            self.exits += 1\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    {}\n"
+)
 
 
 class EndlessLoop(RclpyRule):
@@ -60,6 +75,15 @@ class EndlessLoop(RclpyRule):
             Report("11:9", "endless loop: the constructor of Talker never returns; use a timer"),
         ),
         Example(
+            "a loop in a callback of one thread, whatever its group",
+            {"talker.py": _CALLBACK.format("rclpy.spin(Talker())")},
+            Report("14:9", "endless loop: callback 'work' never returns; use a timer"),
+        ),
+        Example(
+            "a loop in a callback of many threads",
+            {"talker.py": _CALLBACK.format("rclpy.spin(Talker(), MultiThreadedExecutor())")},
+        ),
+        Example(
             "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}
         ),
     )
@@ -68,7 +92,7 @@ class EndlessLoop(RclpyRule):
         seen: set[ast.AST] = set()
         for executed in (*in_constructors(file), *in_callbacks(file)):
             for loop in _endless(file, executed):
-                if loop not in seen and not may_run_meanwhile(file, executed):
+                if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
                     yield self.report(file.module.location(loop), message)
@@ -93,6 +117,6 @@ def _leaves(node: ast.AST) -> bool:
     match node:
         case ast.Break() | ast.Return() | ast.Raise() | ast.Yield() | ast.Await():
             return True
-        case ast.Attribute(attr=name) | ast.Name(id=name):
+        case ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name)):
             return "spin" in name or "exit" in name or "shutdown" in name
     return False

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.package import mentions
 from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
 from scaffold.model.programs.threads import (
+    blocks_others,
     names_callback_group,
     names_other_executor,
     spins_elsewhere,
@@ -46,6 +47,13 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
     if names_other_executor(file):
         return True
     return names_callback_group(file) if executed.entity else spins_elsewhere(file)
+
+
+def blocks_node(file: RclpyFile, executed: Executed) -> bool:
+    """Tell whether nothing else of a node runs while a callback or constructor of it does."""
+    if executed.entity is None:
+        return not spins_elsewhere(file)
+    return blocks_others(file, executed.entity)
 
 
 def in_callbacks(file: RclpyFile) -> Iterator[Executed]:

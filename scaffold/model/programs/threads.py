@@ -79,6 +79,23 @@ def share_group(file: RclpyFile, first: Entity, second: Entity) -> bool | None:
     return groups[0] == groups[1] and groups[0] != "reentrant"
 
 
+def blocks_others(file: RclpyFile, entity: Entity) -> bool:
+    """Tell whether other callbacks of a node certainly wait for a callback of an entity.
+
+    They do if one thread runs them all, whatever their groups. With several threads, those of the
+    same group wait; that is all of the node unless the code says otherwise.
+    """
+    group = _group_of(file, entity)
+    if spins_in_one_thread(file):
+        return True
+    if group is None or group == "reentrant":
+        return not names_other_executor(file) and not names_callback_group(file)
+    others = {other for other, _ in file.callbacks if other.owner is entity.owner} - {entity}
+    if group is entity.owner and not names_other_executor(file):
+        return True
+    return any(_group_of(file, other) == group for other in others)
+
+
 def _group_of(file: RclpyFile, entity: Entity) -> object:
     """Return what identifies the callback group of an entity; ``None``: not known."""
     if entity.has_unknown_arguments or entity.owner is None:
