@@ -116,16 +116,28 @@ def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
         return package_directories(disk, sources)
     around = package_around(disk, directory)
     beside = os.path.dirname(around) if around is not None else directory
-    found = [
-        path
-        for path in (os.path.join(beside, name) for name in disk.names(beside)[1])
-        if disk.is_file(os.path.join(path, MANIFEST)) and _is_visible(disk, path)
-    ]
-    tops = (item for item in _upwards(directory) if disk.exists(os.path.join(item, ".git")))
-    top = next(tops, None)
+    found = packages_in(disk, beside, most=most)
+    top = repository_around(disk, directory)
     if top is not None:
         found += package_directories(disk, top, most=most)
     return sorted({*found})
+
+
+def packages_in(disk: Disk, directory: str, *, most: int) -> list[str]:
+    """Return the packages side by side in a directory, none if it has too many directories."""
+    names = disk.names(directory)[1]
+    paths = [os.path.join(directory, name) for name in names if not name.startswith(".")]
+    return [
+        path
+        for path in (paths if len(paths) <= most else ())
+        if disk.is_file(os.path.join(path, MANIFEST)) and _is_visible(disk, path)
+    ]
+
+
+def repository_around(disk: Disk, directory: str) -> str | None:
+    """Return the top of the git repository that a directory lies in, or is."""
+    tops = (item for item in _upwards(directory) if disk.exists(os.path.join(item, ".git")))
+    return next(tops, None)
 
 
 def _upwards(directory: str) -> list[str]:

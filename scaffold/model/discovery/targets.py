@@ -155,6 +155,9 @@ def _surroundings(
 ) -> UncheckedPackages | None:
     """Return the packages next to those given, unless the whole workspace was given.
 
+    Without a directory ``src``, the workspace is what lies side by side with a package, in the git
+    repository around it, and below the current directory.
+
     Args:
         disk: Records what was accessed.
         workspace: The packages given.
@@ -165,10 +168,25 @@ def _surroundings(
         disk.real(item.directory) for item in workspace if not isinstance(item.tree, _LooseFiles)
     ]
     covered = [os.path.join(disk.real(path), "") for path in given]
-    around = filter(None, (colcon.sources_around(disk, item) for item in own))
-    sources = dict.fromkeys([*around, *tops])
-    open_ = [source for source in sources if not os.path.join(source, "").startswith((*covered,))]
-    return UncheckedPackages(open_, frozenset(own), workspace) if open_ else None
+    current = disk.real(os.curdir)
+    beside: list[str] = []
+    sources = [*tops]
+    for item in own:
+        around = colcon.sources_around(disk, item)
+        if around is not None:
+            sources.append(around)
+            continue
+        beside.append(os.path.dirname(item))
+        if item.startswith(os.path.join(current, "")):
+            sources.append(current)
+        sources += filter(None, [colcon.repository_around(disk, item)])
+
+    def open_(directories: list[str]) -> list[str]:
+        unique = dict.fromkeys(directories)
+        return [top for top in unique if not os.path.join(top, "").startswith((*covered,))]
+
+    left = open_(beside), open_(sources)
+    return UncheckedPackages(*left, frozenset(own), workspace) if any(left) else None
 
 
 def _sort_files(

@@ -1,4 +1,4 @@
-"""The packages next to those that are checked, in the same colcon workspace.
+"""The packages next to those that are checked, in the same workspace or repository.
 
 Who gives one package, such as a hook does, still has the others around it: what it takes from them
 is judged as if all had been given. They are looked for only when a name is not known otherwise,
@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from scaffold.files.tree import MANIFEST
-from scaffold.model.discovery.colcon import package_directories
+from scaffold.model.discovery.colcon import package_directories, packages_in
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -26,15 +26,23 @@ _NAME = rb"<name>\s*([A-Za-z][\w-]*)\s*</name>"
 
 
 class UncheckedPackages:
-    """The packages below some directories, except for those that are checked.
+    """The packages in and below some directories, except for those that are checked.
 
     Args:
-        sources: The directories.
+        beside: Directories that hold packages side by side, and are not searched further.
+        sources: Directories that are searched.
         own: The directories of the packages that are checked, without links.
         workspace: What the packages belong to; all that is read of them is noted there.
     """
 
-    def __init__(self, sources: Sequence[str], own: Collection[str], workspace: Workspace) -> None:
+    def __init__(
+        self,
+        beside: Sequence[str],
+        sources: Sequence[str],
+        own: Collection[str],
+        workspace: Workspace,
+    ) -> None:
+        self._beside = beside
         self._sources = sources
         self._own = own
         self._workspace = workspace
@@ -44,12 +52,18 @@ class UncheckedPackages:
     def directories(self) -> Mapping[str, str]:
         """Where the packages are, by name; none if there are too many directories."""
         result: dict[str, str] = {}
-        for top in self._sources:
-            for directory in package_directories(self._workspace.disk, top, most=MOST_DIRECTORIES):
-                name = None if directory in self._own else self._name_of(directory)
-                if name is not None:
-                    result.setdefault(name, directory)
+        for directory in self._found():
+            name = None if directory in self._own else self._name_of(directory)
+            if name is not None:
+                result.setdefault(name, directory)
         return result
+
+    def _found(self) -> Iterator[str]:
+        disk = self._workspace.disk
+        for top in self._beside:
+            yield from packages_in(disk, top, most=MOST_DIRECTORIES)
+        for top in self._sources:
+            yield from package_directories(disk, top, most=MOST_DIRECTORIES)
 
     def _name_of(self, directory: str) -> str | None:
         from scaffold.files.limits import most_bytes

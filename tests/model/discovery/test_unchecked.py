@@ -126,10 +126,52 @@ def test_too_many_directories(workspace: Path, monkeypatch: pytest.MonkeyPatch) 
     assert not said(package, "LF006")
 
 
-def test_package_outside_of_a_workspace(tmp_path: Path) -> None:
-    write(tmp_path, {"bringup/package.xml": MANIFEST.format(name="bringup", needs="driver")})
-    write(tmp_path, {"driver/package.xml": MANIFEST.format(name="driver", needs="launch")})
-    assert one(tmp_path / "bringup").workspace.names == ["bringup"]
+@pytest.fixture
+def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a directory with packages, none of which lies below ``src``."""
+    manifests = {
+        "robot/bringup/package.xml": MANIFEST.format(name="bringup", needs="driver"),
+        "robot/driver/package.xml": MANIFEST.format(name="driver", needs="launch"),
+        "robot/group/more/package.xml": MANIFEST.format(name="more", needs="launch"),
+        "robot/driver/inner/package.xml": MANIFEST.format(name="inner", needs="launch"),
+        "robot/hidden/package.xml": MANIFEST.format(name="hidden", needs="launch"),
+        "robot/hidden/COLCON_IGNORE": "",
+        "msgs/package.xml": MANIFEST.format(name="msgs", needs="launch"),
+    }
+    write(tmp_path, manifests)
+    monkeypatch.chdir(tmp_path / "robot" / "group")
+    return tmp_path
+
+
+def test_packages_side_by_side_without_a_workspace(repository: Path) -> None:
+    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
+
+
+def test_packages_below_the_current_directory(
+    repository: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(repository)
+    names = ["bringup", "driver", "more", "msgs"]
+    assert one(repository / "robot/bringup").workspace.names == names
+    monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 4)
+    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
+
+
+def test_packages_of_one_repository(repository: Path) -> None:
+    (repository / "robot" / ".git").mkdir()
+    names = ["bringup", "driver", "more"]
+    assert one(repository / "robot/bringup").workspace.names == names
+    around = one(repository / "robot").known_workspace
+    assert around is not None
+    assert around.around is None
+
+
+def test_message_types_of_a_package_next_to_this_one(repository: Path) -> None:
+    node = "from driver.msg import Speed\n\nspeed = Speed(value=1.0, unit='m/s')\n"
+    write(repository / "robot/driver", {"msg/Speed.msg": "float64 value\n"})
+    write(repository / "robot/bringup", {"bringup/__init__.py": "", "bringup/go.py": node})
+    (found,) = said(one(repository / "robot/bringup"), "MS003")
+    assert "'unit'" in found.message
 
 
 def test_source_directory_inside_of_another(workspace: Path) -> None:
