@@ -42,7 +42,7 @@ from scaffold.model.launch.python_file import (
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
 from scaffold.model.launch.remappings import Remapped, has_name, names_of, remapped_nodes
-from scaffold.model.launch.share_paths import paths_of, why_missing
+from scaffold.model.launch.share_paths import NamedPath, paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
 
@@ -61,6 +61,7 @@ __all__ = [
     "LaunchCall",
     "LaunchFile",
     "MarkupNode",
+    "NamedPath",
     "Reference",
     "Remapped",
     "StartedNode",

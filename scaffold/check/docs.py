@@ -13,7 +13,15 @@ from scaffold.edits import Safety
 if TYPE_CHECKING:
     from scaffold.ament.codes import AmentCode
 
-_LANGUAGES = {".xml": "xml", ".py": "python", ".txt": "cmake", ".cfg": "ini", ".yaml": "yaml"}
+_LANGUAGES = {
+    ".xml": "xml",
+    ".urdf": "xml",
+    ".xacro": "xml",
+    ".py": "python",
+    ".txt": "cmake",
+    ".cfg": "ini",
+    ".yaml": "yaml",
+}
 
 _FIXED_WITH: dict[Safety | None, str] = {
     Safety.SAFE: " · fixable with `--fix`",

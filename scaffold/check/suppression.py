@@ -19,6 +19,7 @@ from scaffold.source import Source, ViewError
 COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
 """Matches a comment; its group ``codes`` is missing where it covers the whole line."""
 _CODE = r"\b[A-Z]+[0-9]+"
+_MAY_HOLD = (".py", ".xml", ".urdf", ".xacro", ".txt", ".cmake", ".cfg", ".yaml", ".yml")
 
 
 def apply(
@@ -94,4 +95,4 @@ def _suppressions(package: Package, path: str) -> Iterable[tuple[Source, int, st
 
 
 def _may_hold_suppression(path: str) -> bool:
-    return path.endswith((".py", ".xml", ".txt", ".cmake", ".cfg", ".yaml", ".yml"))
+    return path.endswith(_MAY_HOLD)

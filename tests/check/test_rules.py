@@ -40,6 +40,8 @@ AREAS = {
     "launch": "LF",
     "parameters": "PF",
     "types": "TY",
+    "urdf": "UR",
+    "bridge": "BR",
 }
 
 

@@ -1,0 +1,111 @@
+"""UR010: the elements of URDF and xacro have the attributes that their readers demand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
+from scaffold.api.formats import Element
+from scaffold.api.robot import robot_file, robot_paths, robots, urdf_parts
+
+_ROBOT = (
+    '<robot name="robot">\n  <link name="base_link">\n    <inertial>\n      <mass {}="2.0"/>\n'
+    '      <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>\n'
+    "    </inertial>\n  </link>\n</robot>\n"
+)
+_XACRO = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:arg name="sim"{}/>\n'
+    '  <link name="base_link"/>\n</robot>\n'
+)
+_OF_URDF: Mapping[tuple[str, str], tuple[str, ...]] = {
+    ("robot", "link"): ("name",),
+    ("robot", "joint"): ("name", "type"),
+    ("joint", "parent"): ("link",),
+    ("joint", "child"): ("link",),
+    ("joint", "mimic"): ("joint",),
+    ("joint", "limit"): ("effort", "velocity"),
+    ("joint", "safety_controller"): ("k_velocity",),
+    ("inertial", "mass"): ("value",),
+    ("inertial", "inertia"): ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    ("geometry", "box"): ("size",),
+    ("geometry", "cylinder"): ("radius", "length"),
+    ("geometry", "sphere"): ("radius",),
+    ("geometry", "mesh"): ("filename",),
+    ("visual", "material"): ("name",),
+}
+_OF_XACRO: Mapping[str, tuple[str, ...]] = {
+    "xacro:include": ("filename",),
+    "xacro:property": ("name",),
+    "xacro:macro": ("name",),
+    "xacro:arg": ("name", "default"),
+    "xacro:if": ("value",),
+    "xacro:unless": ("value",),
+    "xacro:insert_block": ("name",),
+    "xacro:attribute": ("name", "value"),
+    "xacro:call": ("macro",),
+}
+
+
+class AttributeLeftOut(Rule):
+    """An element of URDF or xacro lacks an attribute without which nobody reads it.
+
+    **Why.** The parser of URDF refuses the whole file, and xacro stops: robot_state_publisher ends
+    with ``Failed to parse robot description``.
+
+    **Fix.** Write the attribute; ``<xacro:arg>`` needs a default as well.
+
+    **Source.** urdfdom, ``joint.cpp`` and ``link.cpp``; xacro, ``reqd_attrs``.
+    """
+
+    code = "UR010"
+    name = "attribute-left-out"
+    examples = (
+        Example("complete", {"robot.urdf": _ROBOT.format("value")}),
+        Example(
+            "another name",
+            {"robot.urdf": _ROBOT.format("val")},
+            Report(
+                "4:8", "<mass> has no 'value': urdfdom refuses the whole file; 'val' is not read"
+            ),
+        ),
+        Example(
+            "an argument without a default",
+            {"robot.xacro": _XACRO.format("")},
+            Report("2:4", "<xacro:arg> has no 'default': xacro stops here"),
+        ),
+        Example(
+            "a robot without a name",
+            {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
+            Report("1:2", "<robot> has no 'name': urdfdom refuses the whole file"),
+        ),
+        Example("with one", {"robot.xacro": _XACRO.format(' default="false"')}),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for robot in robots(package).whole:
+            if robot.file.is_robot and robot.root.get("name") is None:
+                message = "<robot> has no 'name': urdfdom refuses the whole file"
+                yield self.report(robot.root, message)
+        for part in urdf_parts(package):
+            holder = part.holder.tag if part.holder is not None else ""
+            for name in _OF_URDF.get((holder, part.tag), ()):
+                if name not in part.attributes:
+                    near = closest_name(package, name, list(part.attributes), 0.6)
+                    hint = f"; {near!r} is not read" if near else ""
+                    message = f"<{part.tag}> has no {name!r}: urdfdom refuses the whole file{hint}"
+                    yield self.report(part, message)
+        for path in robot_paths(package):
+            try:
+                file = robot_file(package, path)
+            except ViewError:
+                continue
+            for element in file.root.descendants() if file is not None and file.is_xacro else ():
+                for name in _missing(element):
+                    message = f"<{element.tag}> has no {name!r}: xacro stops here"
+                    yield self.report(element.name_location, message)
+
+
+def _missing(element: Element) -> list[str]:
+    names = _OF_XACRO.get(element.tag, ())
+    return [name for name in names if element.get(name) is None]

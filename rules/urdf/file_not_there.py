@@ -1,0 +1,161 @@
+"""UR001: the files that URDF and xacro files name exist after installation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
+from scaffold.api.install import share_of
+from scaffold.api.launch import NamedPath, why_missing
+from scaffold.api.robot import NamedFile, named_files, robot_paths
+
+_SETUP = (
+    "from glob import glob\n\nfrom setuptools import setup\n\n"
+    "setup(\n    name='talker',\n    data_files=[\n"
+    "        ('share/talker', ['package.xml']),\n"
+    "        ('share/talker/urdf', glob('urdf/*')),\n"
+    "    ],\n)\n"
+)
+_MANIFEST = (
+    '<package format="3">\n  <name>talker</name>\n'
+    "  <export>\n    <build_type>ament_python</build_type>\n  </export>\n</package>\n"
+)
+_ROBOT = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:include filename="{}"/>\n'
+    '  <link name="base_link">\n    <visual>\n'
+    '      <geometry><mesh filename="{}"/></geometry>\n'
+    "    </visual>\n  </link>\n</robot>\n"
+)
+_LARGE = (".stl", ".dae", ".obj", ".glb", ".gltf", ".png", ".jpg")
+_FILES = {
+    "package.xml": _MANIFEST,
+    "setup.py": _SETUP,
+    "urdf/wheel.xacro": "<robot/>\n",
+    "urdf/base.stl": "",
+}
+
+
+class FileNotThere(Rule):
+    """A URDF or xacro file names a file that is not there after installation.
+
+    **Why.** xacro stops at an include with ``No such file or directory``, so the robot has no
+    description; for a mesh, RViz shows ``Could not load resource`` and Gazebo nothing.
+
+    **Fix.** Write the path that the build file installs, or install the file.
+
+    **Source.** xacro, ``process_include``; resource_retriever resolves ``package://``.
+    """
+
+    code = "UR001"
+    name = "file-not-there"
+    other_severities = {
+        Severity.WARNING: "for a mesh that is missing next to others: it may be kept elsewhere"
+    }
+    examples = (
+        Example(
+            "installed",
+            {
+                **_FILES,
+                "urdf/robot.xacro": _ROBOT.format(
+                    "$(find talker)/urdf/wheel.xacro", "package://talker/urdf/base.stl"
+                ),
+            },
+        ),
+        Example(
+            "next to the file; of a package that is not here",
+            {
+                **_FILES,
+                "urdf/robot.xacro": _ROBOT.format("wheel.xacro", "package://other/base.stl"),
+            },
+        ),
+        Example(
+            "another name; another directory",
+            {
+                **_FILES,
+                "urdf/robot.xacro": _ROBOT.format(
+                    "$(find talker)/urdf/wheels.xacro", "package://talker/meshes/base.stl"
+                ),
+            },
+            Report(
+                "urdf/robot.xacro:2:28",
+                "share/talker/urdf/wheels.xacro does not exist: talker has no such "
+                "file; closest: urdf/wheel.xacro",
+            ),
+            Report(
+                "urdf/robot.xacro:5:33",
+                "share/talker/meshes/base.stl does not exist: it is installed as "
+                "share/talker/urdf/base.stl",
+            ),
+        ),
+        Example(
+            "not next to the file",
+            {**_FILES, "urdf/robot.xacro": _ROBOT.format("wheels.xacro", "file:///base.stl")},
+            Report(
+                "urdf/robot.xacro:2:28",
+                "urdf/wheels.xacro does not exist: xacro stops with 'No such file'; "
+                "closest: 'wheel.xacro'",
+            ),
+        ),
+        Example(
+            "a mesh next to another",
+            {
+                **_FILES,
+                "urdf/robot.xacro": _ROBOT.format("wheel.xacro", "package://talker/urdf/top.stl"),
+            },
+            Report(
+                "urdf/robot.xacro:5:33",
+                "share/talker/urdf/top.stl does not exist: talker has no such file; "
+                "closest: urdf/base.stl",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "nothing like it",
+            {**_FILES, "urdf/robot.xacro": _ROBOT.format("parts/laser.xacro", "file:///base.stl")},
+            Report(
+                "urdf/robot.xacro:2:28",
+                "urdf/parts/laser.xacro does not exist: xacro stops with 'No such file'",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for named in named_files(package):
+            if named.package:
+                path = NamedPath(named.package, named.path, named.location)
+                why = why_missing(package, path)
+                if why is not None:
+                    message = f"share/{path.package}/{path.path} does not exist: {why}"
+                    is_data = _may_be_kept_elsewhere(package, named)
+                    severity = Severity.WARNING if is_data else None
+                    yield self.report(named, message, severity=severity)
+            elif not _is_there(package, named):
+                name = named.path.rpartition("/")[2]
+                names = [item.rpartition("/")[2] for item in robot_paths(package)]
+                near = closest_name(package, name, names, 0.7)
+                hint = f"; closest: {near!r}" if near else ""
+                message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
+                yield self.report(named, message)
+
+
+def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
+    """Tell whether a file is one of several large ones; not all of them are in each clone."""
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    directory, _, name = named.path.rpartition("/")
+    top = directory.partition("/")[0]
+    files = owner.files if owner is not None else ()
+    return (
+        name.lower().endswith(_LARGE)
+        and not any(path.rpartition("/")[2] == name for path in files)
+        and any(path.startswith(f"{top}/") and path.lower().endswith(_LARGE) for path in files)
+    )
+
+
+def _is_there(package: Package, named: NamedFile) -> bool:
+    """Tell whether a file is next to its user, in the source or after installation."""
+    if package.has(named.path) or named.path.startswith(".."):
+        return True
+    name = named.path.rpartition("/")[2]
+    files = share_of(package).files
+    return any(path.rpartition("/")[2] == name for path in (*files, *package.files))

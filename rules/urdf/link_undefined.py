@@ -1,0 +1,115 @@
+"""UR020: the links and joints that a robot names are there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
+
+_ROBOT = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="continuous">\n    <parent link="{}"/>\n    <child link="{}"/>\n'
+    "  </joint>\n</robot>\n"
+)
+_MIMIC = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="continuous">\n    <parent link="base_link"/>\n'
+    '    <child link="wheel"/>\n    <mimic joint="{}"/>\n  </joint>\n</robot>\n'
+)
+
+
+class LinkUndefined(Rule):
+    """A joint connects a link that the robot does not have.
+
+    **Why.** ``Failed to build tree: parent link [base] of joint [axis] not found``:
+    robot_state_publisher ends.
+
+    **Fix.** Use the name of a link, or add the link.
+
+    **Source.** urdfdom, ``ModelInterface::initTree``.
+    """
+
+    code = "UR020"
+    name = "link-undefined"
+    examples = (
+        Example("both there", {"robot.urdf": _ROBOT.format("base_link", "wheel")}),
+        Example(
+            "a name that is not there",
+            {"robot.urdf": _ROBOT.format("base", "wheel")},
+            Report(
+                "5:19",
+                "parent 'base' of joint 'axis' is not a link of this robot: "
+                "robot_state_publisher ends; closest: 'base_link'",
+            ),
+        ),
+        Example(
+            "nothing like it",
+            {"robot.urdf": _ROBOT.format("base_link", "camera")},
+            Report(
+                "6:18",
+                "child 'camera' of joint 'axis' is not a link of this robot: "
+                "robot_state_publisher ends",
+            ),
+        ),
+        Example(
+            "a joint to mimic",
+            {"robot.urdf": _MIMIC.format("axle")},
+            Report("7:19", "'axis' mimics 'axle', which is not a joint of this robot"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for robot in robots(package).whole:
+            if robot.file.is_robot and not robot.is_open and not robot.is_partial:
+                yield from self._check(package, robot)
+
+    def _check(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
+        links = [part.get("name") or "" for part in robot.root.all("link")]
+        joints = [part.get("name") or "" for part in robot.root.all("joint")]
+        for joint in robot.root.all("joint"):
+            name = joint.get("name")
+            for tag in ("parent", "child"):
+                end = joint.one(tag)
+                link = end.get("link") if end is not None else None
+                if end is None or link is None or _is_among(link, links) or not links:
+                    continue
+                hint = _hint(package, link, links)
+                message = (
+                    f"{tag} {link!r} of joint {name!r} is not a link of this robot: "
+                    f"robot_state_publisher ends{hint}"
+                )
+                if _is_here(package, end):
+                    yield self.report(end.at("link"), message)
+            mimic = joint.one("mimic")
+            other = mimic.get("joint") if mimic is not None else None
+            if mimic is not None and other and not _is_among(other, joints):
+                hint = _hint(package, other, joints)
+                message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
+                if _is_here(package, mimic):
+                    yield self.report(mimic.at("joint"), message)
+
+
+def _is_here(package: Package, part: Part) -> bool:
+    return part.file.package is package
+
+
+def _hint(package: Package, name: str, names: Sequence[str]) -> str:
+    near = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
+    return f"; closest: {near!r}" if near else ""
+
+
+def _is_among(name: str, names: Sequence[str]) -> bool:
+    """Tell whether a name may be among others; parts of each may be unknown."""
+    if name in names:
+        return True
+    if not is_known(name):
+        return True
+    patterns = (item for item in names if not is_known(item))
+    return any(re.fullmatch(_pattern(item), name) for item in patterns)
+
+
+def _pattern(name: str) -> str:
+    parts = name.split(UNKNOWN_MARK)
+    return ".*".join(re.escape(part) for part in parts[::2])

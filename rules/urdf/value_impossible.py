@@ -1,0 +1,74 @@
+"""UR014: limits, masses and axes are such as a joint and a body can have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.robot import Part, is_known, urdf_parts
+
+_ROBOT = (
+    '<robot name="robot">\n  <link name="base_link">\n    <inertial>\n      <mass value="{}"/>\n'
+    '      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>\n    </inertial>\n  </link>\n'
+    '  <link name="arm"/>\n  <joint name="axis" type="revolute">\n    <parent link="base_link"/>\n'
+    '    <child link="arm"/>\n    <axis xyz="{}"/>\n'
+    '    <limit lower="{}" upper="{}" effort="1" velocity="1"/>\n  </joint>\n</robot>\n'
+)
+_MOVING = frozenset({"revolute", "continuous", "prismatic"})
+
+
+class ValueImpossible(Rule):
+    """A joint has an axis of length zero or limits the wrong way round, or a mass is negative.
+
+    **Why.** The file is read, and then nothing can move the joint: planners find every position
+    out of its limits, and Gazebo leaves the link out.
+
+    **Fix.** The smaller limit is ``lower``; an axis is a direction such as ``0 0 1``.
+
+    **Source.** URDF, "joint" and "inertial".
+    """
+
+    code = "UR014"
+    name = "value-impossible"
+    severity = Severity.WARNING
+    examples = (
+        Example("possible", {"robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")}),
+        Example(
+            "impossible",
+            {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
+            Report("4:20", "a mass is not negative: Gazebo refuses the link"),
+            Report("12:16", "the axis has no direction: the joint cannot move; write 0 0 1"),
+            Report(
+                "13:19",
+                "lower is 1 and upper is -1: no position is within these limits; exchange them",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for part in urdf_parts(package):
+            joint = part.holder
+            moves = joint is not None and joint.get("type") in _MOVING
+            if part.tag == "mass" and any(value < 0 for value in _numbers(part, "value")):
+                message = "a mass is not negative: Gazebo refuses the link"
+                yield self.report(part.at("value"), message)
+            elif part.tag == "axis" and moves and _numbers(part, "xyz") == [0, 0, 0]:
+                message = "the axis has no direction: the joint cannot move; write 0 0 1"
+                yield self.report(part.at("xyz"), message)
+            elif part.tag == "limit" and moves:
+                lower, upper = _numbers(part, "lower"), _numbers(part, "upper")
+                if lower and upper and lower > upper:
+                    message = (
+                        f"lower is {lower[0]:g} and upper is {upper[0]:g}: no position is within "
+                        "these limits; exchange them"
+                    )
+                    yield self.report(part.at("lower"), message)
+
+
+def _numbers(part: Part, name: str) -> list[float]:
+    """Return the numbers in an attribute; none if it holds something else."""
+    text = part.attributes.get(name, "")
+    try:
+        return [float(word) for word in text.split()] if is_known(text) else []
+    except ValueError:
+        return []

@@ -1,0 +1,44 @@
+"""URDF and xacro files, and the bridge to a simulation."""
+
+from __future__ import annotations
+
+from scaffold.model.robot.bridges import (
+    BRIDGED_TYPES,
+    BridgeEntry,
+    bridge_entries,
+    bridge_roots,
+)
+from scaffold.model.robot.expressions import UNKNOWN_MARK, is_known
+from scaffold.model.robot.files import RobotFile, robot_file, robot_paths
+from scaffold.model.robot.robots import (
+    Robots,
+    is_argument_given,
+    is_launched,
+    named_files,
+    robots,
+    urdf_parts,
+)
+from scaffold.model.robot.xacro import Expansion, Misfit, NamedFile, Part, Undefined
+
+__all__ = [
+    "BRIDGED_TYPES",
+    "UNKNOWN_MARK",
+    "BridgeEntry",
+    "Expansion",
+    "Misfit",
+    "NamedFile",
+    "Part",
+    "RobotFile",
+    "Robots",
+    "Undefined",
+    "bridge_entries",
+    "bridge_roots",
+    "is_argument_given",
+    "is_known",
+    "is_launched",
+    "named_files",
+    "robot_file",
+    "robot_paths",
+    "robots",
+    "urdf_parts",
+]

@@ -1,0 +1,79 @@
+"""URDF and xacro files of a package and of those around it."""
+
+from __future__ import annotations
+
+import posixpath
+from typing import TYPE_CHECKING
+
+from scaffold.formats import xml_reader
+from scaffold.model.install.share import share_of
+from scaffold.record import NamedTuple
+from scaffold.source import ParseError
+
+if TYPE_CHECKING:
+    from scaffold.formats.xml import Element
+    from scaffold.model.package import Package
+
+ENDINGS = (".urdf", ".xacro")
+
+
+class RobotFile(NamedTuple):
+    """A file that describes a robot or a part of it."""
+
+    package: Package
+    path: str
+    root: Element
+
+    @property
+    def is_xacro(self) -> bool:
+        """Whether xacro reads it."""
+        return self.path.endswith(".xacro") or self.root.get("xmlns:xacro") is not None
+
+    @property
+    def is_robot(self) -> bool:
+        """Whether it is URDF, and neither SDF nor SRDF."""
+        return self.root.tag == "robot" and ".srdf" not in self.path
+
+
+def robot_paths(package: Package) -> list[str]:
+    """Return the files that are URDF or xacro by their name; tests are skipped."""
+    return [
+        path
+        for path in package.files
+        if path.endswith(ENDINGS) and {"test", "tests"}.isdisjoint(path.split("/"))
+    ]
+
+
+def robot_file(package: Package, path: str) -> RobotFile | None:
+    """Return a file; ``None`` if it has a document type, which xacro reads and we do not.
+
+    Raises:
+        ViewError: there is none, or it is not well-formed.
+    """
+
+    def read() -> RobotFile | None:
+        try:
+            source = xml_reader.decode(path, package.data(path))
+            return RobotFile(package, path, xml_reader.parse(source).root)
+        except ParseError as error:
+            if "DOCTYPE" in error.message or not package.bytes_of(path).strip():
+                return None
+            message = error.message.replace("package.xml", path).replace(" such as <package>", "")
+            if '"xacro:" is not declared' in message:
+                message += (
+                    "; xacro and urdfdom refuse the file: write "
+                    'xmlns:xacro="http://www.ros.org/wiki/xacro" in its root element'
+                )
+            raise ParseError(error.location, message) from None
+
+    return package.remember(("robot_file", path), read)
+
+
+def source_of(package: Package, path: str) -> str:
+    """Return the source of a file of the share directory; the path itself if there is none."""
+    return share_of(package).files.get(path, path)
+
+
+def next_to(path: str, name: str) -> str:
+    """Return the path of a file that another one names relative to itself."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(path), name))

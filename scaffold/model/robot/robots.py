@@ -1,0 +1,155 @@
+"""The robots of a package: files that stand for themselves, and the parts that others include."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from scaffold.model.package import mentions
+from scaffold.model.robot.expressions import SHARE_MARK, is_known
+from scaffold.model.robot.files import RobotFile, next_to, robot_file, robot_paths
+from scaffold.model.robot.xacro import Expansion, NamedFile, Part
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.formats.xml import Element
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+_NAMED = re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
+_LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+_NOT_URDF = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "plugin", "sdf"})
+"""Elements whose contents others read."""
+
+
+class Robots(NamedTuple):
+    """What the files of a package describe."""
+
+    whole: list[Expansion]
+    """The robots."""
+    fragments: list[Expansion]
+    """Files and macros that no robot here uses."""
+
+
+def robots(package: Package) -> Robots:
+    """Return the robots of a package."""
+    return package.remember("robots", lambda: _robots(package))
+
+
+def urdf_parts(package: Package) -> Iterator[Part]:
+    """Yield each element of URDF that the files of a package make, with what each call gives it."""
+    known = robots(package)
+    for expansion in (*known.whole, *known.fragments):
+        if not expansion.file.is_robot:
+            continue
+        pending = [*expansion.root.children]
+        while pending:
+            part = pending.pop()
+            if part.tag in _NOT_URDF:
+                continue
+            if part.file.package is package:
+                yield part
+            pending += part.children
+
+
+def _robots(package: Package) -> Robots:
+    files: list[RobotFile] = []
+    for path in robot_paths(package):
+        try:
+            file = robot_file(package, path)
+        except ViewError:
+            continue
+        if file is not None:
+            files.append(file)
+    expansions = [Expansion(file, package).read() for file in files]
+    included = {key for expansion in expansions for key in expansion.files}
+    patterns = [pattern for expansion in expansions for pattern in expansion.patterns]
+    whole: list[Expansion] = []
+    fragments: list[Expansion] = []
+    for expansion in expansions:
+        path = expansion.file.path
+        is_included = (package.name, path) in included or any(
+            re.fullmatch(pattern, path.rpartition("/")[2]) for pattern in patterns
+        )
+        if not is_included and (_is_whole(expansion) or is_launched(package, path)):
+            whole.append(expansion)
+        else:
+            fragments.append(Expansion(expansion.file, package, is_open=True).read())
+    called = {macro for expansion in whole for macro in expansion.macros}
+    fragments += [
+        Expansion(file, package, is_open=True).read_macro(element)
+        for file in files
+        for element in (file.root.descendants() if file.is_xacro else ())
+        if element.tag == "xacro:macro" and id(element) not in called
+    ]
+    return Robots(whole, fragments)
+
+
+def is_launched(package: Package, path: str) -> bool:
+    """Tell whether a launch file of a package names a file."""
+    return _mentioned_by_launch(package, path.rpartition("/")[2])
+
+
+def is_argument_given(package: Package, name: str) -> bool:
+    """Tell whether a launch file of a package may give xacro an argument."""
+    return _mentioned_by_launch(package, name)
+
+
+def _mentioned_by_launch(package: Package, word: str) -> bool:
+    for path in package.files:
+        if path.endswith(_LAUNCH):
+            try:
+                if mentions(package, path, word):
+                    return True
+            except ViewError:
+                continue
+    return False
+
+
+def _is_whole(expansion: Expansion) -> bool:
+    """Tell whether a file describes a robot by itself."""
+    root = expansion.root
+    if not expansion.file.is_xacro:
+        return True
+    makes_something = any(part.tag != "material" for part in root.children)
+    makes_something |= bool(expansion.misfits or expansion.undefined)
+    return makes_something and (root.tag != "robot" or root.get("name") is not None)
+
+
+def named_files(package: Package) -> Iterator[NamedFile]:
+    """Yield the files that URDF and xacro files name and that have to be there."""
+    for path in robot_paths(package):
+        try:
+            file = robot_file(package, path)
+        except ViewError:
+            continue
+        for element in (file.root, *file.root.descendants()) if file is not None else ():
+            yield from _named_in(path, element)
+    for part in urdf_parts(package):
+        written = part.element.get("filename") or ""
+        if part.tag in {"mesh", "texture"} and "${" in written:
+            value = part.attributes["filename"]
+            value = re.sub(f"{SHARE_MARK}([^{SHARE_MARK}]*){SHARE_MARK}", r"$(find \1)", value)
+            if is_known(value):
+                yield from _paths_in(value, part.file.path, part.at("filename"))
+
+
+def _named_in(path: str, element: Element) -> Iterator[NamedFile]:
+    if element.tag == "xacro:include":
+        if (element.get("optional") or "false").lower() not in {"false", "0"}:
+            return
+        name = element.get("filename") or ""
+        if name and not name.startswith("/") and {"$", "*", "?", "[", ":"}.isdisjoint(name):
+            yield NamedFile("", next_to(path, name), path, element.attributes["filename"].location)
+    for attribute in element.attributes.values():
+        yield from _paths_in(attribute.value, path, attribute.location)
+    if "$(find" in element.own_text or "package://" in element.own_text:
+        yield from _paths_in(element.own_text, path, element.text_location)
+
+
+def _paths_in(text: str, user: str, location: Location) -> Iterator[NamedFile]:
+    for match in _NAMED.finditer(text):
+        if match[4] not in {"$", "*", "?", "["} and "/.." not in match[3]:
+            yield NamedFile(match[1] or match[2], match[3].strip("/"), user, location)

@@ -1,0 +1,116 @@
+"""What xacro makes of a file: compared with what it says itself, in its documentation."""
+
+from __future__ import annotations
+
+import pytest
+
+from scaffold.files.tree import MemoryTree
+from scaffold.model.package import Package
+from scaffold.model.robot.expressions import evaluate, literal, truth
+from scaffold.model.robot.robots import robots
+
+HEAD = '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+
+
+def package(**files: str) -> Package:
+    """Return a package of xacro files, each named by a keyword."""
+    texts = {
+        f"{name}.xacro": f"{HEAD}{text}</robot>" if not text.startswith("<?") else text
+        for name, text in files.items()
+    }
+    return Package(MemoryTree({path: text.encode() for path, text in texts.items()}))
+
+
+def links(**files: str) -> list[str]:
+    """Return the names of the links of the only robot."""
+    (robot,) = robots(package(**files)).whole
+    return [part.get("name") or "" for part in robot.root.all("link")]
+
+
+def test_a_macro_gets_its_parameters_their_defaults_and_forwarded_values() -> None:
+    text = (
+        '<xacro:property name="side" value="left"/>'
+        '<xacro:macro name="wheel" params="name n:=${1 + 1} side:=^|right size:=^|big">'
+        '<link name="${side}_${size}_${name}_${n}"/></xacro:macro>'
+        '<xacro:wheel name="front"/><xacro:wheel name="rear" n="7"/>'
+    )
+    assert links(a=text) == ["left_big_front_2", "left_big_rear_7"]
+
+
+def test_a_block_is_inserted_with_the_values_of_the_caller() -> None:
+    text = (
+        '<xacro:property name="a" value="outer"/>'
+        '<xacro:macro name="m" params="a *one **two"><xacro:insert_block name="one"/>'
+        '<xacro:insert_block name="two"/></xacro:macro>'
+        '<xacro:m a="inner"><link name="${a}"/><group><link name="x"/><link name="y"/></group>'
+        "</xacro:m>"
+    )
+    assert links(a=text) == ["outer", "x", "y"]
+
+
+def test_what_an_argument_decides_may_be_there_or_not() -> None:
+    text = (
+        '<xacro:arg name="arm" default="true"/><link name="base"/>'
+        '<xacro:if value="$(arg arm)"><link name="arm"/></xacro:if>'
+        '<xacro:if value="false"><link name="never"/></xacro:if>'
+        '<xacro:unless value="${1 == 2}"><link name="always"/></xacro:unless>'
+    )
+    (robot,) = robots(package(a=text)).whole
+    assert [(part.get("name"), part.is_certain) for part in robot.root.all("link")] == [
+        ("base", True),
+        ("arm", False),
+        ("always", True),
+    ]
+
+
+def test_an_included_file_is_no_robot_of_its_own() -> None:
+    included = '<link name="${prefix}wheel"/>'
+    text = '<xacro:property name="prefix" value="my_"/><xacro:include filename="b.xacro"/>'
+    assert links(a=text, b=included) == ["my_wheel"]
+
+
+def test_a_file_that_is_not_known_leaves_names_open() -> None:
+    text = (
+        '<xacro:include filename="$(find other)/urdf/parts.xacro"/>'
+        '<link name="${radius}"/><xacro:gripper/>'
+    )
+    (robot,) = robots(package(a=text)).whole
+    assert robot.is_open
+    assert robot.undefined == []
+
+
+def test_macros_that_call_themselves_end() -> None:
+    text = '<xacro:macro name="m"><link name="a"/><xacro:m/></xacro:macro><xacro:m/>'
+    (robot,) = robots(package(a=text)).whole
+    assert robot.is_open
+
+
+@pytest.mark.parametrize(
+    ("expression", "value"),
+    [
+        ("1 + 2 * 3", 7),
+        ("pi / 2 > 1 and not False", True),
+        ("math.radians(180) == pi", True),
+        ("'a' + 'b' if 1 < 2 else 'c'", "ab"),
+        ("max(1, 2.5)", 2.5),
+    ],
+)
+def test_evaluates_like_python(expression: str, value: object) -> None:
+    assert evaluate(expression, lambda name: {"False": False}[name]) == value
+
+
+def test_a_property_is_a_number_where_it_looks_like_one() -> None:
+    assert [literal(text) for text in ("1", "1.5", "true", "1_0", "'1'", "x")] == [
+        1,
+        1.5,
+        True,
+        "1_0",
+        "1",
+        "x",
+    ]
+
+
+def test_a_condition_is_a_truth_or_refused() -> None:
+    assert [truth(value) for value in ("true", "0", 1.0, False)] == [True, False, True, False]
+    with pytest.raises(ValueError, match="invalid literal"):
+        truth("yes")
