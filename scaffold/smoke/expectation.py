@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from scaffold.smoke.result import Observation, Problem, Topic
+from scaffold.smoke.scenario.model import NOTHING, Scenario
 
 TOLERANCE = 0.05
 TOLERANCE_FAST = 0.15
@@ -40,6 +41,10 @@ class Publication:
     """Timers and calls that make up the rate: so many messages may come at once."""
     timer_hz: float | None = None
     """How often timers publish it, unless their callbacks return or raise before."""
+    tolerance: float | None = None
+    """Of the rate, if the author says so."""
+    stated_by: str = ""
+    """The file in which the author says what is expected; empty for the source."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,9 @@ class Expectation:
     """It is a script that defines nodes and makes none."""
     source: str | None = None
     """The file that says so."""
+    exit_code: int | None = None
+    """What the author expects; ``None``: 0."""
+    scenario: Scenario = NOTHING
 
 
 def compare(
@@ -153,6 +161,8 @@ def _said(publication: Publication, expectation: Expectation) -> str:
     what = publication.type or "it"
     hertz = publication.rate_hz or publication.timer_hz
     rate = f" at {hertz:g} Hz" if hertz else ""
+    if publication.stated_by:
+        return f"{publication.stated_by} expects {what}{rate}"
     return f"{expectation.source or 'the source'} publishes {what}{rate}"
 
 
@@ -180,7 +190,7 @@ def _wrong_rate(publication: Publication, topic: Topic, text: str) -> list[Probl
     enough = topic.count >= ENOUGH_MESSAGES or topic.span >= ENOUGH_SECONDS_SLOW
     if topic.rate_hz is None or topic.span < ENOUGH_SECONDS or not enough:
         return []
-    tolerance = TOLERANCE_FAST if rate > FAST else TOLERANCE
+    tolerance = publication.tolerance or (TOLERANCE_FAST if rate > FAST else TOLERANCE)
     at_the_ends = (publication.sources - 1 + rate * LATENESS) / topic.span
     if abs(topic.rate_hz - rate) <= tolerance * rate + at_the_ends:
         return []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any, cast
@@ -13,7 +13,17 @@ from typing import Any, cast
 from scaffold.smoke.expectation import Offer
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
-from scaffold.smoke.result import Endpoint, Log, LogLine, Observation, Spread, Topic
+from scaffold.smoke.result import (
+    Answer,
+    Endpoint,
+    FieldFigures,
+    Log,
+    LogLine,
+    Observation,
+    Spread,
+    Topic,
+)
+from scaffold.smoke.scenario.model import Call, Stimulus
 
 PROBE = Path(__file__).with_name("probe")
 _COPY = "ros2_scaffold_probe"
@@ -101,6 +111,9 @@ class Observer:
         self._counts: dict[str, int] = {}
         self._reports: list[Mapping[str, Any]] = []
         self._graph_changed = time.monotonic()
+        self._called = 0
+        self._answers: dict[int, Answer] = {}
+        self._refused: list[tuple[str, str]] = []
 
     def has_seen_anything(self) -> bool:
         """Tell whether a node or a publisher has appeared."""
@@ -148,6 +161,41 @@ class Observer:
             if left <= 0:
                 return
             await self.pause(left, running)
+
+    def watch_fields(self, paths: Mapping[str, Sequence[str]]) -> None:
+        """Have values of fields looked at, by topic; before the executable is started."""
+        if paths:
+            self._tell("fields", topics=paths)
+
+    def publish(self, stimulus: Stimulus) -> None:
+        """Publish messages from now on."""
+        self._tell(
+            "publish",
+            topic=stimulus.topic,
+            type=stimulus.type,
+            message=stimulus.message,
+            rate=stimulus.rate_hz,
+        )
+
+    async def call(self, call: Call, timeout: float, running: process.Running) -> Answer:
+        """Call a service or an action; return its answer.
+
+        Raises:
+            ObserverError: the probe has ended.
+        """
+        number = self._called = self._called + 1
+        self._tell(
+            "call",
+            id=number,
+            kind=call.kind,
+            name=call.name,
+            type=call.type,
+            request=call.request,
+            timeout=timeout,
+        )
+        if not await self.wait_for(lambda: number in self._answers, timeout * 2, running):
+            return Answer(None, "it ended before it answered")
+        return self._answers[number]
 
     def dismiss(self) -> None:
         """Let the probe go: nothing more is to be seen."""
@@ -204,9 +252,9 @@ class Observer:
         finally:
             event.cancel()
 
-    def _tell(self, command: str) -> None:
+    def _tell(self, command: str, **values: object) -> None:
         if not self._ended and not self._stdin.is_closing():
-            self._stdin.write(command.encode() + b"\n")
+            self._stdin.write(json.dumps({"command": command, **values}).encode() + b"\n")
 
     def _take(self, event: Mapping[str, Any]) -> None:
         kind = event["event"]
@@ -216,6 +264,10 @@ class Observer:
             self._counts[event["topic"]] = event["count"]
         elif kind == "report":
             self._reports.append(event)
+        elif kind == "answer":
+            self._answers[event["id"]] = Answer(event["value"], event["error"])
+        elif kind == "refused":
+            self._refused.append((event["topic"], event["error"]))
         else:
             self._take_graph(event)
 
@@ -255,6 +307,11 @@ class Observer:
             log=Log(
                 report["log"]["counts"], tuple(LogLine(**line) for line in report["log"]["lines"])
             ),
+            fields={
+                name: {path: FieldFigures(**figures) for path, figures in fields.items()}
+                for name, fields in report["fields"].items()
+            },
+            refused=tuple(self._refused),
         )
 
 

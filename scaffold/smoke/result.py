@@ -108,6 +108,28 @@ class Log:
 
 
 @dataclass(frozen=True)
+class FieldFigures:
+    """The values of a field in the messages of a topic."""
+
+    count: int
+    changes: int
+    """How often it differed from the message before."""
+    first: Any
+    last: Any
+    least: float | None
+    greatest: float | None
+    error: str = ""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a service or an action has answered."""
+
+    value: Mapping[str, Any] | None
+    error: str = ""
+
+
+@dataclass(frozen=True)
 class Usage:
     """What an executable and the processes that it has started have used."""
 
@@ -134,6 +156,12 @@ class Observation:
     """By node and name; ``None`` for a node that has not answered."""
     log: Log = Log()
     usage: Usage | None = None
+    fields: Mapping[str, Mapping[str, FieldFigures]] = field(default_factory=dict)
+    """By topic and path; those that the author has expectations about."""
+    answers: Mapping[tuple[str, str], Answer] = field(default_factory=dict)
+    """By kind and name."""
+    refused: tuple[tuple[str, str], ...] = ()
+    """Topics that could not be published, and why."""
 
     @property
     def alive(self) -> bool:

@@ -15,7 +15,8 @@ from scaffold.smoke.observe import ObserverError
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.processes.usage import Meter, measuring
-from scaffold.smoke.result import Observation, Problem, Stop
+from scaffold.smoke.result import Answer, Observation, Problem, Stop
+from scaffold.smoke.scenario.model import FILE
 
 RETRIES = 2
 SETTLING = 1.0
@@ -78,7 +79,7 @@ async def run(
 
     Args:
         plan: What is the same for all runs.
-        executable: The file, started without arguments.
+        executable: The file, started with the arguments of its scenario.
         expectation: What its source says about it.
         label: Names the run, as a relative path.
         number: The signal to stop it with.
@@ -137,13 +138,23 @@ class _Run:
         self._observer = station.observer
         self._brief = brief
         self._hangs = ""
+        self._scenario = expectation.scenario
+        self._answers: dict[tuple[str, str], Answer] = {}
 
     async def execute(self, executable: Path, label: str) -> None:
         origin = self._plan.origin.below(label)
         variables = self._station.variables(self._plan.variables)
         directory = self._plan.scratch / "runs" / label
+        command = [str(executable), *self._scenario.command()]
+        self._observer.watch_fields(
+            {
+                topic.name: [field.path for field in topic.fields]
+                for topic in self._scenario.topics
+                if topic.fields
+            }
+        )
         try:
-            running = await process.start([str(executable)], variables, directory, origin)
+            running = await process.start(command, variables, directory, origin)
         except OSError as error:
             self._report(f"cannot be started: {error.strerror}")
             return
@@ -152,6 +163,7 @@ class _Run:
                 await self._watch(running, meter)
                 observation = await self._observer.observation()
                 meter.measure()
+            observation = replace(observation, answers=self._answers)
             self._trial.observation = _since(running, observation, meter)
             self._trial.seconds = time.monotonic() - running.started
             self._trial.joined = self._trial.observation.alive and running.exit_code is None
@@ -163,8 +175,8 @@ class _Run:
                 await self._stop(running)
             else:
                 self._ended_by_itself(running)
-            for command in await running.finish():
-                self._report(f"leaves a process running: {command}")
+            for child in await running.finish():
+                self._report(f"leaves a process running: {child}")
             if running.lost_supervisor:
                 self._report("killed the process that started it")
         finally:
@@ -178,11 +190,21 @@ class _Run:
             return
         meter.begin()
         if not self._brief:
-            await observer.pause(plan.duration, running)
+            for stimulus in self._scenario.stimuli:
+                observer.publish(stimulus)
+            await observer.pause(self._scenario.duration or plan.duration, running)
         left = running.started + plan.timeout - time.monotonic()
         await observer.wait_for(self._has_seen_all(), left, running)
         # A signal in the middle of a constructor would tell about nothing but that.
         await observer.settle(SETTLING, plan.timeout, running)
+        if not self._brief:
+            await self._call(running)
+
+    async def _call(self, running: process.Running) -> None:
+        for call in self._scenario.calls:
+            if running.exit_code is None:
+                answer = await self._observer.call(call, self._plan.timeout, running)
+                self._answers[call.kind, call.name] = answer
 
     def _has_seen_all(self) -> Callable[[], bool]:
         topics = [
@@ -210,7 +232,10 @@ class _Run:
         said = output.read(running.err)
         trace = output.traceback(said)
         self._trial.stop = Stop(None, code, seconds, trace)
-        if not code and trace is None:
+        if self._is_expected(code) and (trace is None or code):
+            return
+        if self._expectation.exit_code is not None and trace is None:
+            self._report(f"finished by itself, {self._unexpected(code)}", _said(running))
             return
         when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
         reason = output.exception(trace) if trace else output.named_error(said)
@@ -236,14 +261,27 @@ class _Run:
         if self._hangs:
             # The traceback of the interrupted program shows where it was.
             self._report(self._hangs, said + where)
-        elif not done.was_ignored and (running.exit_code or trace):
-            how = ending(running.exit_code) + (f": {output.exception(trace)}" if trace else "")
+        elif not done.was_ignored and not self._is_clean(running.exit_code, trace):
+            how = self._unexpected(running.exit_code)
+            how += f": {output.exception(trace)}" if trace else ""
             last_lines = tuple(output.tail(output.read(running.err, written)))
             self._report(
                 f"does not stop cleanly on {done.asked}, {how}",
                 where or last_lines,
                 doubtful=trace is not None and is_late_call(output.exception(trace)),
             )
+
+    def _is_expected(self, code: int | None) -> bool:
+        return code == (self._expectation.exit_code or 0)
+
+    def _is_clean(self, code: int | None, trace: str | None) -> bool:
+        return self._is_expected(code) and (trace is None or bool(code))
+
+    def _unexpected(self, code: int | None) -> str:
+        wanted = self._expectation.exit_code
+        if wanted is None or self._is_expected(code):
+            return ending(code)
+        return f"{ending(code)}, but {FILE} expects {wanted}"
 
     def _report_exception(self, running: process.Running) -> None:
         """Report an exception that did not end the executable: of a thread, or printed by it."""

@@ -30,6 +30,10 @@ from scaffold.smoke.isolation.station import Stations
 from scaffold.smoke.processes import process, supervisor
 from scaffold.smoke.result import Build, Executable, PackageResult, Problem, Smoke
 from scaffold.smoke.run import NodeRun, RunSettings
+from scaffold.smoke.scenario import verdicts
+from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
+from scaffold.smoke.scenario.reader import scenarios
+from scaffold.smoke.scenario.verdicts import overridden
 
 Result = TypeVar("Result")
 
@@ -80,11 +84,12 @@ def smoke(
         interruption: Takes the signals that ask for the end; without it, only this run does.
 
     Raises:
-        InputError: another run holds the workspace.
+        InputError: another run holds the workspace, or a ``smoke.yaml`` has a mistake.
         EnvironmentMissingError: there is no ROS 2 to do it with.
         InterruptedBySignalError: a signal asked for the end.
     """
     begun = time.monotonic()
+    stated = {source.name: _scenarios(source) for source in sources}
     interruption = interruption or Interruption()
     with ExitStack() as stack:
         stack.enter_context(interruption)
@@ -100,7 +105,7 @@ def smoke(
             selected = environments.select(
                 os.environ if variables is None else variables, origin=run.origin
             )
-        session = _Session(selected, run, options, progress)
+        session = _Session(selected, run, options, progress, stated)
         packages = interruption.run(lambda: session.run(sources))
         stack.close()
         interruption.check()
@@ -111,6 +116,15 @@ def smoke(
         scratch=str(run.scratch) if options.keep else None,
         seconds=time.monotonic() - begun,
     )
+
+
+def _scenarios(source: Source) -> Mapping[str, Scenario]:
+    if not source.has(FILE):
+        return {}
+    from scaffold.model.programs.executables import programs_of
+
+    programs = programs_of(source)
+    return scenarios(source, programs.sources if programs.complete else ())
 
 
 def packages_of(targets: Sequence[Target]) -> list[Source]:
@@ -142,8 +156,10 @@ class _Session:
         run: Run,
         options: Options,
         progress: Progress | None,
+        scenarios: Mapping[str, Mapping[str, Scenario]],
     ) -> None:
         self._environment = environment
+        self._scenarios = scenarios
         self._scratch = run.scratch
         self._origin = run.origin
         self._options = options
@@ -187,7 +203,12 @@ class _Session:
         await asyncio.sleep(0)  # the build begins first
         from scaffold.smoke.declared import expectations
 
-        self._expected = {source.name: expectations(source) for source in sources}
+        for source in sources:
+            derived, stated = expectations(source), self._scenarios[source.name]
+            self._expected[source.name] = {
+                name: overridden(derived.get(name, Expectation()), stated.get(name, NOTHING))
+                for name in {**derived, **stated}
+            }
         if not any(path.endswith(_INTERFACES) for source in sources for path in source.files):
             # Observers have to know the messages: these come with the environment.
             likely = sum(len(of_package) for of_package in self._expected.values())
@@ -243,6 +264,7 @@ class _Session:
             if name in found
             else _missing(name, where)
             for name in sorted({*found, *expected})
+            if not (name in expected and expected[name].scenario.skip)
         ]
 
     async def _one(
@@ -342,6 +364,7 @@ def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Ex
         seen, said = compare(expectation, first.observation, first.seconds, finished=finished)
         problems += seen
         notes += said
+        problems += verdicts.problems(expectation.scenario, first.observation)
     if finished and not problems:
         notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
     for other in trials[1:]:

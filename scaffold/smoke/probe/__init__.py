@@ -8,5 +8,13 @@ This package is copied and run by the Python of the ROS environment, which need 
     {"event": "message", "topic": "/t", "count": 1}               the first ones of every topic
     {"event": "report", "now": 0.0, "topics": {...}, "parameters": {...}, "log": {...}}
 
-Commands on stdin: ``report`` asks for the last of these events; the end of stdin ends the probe.
+    {"event": "answer", "id": 1, "value": {...} or null, "error": ""}
+    {"event": "refused", "topic": "/t", "error": "..."}             a message cannot be published
+
+Commands on stdin are JSON as well; the end of stdin ends the probe::
+
+    {"command": "report"}
+    {"command": "fields", "topics": {"/t": ["header.frame_id"]}}    values to look at
+    {"command": "publish", "topic", "type", "message", "rate"}
+    {"command": "call", "id", "kind": "service" or "action", "name", "type", "request", "timeout"}
 """

@@ -11,11 +11,13 @@ import time
 from importlib import import_module
 from typing import Any
 
+from .fields import Field
 from .log import TOPIC as ROSOUT
 from .log import Log
 from .messages import find_type
 from .parameters import Parameters
 from .qos import endpoint
+from .stimuli import Stimuli
 from .topics import SHOWN_MESSAGES, Topic
 
 Ros = Any
@@ -54,6 +56,8 @@ class Probe:
         self._publishers: dict[str, int] = {}
         self._log = Log(self._node, self._qos, self._deserialize)
         self._parameters = Parameters(self._node)
+        self._stimuli = Stimuli(self._node, say)
+        self._fields: dict[str, dict[str, Field]] = {}
 
     def run(self) -> None:
         """Observe until stdin ends."""
@@ -67,12 +71,24 @@ class Probe:
             if now >= next_look:
                 next_look = now + GRAPH_PERIOD
                 self._look()
+            self._stimuli.go_on()
             for command in commands.read():
-                if command == "report":
-                    self._report()
+                self._obey(json.loads(command))
         self._executor.shutdown(timeout_sec=1.0)
         self._node.destroy_node()
         self._rclpy.try_shutdown()
+
+    def _obey(self, command: dict[str, Any]) -> None:
+        kind = command["command"]
+        if kind == "report":
+            self._report()
+        elif kind == "fields":
+            paths = command["topics"]
+            self._fields = {name: {path: Field(path) for path in paths[name]} for name in paths}
+        elif kind == "publish":
+            self._stimuli.publish(command)
+        else:
+            self._stimuli.call(command)
 
     def _report(self) -> None:
         topics = {
@@ -86,6 +102,10 @@ class Probe:
                 "topics": topics,
                 "parameters": self._parameters.as_data(),
                 "log": self._log.as_data(),
+                "fields": {
+                    name: {path: field.as_data() for path, field in fields.items()}
+                    for name, fields in self._fields.items()
+                },
             }
         )
 
@@ -120,7 +140,9 @@ class Probe:
         return [[service, types[0]] for service, types in found]
 
     def _look_at(self, name: str, types: list[str]) -> dict[str, object]:
-        publishers = self._node.get_publishers_info_by_topic(name)
+        publishers = [
+            info for info in self._node.get_publishers_info_by_topic(name) if info.node_name != NAME
+        ]
         subscribers = [
             info
             for info in self._node.get_subscriptions_info_by_topic(name)
@@ -170,6 +192,11 @@ class Probe:
             if topic.count <= SHOWN_MESSAGES:
                 topic.keep(data, message_type, self._deserialize)
                 say({"event": "message", "topic": name, "count": topic.count})
+            fields = self._fields.get(name)
+            if fields:
+                message = self._deserialize(data, message_type)
+                for field in fields.values():
+                    field.take(message)
 
         return self._node.create_subscription(message_type, name, receive, qos, raw=True)
 

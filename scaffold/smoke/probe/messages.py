@@ -26,6 +26,11 @@ def as_data(message: Ros) -> dict[str, object]:
     return {field: _field(getattr(message, field), kind) for field, kind in fields.items()}
 
 
+def plain(value: Ros) -> object:
+    """Return the value of a field as JSON knows it."""
+    return None if value is None else _field(value, "")
+
+
 def _field(value: Ros, kind: str) -> object:
     if hasattr(value, "get_fields_and_field_types"):
         return as_data(value)

@@ -1,0 +1,59 @@
+"""The values that fields of messages take."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .building import field_of
+from .messages import plain
+
+Ros = Any
+"""Whatever rclpy returns: it has no types."""
+
+
+class Field:
+    """One field of the messages of a topic.
+
+    Args:
+        path: Such as ``header.frame_id``.
+    """
+
+    def __init__(self, path: str) -> None:
+        self._path = path
+        self._count = 0
+        self._changes = 0
+        self._first: object = None
+        self._last: object = None
+        self._least: float | None = None
+        self._greatest: float | None = None
+        self._error = ""
+
+    def take(self, message: Ros) -> None:
+        """Take in the value in a message."""
+        try:
+            value = field_of(message, self._path)
+        except ValueError as error:
+            self._error = str(error)
+            return
+        shown = plain(value)
+        if self._count and shown != self._last:
+            self._changes += 1
+        if not self._count:
+            self._first = shown
+        self._last = shown
+        self._count += 1
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            self._least = value if self._least is None else min(self._least, value)
+            self._greatest = value if self._greatest is None else max(self._greatest, value)
+
+    def as_data(self) -> dict[str, object]:
+        """Return what goes into the report."""
+        return {
+            "count": self._count,
+            "changes": self._changes,
+            "first": self._first,
+            "last": self._last,
+            "least": plain(self._least),
+            "greatest": plain(self._greatest),
+            "error": self._error,
+        }

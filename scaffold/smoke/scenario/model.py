@@ -1,0 +1,88 @@
+"""What an author expects of a package, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+FILE = "smoke.yaml"
+
+
+@dataclass(frozen=True)
+class FieldExpectation:
+    """What the values of a field of messages are like; ``None``: anything."""
+
+    path: str
+    """Such as ``header.frame_id`` or ``ranges[0]``."""
+    changes: bool | None = None
+    """Whether it has at least two values."""
+    minimum: float | None = None
+    maximum: float | None = None
+    equals: Any = None
+    has_equals: bool = False
+
+
+@dataclass(frozen=True)
+class TopicExpectation:
+    """A topic that is published."""
+
+    name: str
+    type: str | None = None
+    rate_hz: float | None = None
+    any_rate: bool = False
+    """The rate in the source does not count."""
+    tolerance: float | None = None
+    """Of the rate, as a fraction."""
+    fields: tuple[FieldExpectation, ...] = ()
+
+
+@dataclass(frozen=True)
+class Call:
+    """A request to a service, or a goal for an action."""
+
+    kind: str
+    """``service`` or ``action``."""
+    name: str
+    type: str
+    request: Mapping[str, Any] = field(default_factory=dict)
+    answer: Mapping[str, Any] = field(default_factory=dict)
+    """Fields that the answer has; others are not looked at."""
+
+
+@dataclass(frozen=True)
+class Stimulus:
+    """Messages that an executable gets."""
+
+    topic: str
+    type: str
+    message: Mapping[str, Any] = field(default_factory=dict)
+    rate_hz: float = 1.0
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """How an executable is run, and what is expected of it."""
+
+    arguments: tuple[str, ...] = ()
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    topics: tuple[TopicExpectation, ...] = ()
+    calls: tuple[Call, ...] = ()
+    stimuli: tuple[Stimulus, ...] = ()
+    duration: float | None = None
+    exit_code: int | None = None
+    skip: bool = False
+
+    def command(self) -> list[str]:
+        """Return the words after the executable."""
+        from json import dumps
+
+        words = [*self.arguments]
+        if self.parameters:
+            words.append("--ros-args")
+        for name, value in self.parameters.items():
+            words += ["-p", f"{name}:={dumps(value)}"]
+        return words
+
+
+NOTHING = Scenario()

@@ -1,0 +1,138 @@
+"""What an author expects of an executable, against what was seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from json import dumps
+from typing import Any
+
+from scaffold.smoke.expectation import Expectation, Publication
+from scaffold.smoke.result import Answer, FieldFigures, Observation, Problem
+from scaffold.smoke.scenario.model import (
+    FILE,
+    Call,
+    FieldExpectation,
+    Scenario,
+    TopicExpectation,
+)
+
+
+def overridden(derived: Expectation, scenario: Scenario) -> Expectation:
+    """Return what is expected in all: what the author says goes before what the source says."""
+    topics = {topic.name: topic for topic in scenario.topics}
+    publications = [
+        _publication(publication, topics.pop(publication.topic))
+        if publication.topic in topics
+        else publication
+        for publication in derived.publications
+    ]
+    publications += [_publication(Publication(name), topic) for name, topic in topics.items()]
+    return replace(
+        derived,
+        publications=tuple(publications),
+        exit_code=scenario.exit_code,
+        scenario=scenario,
+    )
+
+
+def _publication(derived: Publication, topic: TopicExpectation) -> Publication:
+    rate = None if topic.any_rate else topic.rate_hz or derived.rate_hz
+    return replace(
+        derived,
+        type=topic.type or derived.type,
+        rate_hz=rate,
+        certain=True,
+        never=False,
+        timer_hz=None if topic.any_rate else derived.timer_hz,
+        tolerance=topic.tolerance,
+        stated_by=FILE,
+    )
+
+
+def problems(scenario: Scenario, seen: Observation) -> Iterator[Problem]:
+    """Yield what is not as the author expects: values of fields, and answers."""
+    for name, error in seen.refused:
+        yield Problem(f"{FILE} publishes {name}, which is not possible: {error}")
+    for topic in scenario.topics:
+        figures = seen.fields.get(topic.name, {})
+        for item in topic.fields:
+            yield from _of_field(topic.name, item, figures.get(item.path))
+    for call in scenario.calls:
+        yield from _of_call(call, seen.answers.get((call.kind, call.name)))
+
+
+def _of_field(
+    topic: str, expected: FieldExpectation, seen: FieldFigures | None
+) -> Iterator[Problem]:
+    what = f"{expected.path} of {topic}"
+    if seen is None or not seen.count:
+        why = seen.error if seen is not None and seen.error else "no message came"
+        yield Problem(f"{what} was not seen: {why}")
+        return
+    if expected.changes is True and not seen.changes:
+        yield Problem(f"{what} is always {_shown(seen.last)}: {FILE} expects it to change")
+    if expected.changes is False and seen.changes:
+        yield Problem(
+            f"{what} changes from {_shown(seen.first)} to {_shown(seen.last)}: "
+            f"{FILE} expects it to stay"
+        )
+    if expected.has_equals and (seen.changes or not _fits(expected.equals, seen.last)):
+        yield Problem(f"{what} is {_shown(seen.last)}: {FILE} expects {_shown(expected.equals)}")
+    yield from _out_of_range(what, expected, seen)
+
+
+def _out_of_range(what: str, expected: FieldExpectation, seen: FieldFigures) -> Iterator[Problem]:
+    if expected.minimum is None and expected.maximum is None:
+        return
+    if seen.least is None or seen.greatest is None:
+        yield Problem(f"{what} is {_shown(seen.last)}: {FILE} expects a number")
+        return
+    if expected.minimum is not None and seen.least < expected.minimum:
+        yield Problem(f"{what} is {seen.least:g}: {FILE} expects at least {expected.minimum:g}")
+    if expected.maximum is not None and seen.greatest > expected.maximum:
+        yield Problem(f"{what} is {seen.greatest:g}: {FILE} expects at most {expected.maximum:g}")
+
+
+def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
+    if answer is None:
+        yield Problem(f"{call.kind} {call.name} was not called: nothing was up by then")
+    elif answer.error:
+        yield Problem(f"{call.kind} {call.name}: {answer.error}")
+    else:
+        for name, expected in call.answer.items():
+            value = (answer.value or {}).get(name)
+            if not _fits(expected, value):
+                yield Problem(
+                    f"{call.kind} {call.name} answers {name}: {_shown(value)}: "
+                    f"{FILE} expects {_shown(expected)}"
+                )
+
+
+def _fits(expected: object, seen: object) -> bool:
+    """Tell whether a value is as expected; fields that are not named are not looked at."""
+    if isinstance(expected, Mapping):
+        return isinstance(seen, Mapping) and all(
+            name in seen and _fits(value, seen[name]) for name, value in expected.items()
+        )
+    if isinstance(expected, list):
+        return (
+            isinstance(seen, (list, tuple))
+            and len(seen) == len(expected)
+            and all(map(_fits, expected, seen))
+        )
+    if isinstance(expected, float) or isinstance(seen, float):
+        return _is_close(expected, seen)
+    return expected == seen
+
+
+def _is_close(expected: object, seen: object) -> bool:
+    numbers = (int, float)
+    if not isinstance(expected, numbers) or not isinstance(seen, numbers):
+        return False
+    return math.isclose(expected, seen, rel_tol=1e-6, abs_tol=1e-9)
+
+
+def _shown(value: Any) -> str:  # noqa: ANN401  of a message
+    return dumps(value, ensure_ascii=False)
