@@ -20,12 +20,21 @@ _MAKE = "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
 _USE = "        self.pub.publish(String())\n"
 
 
+_CALLED_BY_NODE = (
+    *("get_name", "get_namespace", "get_logger", "get_clock", "create_publisher"),
+    *("create_service", "declare_parameter", "declare_parameters", "has_parameter"),
+    *("get_parameter", "add_on_set_parameters_callback"),
+)
+"""The methods that ``Node.__init__`` calls of the node that it makes."""
+
+
 class AttributeUsedBeforeSet(RclpyRule):
     """The constructor of a node uses an attribute that it sets further down.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start.
 
-    **Fix.** Set it first.
+    **Fix.** Set it first. A method such as ``get_name`` is called by the constructor of rclpy's
+    Node: give it another name.
 
     **Source.** Python documentation, "Classes".
     """
@@ -39,6 +48,25 @@ class AttributeUsedBeforeSet(RclpyRule):
             {"talker.py": _NODE.format(_USE + _MAKE)},
             Report("8:9", "self.pub is used before it is set in line 9: AttributeError"),
         ),
+        Example(
+            "in a method that the constructor of rclpy's Node calls",
+            {
+                "talker.py": _NODE.format("        self.robot = 'robin'\n")
+                + "\n    def get_name(self):\n        return self.robot\n"
+            },
+            Report(
+                "11:16",
+                "rclpy's Node calls get_name() while it is made, before self.robot "
+                "is set in line 8: AttributeError; call the method otherwise",
+            ),
+        ),
+        Example(
+            "in a method with a name of its own",
+            {
+                "talker.py": _NODE.format("        self.robot = 'robin'\n")
+                + "\n    def robot_name(self):\n        return self.robot\n"
+            },
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -50,6 +78,29 @@ class AttributeUsedBeforeSet(RclpyRule):
                     f"self.{used.attr} is used before it is set in line {line}: AttributeError"
                 )
                 yield self.report(file.module.location(used), message)
+            yield from self._check_overrides(file, node)
+
+    def _check_overrides(self, file: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
+        """Check what the constructor of rclpy's Node calls, if the class has methods of its own."""
+        call = node.super_init
+        for name in _CALLED_BY_NODE if call is not None else ():
+            method = node.methods.get(name)
+            for used in file.module.below(method, ast.Attribute) if method is not None else ():
+                if call is None or not isinstance(used.ctx, ast.Load):
+                    continue
+                if has(NODE, used.attr) or used.attr in file.module.index.bindings(node.node):
+                    continue
+                if file.evaluator.self_class(used.value) is not node.node:
+                    continue
+                line = _first_line(file, node, used.attr)
+                is_handled_there = is_handled(file.module, used, "AttributeError")
+                if line > (call.end_lineno or call.lineno) and not is_handled_there:
+                    message = (
+                        f"rclpy's Node calls {name}() while it is made, before self.{used.attr} "
+                        f"is set in line {line}: AttributeError; call the method otherwise"
+                    )
+                    yield self.report(file.module.location(used), message)
+                    break
 
 
 def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.programs import in_callbacks
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.programs import in_callbacks, in_constructors
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
@@ -24,13 +24,25 @@ _NODE = (
 )
 
 
+_SPINNING = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n"
+    "        rclpy.spin(self)\n{}"
+)
+
+
 class SpinInCallback(RclpyRule):
-    """A callback spins its own node.
+    """A callback or the constructor of a node spins the node itself.
 
     **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it from there when
-    done: the first call works, and after that no callback of the node runs.
+    done: the first call works, and after that no callback of the node runs. ``rclpy.spin`` in
+    the constructor returns at the shutdown: who makes the node gets it only then.
 
-    **Fix.** Use ``future.add_done_callback``, or an ``async`` callback that awaits the future.
+    **Fix.** Spin the node in ``main``, after it is made. In callbacks, use
+    ``future.add_done_callback``, or an ``async`` callback that awaits the future.
 
     **Source.** rclpy issue 1313; ROS 2 documentation, "Synchronous vs. asynchronous service
     clients".
@@ -38,6 +50,7 @@ class SpinInCallback(RclpyRule):
 
     code = "ND033"
     name = "spin-in-callback"
+    other_severities = {Severity.WARNING: "in the constructor, and nothing else spins the node"}
     examples = (
         Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
         Example(
@@ -49,9 +62,31 @@ class SpinInCallback(RclpyRule):
                 "the same node: no callback runs after that",
             ),
         ),
+        Example(
+            "a constructor that spins",
+            {"talker.py": _SPINNING.format("")},
+            Report(
+                "9:9",
+                "spin() runs in the constructor of Talker, which returns only at "
+                "the shutdown: what is behind it runs too late; spin the node in "
+                "main()",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a constructor that spins, and main() as well",
+            {"talker.py": _SPINNING.format("\n\ndef main():\n    rclpy.spin(Talker())\n")},
+            Report(
+                "9:9",
+                "spin() runs in the constructor of Talker, which returns only at "
+                "the shutdown: what is behind it runs too late; spin the node in "
+                "main()",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_constructors(file)
         for function, origin, _ in in_callbacks(file):
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
@@ -63,3 +98,25 @@ class SpinInCallback(RclpyRule):
                     continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(call, f"{message}: no callback runs after that")
+
+    def _check_constructors(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        functions = {executed.function: executed.origin for executed in in_constructors(file)}
+        outside = [call for call in file.spin_calls if file.function_of(call.call) not in functions]
+        for call in file.spin_calls:
+            function = file.function_of(call.call)
+            origin = functions.get(function) if function is not None else None
+            if origin is None or call.name not in {"spin", "executor.spin"}:
+                continue
+            if call.name == "spin" and not _is_self(file, call.call):
+                continue
+            message = (
+                f"spin() runs in {origin}, which returns only at the shutdown: what is behind it "
+                "runs too late; spin the node in main()"
+            )
+            severity = None if outside else Severity.WARNING
+            yield self.report(call, message, severity=severity)
+
+
+def _is_self(file: RclpyFile, call: ast.Call) -> bool:
+    given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "node")]
+    return bool(given) and file.evaluator.self_class(given[0]) is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
@@ -32,7 +33,10 @@ class SpunWrongly(RclpyRule):
     code = "ND057"
     name = "spun-wrongly"
     examples = (
-        Example("a node", {"talker.py": _NODE.format("    rclpy.spin(node)\n")}),
+        Example(
+            "a node",
+            {"talker.py": _NODE.format("    rclpy.spin(node)\n")},
+        ),
         Example(
             "a class",
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
@@ -52,6 +56,15 @@ class SpunWrongly(RclpyRule):
                 ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
             },
             Report("17:5", "this is an executor, not a node: AttributeError; call its spin()"),
+        ),
+        Example(
+            "two nodes, one after the other",
+            {"talker.py": _NODE.format("    rclpy.spin(node)\n    rclpy.spin(Talker())\n")},
+            Report(
+                "15:5",
+                "the spin of line 14 returns only at the shutdown: this node is "
+                "never spun; add both to an executor",
+            ),
         ),
     )
 
@@ -77,4 +90,28 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
     other = shutdowns.before(call.call)
     if other is not None:
         return f"rclpy is already shut down in line {other.location.line}: nothing is spun"
+    line = _spun_before(file, call)
+    if line:
+        return (
+            f"the spin of line {line} returns only at the shutdown: this node is never spun; "
+            "add both to an executor"
+        )
     return ""
+
+
+def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
+    """Return the line of a call ahead in the same block that spins until the shutdown."""
+    statement = file.module.parent(call.call)
+    block = file.module.parent(statement) if isinstance(statement, ast.Expr) else None
+    for other in file.spin_calls if call.name == "spin" else ():
+        before = file.module.parent(other.call)
+        if other.name != "spin" or not isinstance(before, ast.Expr) or before is statement:
+            continue
+        if file.module.parent(before) is block and before.lineno < call.call.lineno:
+            return before.lineno if not _is_again(file, before, call.call) else 0
+    return 0
+
+
+def _is_again(file: RclpyFile, before: ast.stmt, call: ast.Call) -> bool:
+    """Return whether rclpy is started anew between two calls."""
+    return any(before.lineno < init.location.line < call.lineno for init in file.init_calls)

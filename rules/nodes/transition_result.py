@@ -26,6 +26,14 @@ _NODE = (
 _RIGHT = "return super().on_activate(state)"
 
 
+_OWN_TRANSITIONS = ("on_configure", "on_activate", "on_deactivate", "on_cleanup")
+"""The transition callbacks whose names mean nothing else."""
+_FEWEST = 2
+"""Such methods in a class that is meant to be a lifecycle node."""
+_WITH_STATE = 2
+"""Parameters of a transition callback: ``self`` and the state."""
+
+
 class TransitionResult(RclpyRule):
     """A transition callback has a wrong name, signature or result.
 
@@ -80,11 +88,28 @@ class TransitionResult(RclpyRule):
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
             Report("10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"),
         ),
+        Example(
+            "a plain node",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\n"
+                "class Talker(Node):\n"
+                "    def on_configure(self, state):\n        return True\n\n"
+                "    def on_activate(self, state):\n        return True\n"
+            },
+            Report(
+                "5:9",
+                "Talker is a plain Node: rclpy never calls 'on_configure', and "
+                "there are no transitions; inherit from "
+                "rclpy.lifecycle.LifecycleNode",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for class_ in file.classes:
-            if class_.is_lifecycle:
+            if not class_.is_lifecycle:
+                yield from self._check_plain(file, class_)
+            else:
                 for name, function in class_.methods.items():
                     if function.decorator_list or is_generator(function):
                         continue
@@ -93,6 +118,24 @@ class TransitionResult(RclpyRule):
                     elif name.startswith("on_") and not file.module.index.attributes(name):
                         yield from self._check_name(file, function, class_.methods)
                 yield from self._check_publishers(file, class_)
+
+    def _check_plain(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
+        """Check a node without a lifecycle: rclpy never calls its transition callbacks."""
+        methods = [class_.methods[name] for name in _OWN_TRANSITIONS if name in class_.methods]
+        if len(methods) < _FEWEST or class_.base is not None or len(class_.node.bases) != 1:
+            return
+        if any(
+            not ast.unparse(use).startswith("super().")
+            for method in methods
+            for use in file.module.index.attributes(method.name)
+        ):
+            return
+        if all(len([*x.args.posonlyargs, *x.args.args]) == _WITH_STATE for x in methods):
+            message = (
+                f"{class_.name} is a plain Node: rclpy never calls {methods[0].name!r}, and there "
+                "are no transitions; inherit from rclpy.lifecycle.LifecycleNode"
+            )
+            yield self.report(file.module.name_location(methods[0]), message)
 
     def _check(self, file: RclpyFile, function: FunctionNode) -> Iterator[Diagnostic]:
         module, given = file.module, function.args

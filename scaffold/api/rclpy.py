@@ -41,6 +41,7 @@ from scaffold.model.rclpy.entities import (
     Timer,
 )
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_paths
+from scaffold.model.rclpy.latched import latched_topics
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
 from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
@@ -121,6 +122,7 @@ __all__ = [
     "is_unused",
     "is_used_elsewhere",
     "known_names",
+    "latched_topics",
     "log_calls",
     "lookups_in",
     "message_made",

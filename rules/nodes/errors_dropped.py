@@ -1,0 +1,121 @@
+"""ND120: callbacks do not hide all errors."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.python import FunctionNode
+from scaffold.api.rclpy import Callback, RclpyFile, Service, Subscription, Synchronizer, Timer
+
+_ALL = frozenset({"Exception", "BaseException"})
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.create_subscription(String, 'chatter', self.hear, 10)\n\n"
+    "    def hear(self, msg):\n"
+    "        try:\n"
+    "            self.publish(int(msg.data))\n"
+    "        except {}:\n"
+    "            {}\n"
+)
+
+
+class ErrorsDropped(RclpyRule):
+    """A callback catches all exceptions around its work, and does nothing with them.
+
+    **Why.** A misspelled name, a wrong type or a missing transform drops every message, and
+    nothing says so: the node seems to work and does nothing.
+
+    **Fix.** Catch what is expected, such as ``ValueError``, and log it:
+    ``self.get_logger().error(f'...: {error}', throttle_duration_sec=5.0)``.
+
+    **Source.** PEP 8, "Programming recommendations".
+    """
+
+    code = "ND120"
+    name = "errors-dropped"
+    severity = Severity.WARNING
+    examples = (
+        Example("what is expected", {"listener.py": _NODE.format("ValueError", "pass")}),
+        Example(
+            "logged",
+            {"listener.py": _NODE.format("Exception as e", "self.get_logger().error(str(e))")},
+        ),
+        Example(
+            "everything",
+            {"listener.py": _NODE.format("Exception", "pass")},
+            Report(
+                "13:9",
+                "callback 'hear' drops all errors: a mistake in it is never seen; "
+                "log the exception",
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        seen: set[ast.AST] = set()
+        for entity, callback in file.callbacks:
+            if not isinstance(entity, Subscription | Synchronizer | Service | Timer):
+                continue
+            function = callback.function
+            if function in seen or not isinstance(function, FunctionNode):
+                continue
+            seen.add(function)
+            for dropping in _dropping(function, callback):
+                message = (
+                    f"callback {function.name!r} drops all errors: a mistake in it is never "
+                    "seen; log the exception"
+                )
+                yield self.report(file.module.location(dropping), message)
+
+
+def _dropping(function: FunctionNode, callback: Callback) -> Iterator[ast.AST]:
+    """Yield what drops all errors of a callback's work: a handler, or ``suppress``."""
+    last = function.body[-1]
+    if not isinstance(last, ast.Try | ast.With) or not _is_work(function, callback, last.body):
+        return
+    if isinstance(last, ast.Try):
+        for handler in last.handlers:
+            if _catches_all(handler) and all(map(_does_nothing, handler.body)):
+                yield handler
+        return
+    for item in last.items:
+        match item.context_expr:
+            case ast.Call(func=func, args=[ast.Name(id=name)]) if name in _ALL:
+                if ast.unparse(func).endswith("suppress"):
+                    yield item.context_expr
+
+
+def _is_work(function: FunctionNode, callback: Callback, body: list[ast.stmt]) -> bool:
+    """Return whether statements use what a callback gets, or are all that it does."""
+    arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
+    names = {argument.arg for argument in arguments}
+    if not names:
+        return all(isinstance(statement, ast.Expr) for statement in function.body[:-1])
+    return any(
+        isinstance(node, ast.Name) and node.id in names
+        for statement in body
+        for node in ast.walk(statement)
+    )
+
+
+def _catches_all(handler: ast.ExceptHandler) -> bool:
+    match handler.type:
+        case None:
+            return True
+        case ast.Name(id=name):
+            return name in _ALL
+    return False
+
+
+def _does_nothing(statement: ast.stmt) -> bool:
+    match statement:
+        case ast.Pass() | ast.Continue() | ast.Return(value=None):
+            return True
+        case ast.Return(value=ast.Constant(value=None)) | ast.Expr(value=ast.Constant()):
+            return True
+    return False

@@ -1,0 +1,133 @@
+"""ND114: goals can be canceled while they are worked on."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.programs import spins_in_one_thread
+from scaffold.api.python import FunctionNode
+from scaffold.api.rclpy import ActionServer, RclpyFile
+
+_WAITING = frozenset({"sleep", "wait", "join", "sleep_for", "sleep_until"})
+_NODE = (
+    "import time\n\nfrom example_interfaces.action import Fibonacci\nimport rclpy\n"
+    "from rclpy.action import ActionServer, CancelResponse\n"
+    "from rclpy.executors import MultiThreadedExecutor\nfrom rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(self, Fibonacci, 'count', self.work{0})\n\n"
+    "    def work(self, goal_handle):\n"
+    "        for _ in range(10):\n"
+    "            if goal_handle.is_cancel_requested:\n"
+    "                goal_handle.canceled()\n"
+    "                return Fibonacci.Result()\n"
+    "            time.sleep(1.0)\n"
+    "        goal_handle.succeed()\n"
+    "        return Fibonacci.Result()\n\n"
+    "    def cancel(self, goal_handle):\n"
+    "        return CancelResponse.ACCEPT\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    rclpy.spin(Server(){1})\n"
+)
+_CANCEL = ", cancel_callback=self.cancel"
+_THREADS = ", executor=MultiThreadedExecutor()"
+
+
+class GoalNeverCanceled(RclpyRule):
+    """An action server asks whether a goal is to be canceled, and can never know.
+
+    **Why.** Without a ``cancel_callback`` every request to cancel is rejected. With one thread, the
+    request is read only after the goal is done: the callback that works on the goal occupies the
+    thread.
+
+    **Fix.** ``cancel_callback=self.cancel``, which returns ``CancelResponse.ACCEPT``; spin with a
+    ``MultiThreadedExecutor``, or work on the goal in an ``async`` callback that awaits.
+
+    **Source.** ``rclpy/action/server.py``, ``default_cancel_callback``; ros2/examples,
+    ``minimal_action_server``.
+    """
+
+    code = "ND114"
+    name = "goal-never-canceled"
+    examples = (
+        Example("two threads", {"server.py": _NODE.format(_CANCEL, _THREADS)}),
+        Example(
+            "one thread",
+            {"server.py": _NODE.format(_CANCEL, "")},
+            Report(
+                "17:16",
+                "never true in time: the only thread works on the goal, and reads "
+                "requests to cancel afterwards; use a MultiThreadedExecutor",
+            ),
+        ),
+        Example(
+            "all requests are rejected",
+            {"server.py": _NODE.format("", _THREADS)},
+            Report(
+                "17:16",
+                "no cancel_callback: rclpy rejects all requests to cancel, so this "
+                "is never true; pass cancel_callback",
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("is_cancel_requested") or file.module.in_tests:
+            return
+        for server in file.action_servers:
+            asked = _where_asked(file, server)
+            if asked is None:
+                continue
+            if not _has_cancel_callback(file, server):
+                message = (
+                    "no cancel_callback: rclpy rejects all requests to cancel, so this is never "
+                    "true; pass cancel_callback"
+                )
+                yield self.report(file.module.location(asked), message)
+            elif spins_in_one_thread(file) and _waits(file, server):
+                message = (
+                    "never true in time: the only thread works on the goal, and reads requests to "
+                    "cancel afterwards; use a MultiThreadedExecutor"
+                )
+                yield self.report(file.module.location(asked), message)
+
+
+def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:
+    """Return the execute callback and what it calls; none if it may give way to others."""
+    function = server.callback.function if server.callback else None
+    if function is None or isinstance(function, ast.AsyncFunctionDef):
+        return []
+    return [*file.reached(function)]
+
+
+def _where_asked(file: RclpyFile, server: ActionServer) -> ast.Attribute | None:
+    work = _work(file, server)
+    for asked in file.module.index.attributes("is_cancel_requested"):
+        if file.function_of(asked) in work:
+            return asked
+    return None
+
+
+def _has_cancel_callback(file: RclpyFile, server: ActionServer) -> bool:
+    return (
+        server.argument("cancel_callback") is not None
+        or server.has_unknown_arguments
+        or file.module.mentions("register_cancel_callback")
+    )
+
+
+def _waits(file: RclpyFile, server: ActionServer) -> bool:
+    """Return whether the work on a goal takes a while: it waits in a loop."""
+    for function in _work(file, server):
+        for call in file.calls_in(function):
+            func = call.func
+            name = func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
+            if name in _WAITING and any(
+                isinstance(parent, ast.For | ast.While) for parent in file.module.parents(call)
+            ):
+                return True
+    return False

@@ -1,0 +1,71 @@
+"""ND116: servers are known before something is sent to them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.programs import in_constructors
+from scaffold.api.rclpy import RclpyFile, class_of
+
+_SENDING = {
+    "send_goal_async": ("rclpy.action.client.ActionClient", "goal", "wait_for_server()"),
+    "call_async": ("rclpy.client.Client", "request", "wait_for_service()"),
+}
+_ASKING = ("wait_for_server", "server_is_ready", "wait_for_service", "service_is_ready")
+_NODE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, 'reset')\n"
+    "{}"
+    "        self.future = self.client.call_async(Trigger.Request())\n"
+)
+
+
+class SentBeforeKnown(RclpyRule):
+    """The constructor of a node sends a goal or a request with a client that it has just made.
+
+    **Why.** The client does not know the server yet, so nobody gets what is sent: the future is
+    never done, and nothing says so.
+
+    **Fix.** ``self.client.wait_for_server(timeout_sec=5.0)``, or send it from a timer when
+    ``server_is_ready()``.
+
+    **Source.** ROS 2 documentation, "Writing an action server and client (Python)".
+    """
+
+    code = "ND116"
+    name = "sent-before-known"
+    examples = (
+        Example(
+            "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}
+        ),
+        Example(
+            "at once",
+            {"caller.py": _NODE.format("")},
+            Report(
+                "9:23",
+                "the request is sent before the server is known: it is lost, and "
+                "the future is never done; call wait_for_service() first",
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions(*_SENDING) or file.module.mentions(*_ASKING):
+            return
+        for executed in in_constructors(file):
+            for call in file.calls_in(executed.function):
+                func = call.func
+                if not isinstance(func, ast.Attribute) or func.attr not in _SENDING:
+                    continue
+                class_, what, wait = _SENDING[func.attr]
+                if class_of(file, func.value) == class_:
+                    message = (
+                        f"the {what} is sent before the server is known: it is lost, and the "
+                        f"future is never done; call {wait} first"
+                    )
+                    yield self.report(file.module.location(call), message)

@@ -1,0 +1,173 @@
+"""ND117: callbacks do not wait for what another callback does."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.programs import (
+    Executed,
+    in_callbacks,
+    in_constructors,
+    in_goal_callbacks,
+    may_run_meanwhile,
+    spins_in_one_thread,
+)
+from scaffold.api.rclpy import RclpyFile
+
+_NODE = (
+    "import threading\nimport time\n\nfrom rclpy.node import Node\n"
+    "from std_msgs.msg import String\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Relay(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('relay')\n"
+    "        self.last = None\n"
+    "        self.arrived = threading.Event()\n"
+    "        self.create_subscription(String, 'chatter', self.hear, 10)\n"
+    "        self.create_service(Trigger, 'ask', self.answer)\n\n"
+    "    def hear(self, msg):\n"
+    "        self.last = msg\n"
+    "        self.arrived.set()\n\n"
+    "    def answer(self, request, response):\n"
+    "{}"
+    "        response.message = self.last.data\n"
+    "        return response\n"
+)
+
+
+class WaitsForCallback(RclpyRule):
+    """A callback or constructor waits for an attribute or event that another callback sets.
+
+    **Why.** One thread runs all callbacks: while one waits, the other is never called, and the
+    node hangs.
+
+    **Fix.** Return, and go on in the callback that sets it. Or use a ``MultiThreadedExecutor`` and
+    another callback group.
+
+    **Source.** ROS 2 documentation, "Using callback groups".
+    """
+
+    code = "ND117"
+    name = "waits-for-callback"
+    examples = (
+        Example(
+            "does not wait",
+            {
+                "relay.py": _NODE.format(
+                    "        if self.last is None:\n            return response\n"
+                )
+            },
+        ),
+        Example(
+            "a loop",
+            {
+                "relay.py": _NODE.format(
+                    "        while self.last is None:\n            time.sleep(0.1)\n"
+                )
+            },
+            Report(
+                "22:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+        ),
+        Example(
+            "an event",
+            {"relay.py": _NODE.format("        self.arrived.wait()\n")},
+            Report(
+                "22:9",
+                "callback 'answer' waits for self.arrived, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+        ),
+        Example("with a timeout", {"relay.py": _NODE.format("        self.arrived.wait(1.0)\n")}),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("while ", ".wait()"):
+            return
+        seen: set[ast.AST] = set()
+        executions = (*in_callbacks(file), *in_constructors(file), *in_goal_callbacks(file))
+        callbacks = {x.function for x in executions if x.entity is not None}
+        for executed in executions:
+            for node, name in _waits(file, executed):
+                setters = _setters(file, name, node)
+                if node in seen or not setters or not setters <= callbacks - {executed.function}:
+                    continue
+                if _may_go_on(file, executed):
+                    continue
+                seen.add(node)
+                message = (
+                    f"{executed.origin} waits for self.{name}, which another callback sets: that "
+                    "one never runs meanwhile, and the node hangs"
+                )
+                yield self.report(file.module.location(node), message)
+
+
+def _may_go_on(file: RclpyFile, executed: Executed) -> bool:
+    if executed in (*in_goal_callbacks(file),):
+        return not spins_in_one_thread(file)
+    return may_run_meanwhile(file, executed)
+
+
+def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, str]]:
+    """Yield what waits in a function, with the attribute of ``self`` that ends it."""
+    for node in file.module.below(executed.function, ast.While, ast.Call):
+        if file.function_of(node) is not executed.function:
+            continue
+        match node:
+            case ast.Call(
+                func=ast.Attribute(attr="wait", value=ast.Attribute(attr=name) as event),
+                args=[],
+                keywords=[],
+            ):
+                made = file.evaluator.single_value(event)
+                if isinstance(made, ast.Call) and (
+                    file.module.qualified_name(made.func) == "threading.Event"
+                ):
+                    yield node, name
+            case ast.While() if not _leaves(node):
+                name = _attribute_asked(file, node.test)
+                if name:
+                    yield node, name
+
+
+def _attribute_asked(file: RclpyFile, test: ast.expr) -> str:
+    """Return the attribute of ``self`` that a loop waits for: ``self.last is None``."""
+    match test:
+        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name() as owner, attr=name)):
+            return name if file.evaluator.self_class(owner) else ""
+        case ast.Compare(
+            left=ast.Attribute(value=ast.Name() as owner, attr=name),
+            ops=[ast.Is() | ast.Eq()],
+            comparators=[ast.Constant(value=None | False)],
+        ):
+            return name if file.evaluator.self_class(owner) else ""
+        case ast.BoolOp(op=ast.And(), values=values):
+            found = [_attribute_asked(file, value) for value in values]
+            return next(filter(None, found), "")
+    return ""
+
+
+def _leaves(loop: ast.While) -> bool:
+    """Return whether a loop may end by itself, or lets callbacks run."""
+    return any(
+        isinstance(node, ast.Break | ast.Return | ast.Raise | ast.Yield | ast.Await)
+        or (isinstance(node, ast.Attribute) and "spin" in node.attr)
+        for node in ast.walk(loop)
+    )
+
+
+def _setters(file: RclpyFile, name: str, node: ast.AST) -> set[ast.AST | None]:
+    """Return the functions that set an attribute, or an event, outside of constructors."""
+    if isinstance(node, ast.Call):
+        places: list[ast.AST] = [
+            use
+            for use in file.module.index.attributes("set")
+            if isinstance(use.value, ast.Attribute) and use.value.attr == name
+        ]
+    else:
+        places = [store.node for store in file.evaluator.stores(name)]
+    functions = {file.function_of(place) for place in places}
+    return {x for x in functions if getattr(x, "name", "") != "__init__"}
