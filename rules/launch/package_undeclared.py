@@ -32,7 +32,7 @@ class PackageUndeclared(Rule):
 
     code = "LF005"
     name = "package-undeclared"
-    other_severities = {Severity.WARNING: "the package is in the workspace"}
+    other_severities = {Severity.WARNING: "the package is in the workspace, or a command of ros2"}
     examples = (
         Example(
             "declared",
@@ -81,6 +81,40 @@ class PackageUndeclared(Rule):
                 )
             },
         ),
+        Example(
+            "programs that are run by name",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import ExecuteProcess\n"
+                "from launch.substitutions import Command, FindExecutable\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    urdf = Command([FindExecutable(name='xacro'), ' ', 'robot.xacro'])\n"
+                "    again = Command('xacro robot.xacro')\n"
+                "    return LaunchDescription([\n"
+                "        ExecuteProcess(cmd=['ros2', 'bag', 'record', '-a']),\n    ])\n",
+            },
+            Report(
+                "launch/a.launch.py:8:41",
+                "runs 'xacro' of 'xacro', which no dependency in package.xml "
+                "provides; add <exec_depend>xacro</exec_depend>",
+                fix="declare xacro",
+            ),
+            Report(
+                "launch/a.launch.py:11:29",
+                "runs 'ros2 bag' of 'ros2bag', which no dependency in package.xml "
+                "provides; add <exec_depend>ros2bag</exec_depend>",
+                fix="declare ros2bag",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>launch_ros</exec_depend>\n"
+                    "  <exec_depend>ros2bag</exec_depend>\n  <exec_depend>xacro</exec_depend>\n"
+                )
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -95,11 +129,12 @@ class PackageUndeclared(Rule):
                 continue
             seen.add(use.name)
             does = "looks for" if use.executable is None else "starts a node of"
+            does = f"runs {use.program!r} of" if use.program else does
             message = (
                 f"{does} {use.name!r}, which no dependency in package.xml provides; "
                 f"add <{tag}>{use.name}</{tag}>"
             )
-            is_near = package.workspace.get(use.name) is not None
+            is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
             yield self.report(
                 use.location,
                 message,

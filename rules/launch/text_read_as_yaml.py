@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.launch import started_nodes
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    fact,
+)
+from scaffold.api.launch import NODES, LaunchFile, launch_paths, parameters_given, started_nodes
 from scaffold.api.parameters import declared_by
+from scaffold.api.robot import is_launched, robot_paths
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
@@ -28,12 +40,25 @@ _FILES = {
     "        self.declare_parameter('text', '')\n",
 }
 
+_COMMAND = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import Command\n"
+    "from launch_ros.actions import Node\n"
+    "from launch_ros.parameter_descriptions import ParameterValue\n"
+    "\n\ndef generate_launch_description():\n"
+    "    urdf = Command(['xacro ', 'urdf/robot.urdf'])\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='robot_state_publisher', executable='robot_state_publisher',\n"
+    "             parameters=[{{'robot_description': {}}}]),\n    ])\n"
+)
+
 
 class TextReadAsYaml(Rule):
-    """A launch argument goes to a parameter that is text, and launch reads it as YAML.
+    """A launch argument or the output of a command is a text, and launch reads it as YAML.
 
     **Why.** It works until somebody writes ``text:=42`` or ``text:=on``: ``InvalidParameterType
     Exception: Trying to set parameter 'text' to '42' of type 'INTEGER', expecting type 'STRING'``.
+    A robot description with a colon and a space in it, as in a comment, ends the launch: ``Unable
+    to parse the value of parameter robot_description as yaml``.
 
     **Fix.** ``ParameterValue(LaunchConfiguration('text'), value_type=str)``.
 
@@ -43,6 +68,7 @@ class TextReadAsYaml(Rule):
     code = "LF014"
     name = "text-read-as-yaml"
     severity = Severity.WARNING
+    other_severities = {Severity.ERROR: "a description of a robot that YAML cannot read"}
     examples = (
         Example(
             "kept as text",
@@ -69,9 +95,57 @@ class TextReadAsYaml(Rule):
                 "YAML: wrap it in ParameterValue(..., value_type=str)",
             ),
         ),
+        Example(
+            "the output of a command, kept as text",
+            {"launch/a.launch.py": _COMMAND.format("ParameterValue(urdf, value_type=str)")},
+        ),
+        Example(
+            "a description that YAML takes for text; xacro drops a comment",
+            {
+                "launch/a.launch.py": _COMMAND.format("urdf"),
+                "urdf/robot.urdf": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <!-- mass: as weighed -->\n  <xacro:arg name="c" default=""/>\n'
+                '  <link name="b"/>\n</robot>\n',
+            },
+        ),
+        Example(
+            "a description that is not YAML",
+            {
+                "launch/a.launch.py": _COMMAND.format("urdf"),
+                "launch/b.launch.py": _COMMAND.format("ParameterValue(urdf)"),
+                "urdf/robot.urdf": '<robot name="a">\n  <!-- mass: as weighed -->\n'
+                '  <link name="b"/>\n</robot>\n',
+            },
+            Report(
+                "launch/a.launch.py:11:48",
+                "robot_description is the output of a command, which launch reads "
+                "as YAML, but urdf/robot.urdf:2 has a ': ': wrap it in "
+                "ParameterValue(..., value_type=str)",
+                severity=Severity.ERROR,
+            ),
+            Report(
+                "launch/b.launch.py:11:48",
+                "robot_description is the output of a command, which launch reads "
+                "as YAML, but urdf/robot.urdf:2 has a ': ': wrap it in "
+                "ParameterValue(..., value_type=str)",
+                severity=Severity.ERROR,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        for path in launch_paths(package):
+            try:
+                outputs = _outputs(package, path)
+            except ViewError:
+                continue
+            broken = _with_colon(package) if outputs else None
+            for name, at in outputs if broken is not None else ():
+                message = (
+                    f"{name} is the output of a command, which launch reads as YAML, but "
+                    f"{broken} has a ': ': wrap it in ParameterValue(..., value_type=str)"
+                )
+                yield self.report(at, message, severity=Severity.ERROR)
         for node in started_nodes(package):
             given = [x for x in node.parameters if x.is_configuration and not x.has_choices]
             owner = node.owner(package) if given else None
@@ -85,3 +159,39 @@ class TextReadAsYaml(Rule):
                         "YAML: wrap it in ParameterValue(..., value_type=str)"
                     )
                     yield self.report(item, message)
+
+
+@fact
+def _outputs(package: Package, path: str) -> tuple[tuple[str, Location], ...]:
+    """Return the parameters that get the output of a command as it is, with their places."""
+    launch = LaunchFile.of(package, path)
+    result: list[tuple[str, Location]] = []
+    for call in launch.find(*NODES, "ComposableNode"):
+        for name, _, value in parameters_given(launch, call):
+            given = launch.call_of(value)
+            if given is not None and given.kind == "ParameterValue":
+                typed = "value_type" in given.given or len(given.call.args) > 1
+                given = None if typed else launch.call_of(given.given.get("value"))
+            if given is not None and given.kind == "Command":
+                result.append((name, launch.location(value)))
+    return tuple(result)
+
+
+def _with_colon(package: Package) -> str | None:
+    """Return where a robot description of the package holds what YAML takes for a key.
+
+    xacro drops a comment in front of its own elements.
+    """
+    for path in robot_paths(package):
+        try:
+            text = package.source(path).text
+        except ViewError:
+            continue
+        kept = re.sub(r"(?:<!--(?:(?!-->).)*-->\s*)+(?=<xacro:)", "", text, flags=re.DOTALL)
+        if ": " in kept and is_launched(package, path):
+            found = next(line for line in kept.splitlines() if ": " in line).strip()
+            number = next(
+                number for number, line in enumerate(text.splitlines(), 1) if found in line
+            )
+            return f"{path}:{number}"
+    return None

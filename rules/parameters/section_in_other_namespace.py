@@ -52,6 +52,29 @@ class SectionInOtherNamespace(Rule):
                 "section for '/front/camera' is ignored: launch/a.launch.py:10 starts '/camera'",
             ),
         ),
+        Example(
+            "a namespace that a group has by default",
+            {
+                **_files("camera"),
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "return LaunchDescription([\n",
+                    "return LaunchDescription([\n"
+                    "        DeclareLaunchArgument('ns', default_value='robot1'),\n"
+                    "        GroupAction([PushRosNamespace(LaunchConfiguration('ns')),\n",
+                )
+                .replace("parameters=[params]),", "parameters=[params])]),")
+                .replace(
+                    "from launch.substitutions import ",
+                    "from launch.actions import DeclareLaunchArgument, GroupAction\n"
+                    "from launch.substitutions import LaunchConfiguration, ",
+                )
+                .replace("import Node", "import Node, PushRosNamespace"),
+            },
+            Report(
+                "config/demo.yaml:1:1",
+                "section for '/camera' is ignored: launch/a.launch.py:13 starts '/robot1/camera'",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -68,17 +91,25 @@ class SectionInOtherNamespace(Rule):
                 other = _other_node(package, section, nodes)
                 if other is not None:
                     at = other.location
+                    name = other.full_name(package) or ""
+                    if other.default_namespace:
+                        name = f"/{other.default_namespace}{name}"
                     message = (
                         f"section for {section.node!r} is ignored: {at.path}:{at.line} starts "
-                        f"{other.full_name(package)!r}"
+                        f"{name!r}"
                     )
                     yield self.report(section.key, message)
 
 
 def _other_node(package: Package, section: Section, nodes: list[StartedNode]) -> StartedNode | None:
-    """Return the node of the same name that certainly runs in no namespace."""
+    """Return the node of the same name that runs in another namespace."""
     named = [node for node in nodes if node.name(package) == section.name]
     names = [node.full_name(package) for node in named]
+    if named and None not in names and all(node.default_namespace for node in named):
+        pushed = [
+            f"/{node.default_namespace}{name}" for node, name in zip(named, names, strict=True)
+        ]
+        return None if any(map(section.fits, pushed)) else named[0]
     if None in names or any(node.is_scoped or node.namespace for node in named):
         return None
     return named[0] if named and not any(section.fits(str(name)) for name in names) else None

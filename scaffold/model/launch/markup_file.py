@@ -52,6 +52,8 @@ class MarkupNode(NamedTuple):
     """The names that are remapped."""
     parameter_names: frozenset[str] | None
     """The parameters that are given; ``None`` if files or arguments may give others."""
+    arguments: Attribute | None
+    """What is given on the command line."""
 
 
 class MarkupPath(NamedTuple):
@@ -118,8 +120,17 @@ def _node(path: str, element: _Element) -> MarkupNode:
     names = [parameter["name"].value for parameter in element.parameters if "name" in parameter]
     is_open = element.has_parameter_files or not _ARGUMENTS.isdisjoint(given)
     known = None if is_open else frozenset(names)
+    arguments = given.get("args")
     return MarkupNode(
-        path, package, executable, name, element.location, pairs, element.remappings, known
+        path,
+        package,
+        executable,
+        name,
+        element.location,
+        pairs,
+        element.remappings,
+        known,
+        arguments,
     )
 
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from scaffold.model.programs.known_nodes import KnownNode
 
 _SCOPES = ("GroupAction", "PushRosNamespace", "PushROSNamespace", "OpaqueFunction")
+_PUSHES = ("PushRosNamespace", "PushROSNamespace")
 _LISTS = ("LaunchDescription", "add_action")
 _ARGUMENTS = frozenset({"arguments", "ros_arguments"})
 _SETTERS = ("SetParameter", "SetParametersFromFile")
@@ -80,6 +81,8 @@ class StartedNode(NamedTuple):
     """Whether files give some, or expressions that are not known."""
     remappings: tuple[tuple[str, Location], ...]
     """The names that are remapped, as far as they are known, with their places."""
+    default_namespace: str
+    """The namespace that its group puts it into, unless an argument says otherwise."""
 
     def owner(self, package: Package) -> KnownNode | None:
         """Return its code, when it is Python of the package or of one of the workspace."""
@@ -172,7 +175,36 @@ def _started(launch: LaunchFile, call: LaunchCall) -> StartedNode:
         tuple(_given(launch, *item) for item in parameters_given(launch, call)),
         _has_more_parameters(launch, call),
         tuple(_remappings(launch, call)),
+        _default_namespace(launch, call),
     )
+
+
+def _default_namespace(launch: LaunchFile, call: LaunchCall) -> str:
+    """Return the namespace that is pushed in the group of a node, by default; empty for none."""
+    pushes = launch.find(*_PUSHES)
+    if len(pushes) != 1 or "namespace" in call.given or call.is_open:
+        return ""
+    given = pushes[0].given.get("namespace")
+    if given is None and pushes[0].call.args:
+        given = pushes[0].call.args[0]
+    text = launch.evaluator.joined_text(given)
+    text = launch.default_of(given) if isinstance(text, Unknown) else text
+    for group in launch.find("GroupAction"):
+        items = [item.node for item in launch.evaluator.elements(_actions(group)).items]
+        calls = [launch.call_of(item) for item in items]
+        nodes = [item.call for item in calls if item is not None]
+        if call.call in nodes and pushes[0].call in nodes and isinstance(text, str):
+            is_later = nodes.index(pushes[0].call) < nodes.index(call.call)
+            return text.strip("/") if is_later else ""
+    return ""
+
+
+def _actions(group: LaunchCall) -> ast.expr:
+    """Return the list of a group."""
+    given = group.given.get("actions")
+    if given is None and group.call.args:
+        given = group.call.args[0]
+    return given or ast.List([], ast.Load())
 
 
 # -- parameters

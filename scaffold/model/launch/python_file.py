@@ -275,6 +275,35 @@ class LaunchFile:
                 uses.append(PackageUse(name, self.location(node), node, action))
         return uses
 
+    @cached_property
+    def programs(self) -> Sequence[tuple[str, ast.expr]]:
+        """The programs that are run by name, ``xacro`` or ``ros2 bag``, with their places."""
+        result: list[tuple[str, ast.expr]] = []
+        for call in self.find("Command", "FindExecutable", "ExecuteProcess", "ExecuteLocal"):
+            key = {"Command": "command", "FindExecutable": "name"}.get(call.kind, "cmd")
+            node = call.given.get(key)
+            if node is None and call.call.args:
+                node = call.call.args[0]
+            words, place = self._words(node)
+            if words and place is not None:
+                name = " ".join(words[:2]) if words[0] == "ros2" else words[0]
+                result.append((name, place))
+        return result
+
+    def _words(self, node: ast.expr | None) -> tuple[list[str], ast.expr | None]:
+        """Return the first words of a command, as far as they are known, and their place."""
+        text = self.evaluator.evaluate(node) if node is not None else UNKNOWN
+        if isinstance(text, str):
+            return text.split()[:2], node
+        words: list[str] = []
+        items = self.evaluator.elements(node).items if node is not None else ()
+        for item in items[:2]:
+            value = self.evaluator.evaluate(item.node)
+            if not isinstance(value, str):
+                break
+            words += value.split()
+        return words[:2], items[0].node if items else None
+
     def is_optional(self, node: ast.AST) -> bool:
         """Tell whether an expression is evaluated only if Python decides so, or may fail."""
         kinds = (ast.If, ast.IfExp, ast.Try, ast.match_case)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
@@ -18,6 +18,20 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 
+_VERBS = ("action", "bag", "component", "interface", "launch", "lifecycle", "node", "param")
+_OWNERS: Mapping[str, str] = {
+    "xacro": "xacro",
+    "rviz2": "rviz2",
+    "rqt": "rqt_gui",
+    "rqt_graph": "rqt_graph",
+    "rqt_plot": "rqt_plot",
+    "rqt_image_view": "rqt_image_view",
+    "ros2 control": "ros2controlcli",
+    **{f"ros2 {verb}": f"ros2{verb}" for verb in (*_VERBS, "pkg", "run", "service", "topic")},
+}
+"""Programs that launch files run by name, each with the package that has it."""
+
+
 class Reference(NamedTuple):
     """A place where a launch file names a package."""
 
@@ -28,6 +42,8 @@ class Reference(NamedTuple):
     executable_location: Location
     is_optional: bool = False
     """Looked for under a condition that Python decides: it may well not be there."""
+    program: str = ""
+    """What is run by its name alone: ``xacro``, ``ros2 bag``."""
 
 
 class Suggestion(NamedTuple):
@@ -54,6 +70,12 @@ def _in_python(package: Package) -> Iterator[Reference]:
                 at = launch.location(node) if node is not None else at
             optional = launch.is_optional(use.node)
             yield Reference(use.name, use.location, executable, at, optional)
+        for program, node in launch.programs:
+            owner = _OWNERS.get(program)
+            if owner is not None:
+                at = launch.location(node)
+                optional = launch.is_optional(node)
+                yield Reference(owner, at, None, at, optional, program)
 
 
 def _in_xml(package: Package) -> Iterator[Reference]:
