@@ -38,6 +38,7 @@ VERBS = {
     "interfaces": "list the known messages, services and actions, or show some",
     "stubs": "write type stubs of rclpy, launch, tf2 and all interfaces for editors",
     "smoke": "build packages, run their executables and observe them",
+    "doctor": "show which ROS 2 there is, what is missing, and what will cost hours",
     "config": "show the configuration and where each value comes from",
     "cache": "show or clean what runs remember",
     "trust": "let the configuration of a directory load rules and templates",

@@ -1,0 +1,48 @@
+"""``ros2-scaffold doctor``."""
+
+from __future__ import annotations
+
+import argparse
+
+from scaffold.cli import terminal
+
+FORMATS = ("text", "json")
+SHELLS = ("bash", "zsh", "fish")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.description = (
+        "Show which ROS 2 environments there are and which one `smoke` takes, what is missing and "
+        "the command that installs it, and what else costs hours. It reads variables and files; "
+        "nothing is sourced or run."
+    )
+    parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
+    parser.add_argument(
+        "--shell",
+        choices=SHELLS,
+        help="print lines for the start file of a shell instead: setup files, an alias `build`, "
+        "and tab completion",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Look at the machine, or print the lines; return the exit code."""
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
+    from scaffold.doctor import checks, report, shell
+    from scaffold.doctor.environments import environments
+    from scaffold.doctor.machine import Machine
+
+    machine = Machine()
+    if options.shell is not None:
+        for line in shell.lines(machine, options.shell):
+            terminal.show(line)
+        return CLEAN
+    candidates = environments(machine)
+    findings = list(checks.run(machine))
+    if options.format == "json":
+        terminal.show_json(report.as_data(candidates, findings))
+    else:
+        for line in report.text(candidates, findings):
+            terminal.show(line)
+    return CLEAN if report.is_ok(candidates, findings) else FINDINGS

@@ -1,0 +1,21 @@
+"""One module for each thing that costs beginners hours: its function ``check`` yields findings.
+
+The name of a module is the name of its findings; nothing has to be registered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from pkgutil import iter_modules
+
+from scaffold.doctor.finding import Finding
+from scaffold.doctor.machine import Machine
+
+
+def run(machine: Machine) -> Iterator[tuple[str, Finding]]:
+    """Yield what all checks find, with the names of the checks."""
+    for module in sorted(iter_modules(__path__), key=lambda item: item.name):
+        check = import_module(f"{__name__}.{module.name}").check
+        for finding in check(machine):
+            yield module.name.replace("_", "-"), finding

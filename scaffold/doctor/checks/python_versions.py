@@ -1,0 +1,28 @@
+"""PYTHONPATH names directories of another Python version than the one that runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.diagnostic import Severity
+from scaffold.doctor.finding import Finding
+from scaffold.doctor.machine import Machine, python_in
+
+
+def check(machine: Machine) -> Iterator[Finding]:
+    """Yield a finding if extension modules such as rclpy's will not be found."""
+    running = machine.python_version
+    if running is None:
+        return
+    others: dict[str, str] = {}
+    for path in machine.paths("PYTHONPATH"):
+        version = python_in(path)
+        if version is not None and version != running:
+            others.setdefault(version, path)
+    for version, path in sorted(others.items()):
+        yield Finding(
+            Severity.ERROR,
+            f"PYTHONPATH names {path}, but python3 is {running} ({machine.python}): modules that "
+            "are compiled, such as those of rclpy, are not found",
+            f"use Python {version}, or source a ROS 2 that was built for Python {running}",
+        )

@@ -1,0 +1,26 @@
+"""The middleware that is asked for is not installed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.diagnostic import Severity
+from scaffold.doctor.finding import Finding
+from scaffold.doctor.machine import Machine, middlewares
+
+
+def check(machine: Machine) -> Iterator[Finding]:
+    """Yield a finding if RMW_IMPLEMENTATION names one that is not there."""
+    wanted = machine.variables.get("RMW_IMPLEMENTATION")
+    if not wanted or not machine.prefixes:
+        return
+    there = middlewares(machine.prefixes)
+    if wanted in there:
+        return
+    package = f"ros-{machine.distribution}-{wanted.replace('_', '-')}"
+    yield Finding(
+        Severity.ERROR,
+        f"RMW_IMPLEMENTATION is {wanted!r}, which is not installed: `import rclpy` fails; there is "
+        f"{', '.join(there) or 'none'}",
+        f"sudo apt install {package}, or: unset RMW_IMPLEMENTATION",
+    )

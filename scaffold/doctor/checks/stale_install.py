@@ -1,0 +1,55 @@
+"""What is installed in the workspace is not what is in its sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.diagnostic import Severity
+from scaffold.doctor.finding import Finding
+from scaffold.doctor.machine import Machine
+from scaffold.doctor.workspace import Workspace
+
+
+def check(machine: Machine) -> Iterator[Finding]:
+    """Yield findings for packages that have gone, changed, or were never built."""
+    workspace = machine.workspace
+    if workspace is None:
+        return
+    yield from _gone(workspace)
+    for name, directories in workspace.sources.items():
+        if len(directories) > 1:
+            yield Finding(
+                Severity.ERROR,
+                f"two packages are called {name!r}: {', '.join(directories)}; colcon builds none",
+                "rename or remove one of them",
+            )
+        elif name in workspace.installed:
+            moment = workspace.built(name)
+            changed = moment and workspace.changed_since(directories[0], name, moment)
+            if changed:
+                yield Finding(
+                    Severity.WARNING,
+                    f"{changed} has changed since {name!r} was built: the old code runs",
+                    f"cd {workspace.top} && colcon build --packages-select {name}",
+                )
+        elif workspace.installed:
+            yield Finding(
+                Severity.INFO,
+                f"{name!r} is not built",
+                f"cd {workspace.top} && colcon build --packages-select {name}",
+            )
+
+
+def _gone(workspace: Workspace) -> Iterator[Finding]:
+    for name in workspace.installed:
+        if name not in workspace.sources:
+            prefix = workspace.installed[name]
+            remove = f"{workspace.top}/build/{name} {prefix}"
+            if prefix == workspace.install:
+                remove = f"{workspace.top}/build {workspace.install}"
+            yield Finding(
+                Severity.WARNING,
+                f"{name!r} is installed in {workspace.install}, but not in src any more: `ros2 "
+                "run` still finds it",
+                f"rm -r {remove}",
+            )

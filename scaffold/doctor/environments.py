@@ -1,0 +1,93 @@
+"""The ROS 2 environments of a machine, in the order in which ``smoke`` tries them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from scaffold.doctor.machine import PREFERRED, Machine, has_package
+from scaffold.programs import installation
+from scaffold.record import NamedTuple
+
+COLCON = "python3-colcon-common-extensions"
+
+
+class Missing(NamedTuple):
+    """Something that an environment lacks, and the command that installs it."""
+
+    what: str
+    command: str
+
+
+class Environment(NamedTuple):
+    """A ROS 2 that is there, or could be."""
+
+    kind: str
+    """``sourced``, ``installed`` or ``wheels``."""
+    prefix: str
+    """Where it is; empty if it is not there."""
+    distribution: str
+    missing: list[Missing]
+    reason: str
+    """Why it can be used, or not."""
+    taken: bool = False
+
+    @property
+    def is_usable(self) -> bool:
+        """Whether packages can be built and run with it."""
+        return bool(self.prefix) and not self.missing
+
+
+def environments(machine: Machine) -> list[Environment]:
+    """Return all of them; the first that can be used is the one that ``smoke`` takes."""
+    every = [_sourced(machine), *_installed(machine), _wheels(machine)]
+    taken = next((one for one in every if one.is_usable), None)
+    return [one._replace(taken=one is taken) for one in every]
+
+
+def _sourced(machine: Machine) -> Environment:
+    distribution = machine.variables.get("ROS_DISTRO", "")
+    if not machine.prefixes:
+        return Environment("sourced", "", "", [], "AMENT_PREFIX_PATH is not set")
+    prefix = next((path for path in machine.prefixes if has_package(path, "rclpy")), "")
+    missing = list(_tools(machine))
+    if not prefix:
+        name = distribution or machine.distribution
+        missing.insert(0, Missing("rclpy", f"sudo apt install ros-{name}-rclpy"))
+    shown = prefix or machine.prefixes[-1]
+    return Environment("sourced", shown, distribution, missing, "AMENT_PREFIX_PATH names it")
+
+
+def _installed(machine: Machine) -> Iterator[Environment]:
+    if not machine.installations:
+        yield Environment("installed", "", "", [], f"nothing in {machine.installed}")
+    for name in machine.installations:
+        prefix = os.path.join(machine.installed, name)
+        missing = list(_tools(machine))
+        if not has_package(prefix, "rclpy"):
+            missing.insert(0, Missing("rclpy", f"sudo apt install ros-{name}-rclpy"))
+        yield Environment("installed", prefix, name, missing, f"{prefix}/setup.bash is there")
+
+
+def _wheels(machine: Machine) -> Environment:
+    command = installation.command("ros")
+    if not has_package(machine.own_prefix, "rclpy"):
+        missing = [Missing("the extra 'ros'", command)]
+        return Environment(
+            "wheels", "", "", missing, "rclpy is not among the packages of this tool"
+        )
+    needed = {"colcon": "bin/colcon", "ament_cmake": "share/ament_cmake"}
+    lacking = [
+        Missing(name, command)
+        for name, path in needed.items()
+        if not os.path.exists(os.path.join(machine.own_prefix, path))
+    ]
+    reason = "rclpy is among the packages of this tool"
+    return Environment("wheels", machine.own_prefix, PREFERRED, lacking, reason)
+
+
+def _tools(machine: Machine) -> Iterator[Missing]:
+    if machine.python is None:
+        yield Missing("python3", "sudo apt install python3")
+    if machine.program("colcon") is None:
+        yield Missing("colcon", f"sudo apt install {COLCON}")

@@ -1,0 +1,15 @@
+"""What the doctor finds."""
+
+from __future__ import annotations
+
+from scaffold.diagnostic import Severity
+from scaffold.record import NamedTuple
+
+
+class Finding(NamedTuple):
+    """Something that is wrong, or worth to know, and what helps."""
+
+    severity: Severity
+    message: str
+    fix: str = ""
+    """A command or a change; empty where nothing has to be done."""

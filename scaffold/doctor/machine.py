@@ -1,0 +1,126 @@
+"""The machine as the doctor reads it: variables and files; nothing is run or sourced."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from scaffold.doctor.workspace import Workspace
+
+INSTALLED = "/opt/ros"
+NETWORK = "/sys/class/net"
+PREFERRED = "jazzy"
+
+_PYTHON = re.compile(r"python(3\.\d+)")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Where everything is; tests make others of it."""
+
+    variables: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
+    installed: str = INSTALLED
+    """Where installations are, one directory for each distribution."""
+    own_prefix: str = sys.prefix
+    """The Python environment of this tool, which may hold the wheels of ROS."""
+    directory: str = field(default_factory=os.getcwd)
+    network: str = NETWORK
+
+    def paths(self, variable: str) -> list[str]:
+        """Return the directories in a variable."""
+        parts = self.variables.get(variable, "").split(os.pathsep)
+        return [os.path.normpath(part) for part in parts if part]
+
+    @cached_property
+    def prefixes(self) -> list[str]:
+        """The prefixes that are sourced, the first goes first."""
+        return self.paths("AMENT_PREFIX_PATH")
+
+    @cached_property
+    def installations(self) -> list[str]:
+        """The distributions that are installed, the preferred one first."""
+        found = [path.parent.name for path in Path(self.installed).glob("*/setup.bash")]
+        return sorted(found, key=lambda name: (name != PREFERRED, name))
+
+    def distribution_of(self, path: str) -> str | None:
+        """Return the distribution in whose installation a path is."""
+        top = os.path.join(os.path.normpath(self.installed), "")
+        return path[len(top) :].partition("/")[0] or None if path.startswith(top) else None
+
+    @cached_property
+    def distribution(self) -> str:
+        """The distribution that is sourced or installed, else the preferred one."""
+        named = self.variables.get("ROS_DISTRO") if self.prefixes else None
+        return named or next(iter(self.installations), PREFERRED)
+
+    @cached_property
+    def python(self) -> str | None:
+        """The ``python3`` of the search path."""
+        return self.program("python3")
+
+    @cached_property
+    def python_version(self) -> str | None:
+        """The version of that, such as ``3.12``, as its file or its environment names it."""
+        if self.python is None:
+            return None
+        settings = Path(self.python).parent.parent / "pyvenv.cfg"
+        if settings.is_file():
+            lines = settings.read_text(encoding="utf-8", errors="replace").splitlines()
+            pairs = [line.partition("=") for line in lines]
+            stated = {name.strip(): value.strip() for name, _, value in pairs}
+            version = stated.get("version") or stated.get("version_info")
+            if version:
+                return ".".join(version.split(".")[:2])
+        found = _PYTHON.search(os.path.basename(os.path.realpath(self.python)))
+        return found[1] if found else None
+
+    def program(self, name: str) -> str | None:
+        """Return the path of a program on the search path."""
+        return shutil.which(name, path=self.variables.get("PATH") or os.defpath)
+
+    @cached_property
+    def workspace(self) -> Workspace | None:
+        """The workspace of the current directory, else the one that is sourced."""
+        around = Workspace.around(self.directory)
+        if around is not None:
+            return around
+        for prefix in [*self.paths("COLCON_PREFIX_PATH"), *self.prefixes]:
+            workspace = Workspace.of_prefix(prefix)
+            if workspace is not None:
+                return workspace
+        return None
+
+
+def python_in(path: str) -> str | None:
+    """Return the version of Python that a directory is for, such as ``3.12``."""
+    found = _PYTHON.search(path)
+    return found[1] if found else None
+
+
+def has_package(prefix: str, name: str) -> bool:
+    """Tell whether a prefix has a package of ament."""
+    return os.path.exists(os.path.join(prefix, "share/ament_index/resource_index/packages", name))
+
+
+def packages_in(prefix: str) -> list[str]:
+    """Return the packages of ament in a prefix."""
+    try:
+        return sorted(os.listdir(os.path.join(prefix, "share/ament_index/resource_index/packages")))
+    except OSError:
+        return []
+
+
+def middlewares(prefixes: list[str]) -> list[str]:
+    """Return the middlewares that are installed in prefixes."""
+    names: set[str] = set()
+    for prefix in prefixes:
+        index = os.path.join(prefix, "share/ament_index/resource_index/rmw_typesupport")
+        if os.path.isdir(index):
+            names.update(os.listdir(index))
+    return sorted(names - {"rmw_implementation"})
