@@ -41,6 +41,15 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "transitive dependency of the generators of interfaces",
+            {
+                "package.xml": _MANIFEST.format(
+                    "  <build_depend>rosidl_default_generators</build_depend>\n"
+                ),
+                "CMakeLists.txt": _LISTS.format("action_msgs"),
+            },
+        ),
+        Example(
             "transitive dependency of a package of the workspace",
             {
                 "package.xml": _MANIFEST.format("  <depend>common</depend>\n"),

@@ -8,6 +8,8 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, c
 from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
 from scaffold.api.install import is_started, paths_imported_by
 
+_TRIALS = ("test", "example")
+"""How the names of programs begin that nobody but their author starts."""
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
     "if __name__ == '__main__':\n    main()\n"
@@ -33,7 +35,8 @@ class ProgramNotInstalled(Rule):
     code = "CM012"
     name = "program-not-installed"
     other_severities = {
-        Severity.WARNING: "no other program of its directory is installed: it may be a helper"
+        Severity.WARNING: "no other program of its directory is installed, or it is called test or "
+        "example: it may be a helper"
     }
     examples = (
         Example(
@@ -85,6 +88,13 @@ class ProgramNotInstalled(Rule):
             ),
         ),
         Example(
+            "one to try something",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                **dict.fromkeys(("talker/node.py", "talker/test_node.py"), _NODE),
+            },
+        ),
+        Example(
             "a node in a directory of its own",
             {
                 "CMakeLists.txt": _LISTS.format(""),
@@ -127,7 +137,8 @@ class ProgramNotInstalled(Rule):
             )
             directory = path.rpartition("/")[0]
             has_neighbor = any(other.rpartition("/")[0] == directory for other in known)
-            severity = Severity.ERROR if has_neighbor else Severity.WARNING
+            is_trial = path.rpartition("/")[2].startswith(_TRIALS)
+            severity = Severity.ERROR if has_neighbor and not is_trial else Severity.WARNING
             yield self.report(place, message, severity=severity)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:

@@ -60,6 +60,14 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
+            "a module that protoc makes",
+            {
+                **_FILES,
+                "CMakeLists.txt": "add_custom_command(TARGET made COMMAND protoc team.proto)\n",
+                "talker/node.py": "from talker.team_pb2 import Message\n",
+            },
+        ),
+        Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
             Report(

@@ -73,7 +73,8 @@ class KeywordOfOldRelease(LaunchRule):
                 if new not in call.words:
                     edit = Edit(launch.path, start, start + len(old), new)
                     fix = Fix(f"write {new}", (edit,))
-                yield self.report(at, f"{call.kind} has no {old}: it was renamed to {new}", fix)
+                message = f"{call.kind} has no {old}: it was renamed to {new}"
+                yield self.report(at, message, fix, cause="keywords of an old release")
 
 
 def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:

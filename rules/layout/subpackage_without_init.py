@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.api.python import UNKNOWN, Import, imports_by_path
-from scaffold.api.setup_py import FindPackages
+from scaffold.api.setup_py import FindPackages, matches, package_data
 
 _TESTS = frozenset({"test", "tests"})
 _FILES = {
@@ -32,6 +32,14 @@ class SubpackageWithoutInit(Rule):
     name = "subpackage-without-init"
     examples = (
         Example("with", {**_FILES, "talker/text/__init__.py": ""}),
+        Example(
+            "modules that are data of the package around them",
+            {
+                **_FILES,
+                "setup.py": "from setuptools import find_packages, setup\n\n"
+                "setup(packages=find_packages(), package_data={'talker': ['text/*']})\n",
+            },
+        ),
         Example(
             "among tests, which run where they are",
             {
@@ -64,11 +72,9 @@ class SubpackageWithoutInit(Rule):
             for item in imports:
                 for directory in _directories(package, path, item):
                     init = f"{directory}/__init__.py"
-                    if (
-                        init in reported
-                        or package.has(init)
-                        or self._is_listed(packages, directory)
-                    ):
+                    if init in reported or package.has(init):
+                        continue
+                    if self._is_listed(packages, directory) or _is_data(package, directory):
                         continue
                     reported.add(init)
                     at = item.location
@@ -83,6 +89,12 @@ class SubpackageWithoutInit(Rule):
         if isinstance(packages, FindPackages):
             return packages.namespace
         return isinstance(packages, list | tuple) and directory.replace("/", ".") in packages
+
+
+def _is_data(package: Package, directory: str) -> bool:
+    """Tell whether modules of a directory are installed as data of the package around it."""
+    modules = package.glob(f"{directory}/*.py")
+    return any(matches(pattern, modules) for pattern in package_data(package) or ())
 
 
 def _directories(package: Package, path: str, node: Import) -> Iterator[str]:

@@ -26,6 +26,13 @@ class DependencyIsIndexName(Rule):
             {"package.xml": "<package><exec_depend>python3-numpy</exec_depend></package>\n"},
         ),
         Example(
+            "a library in C++ of the same name",
+            {
+                "package.xml": "<package>\n  <depend>serial</depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(serial REQUIRED)\n",
+            },
+        ),
+        Example(
             "the name for pip",
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
             Report(
@@ -57,10 +64,20 @@ class DependencyIsIndexName(Rule):
             module = module_of_key(dependency.name)
             if module is None or package.workspace.get(dependency.name) is not None:
                 continue
+            if _is_found_by_cmake(package, dependency.name):
+                continue
             key = _key(package, module)
             message = f"rosdep has no rule for {dependency.name!r}; its key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
             yield self.report(dependency, message, Fix(f"write {key}", (edit,)))
+
+
+def _is_found_by_cmake(package: Package, name: str) -> bool:
+    """Tell whether a name is that of a C++ library: serial is one, too."""
+    try:
+        return bool(package.cmake.finds(name))
+    except ViewError:
+        return False
 
 
 def _key(package: Package, module: str) -> str:

@@ -57,6 +57,15 @@ class NodeUnknown(Rule):
             ),
         ),
         Example(
+            "a launch file with another ending names the file",
+            {
+                "talker.py": _NODE,
+                "config/a.yaml": _FILE.format("talker_node"),
+                "launch/a.launch": '<launch><node pkg="a" exec="b" name="talker_node">'
+                '<param from="$(find-pkg-share a)/config/a.yaml"/></node></launch>\n',
+            },
+        ),
+        Example(
             "a controller",
             {
                 "package.xml": _MANIFEST,

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
 from scaffold.api.types import MARKED, TypeFinding, full_name, keywords, parameters
 
+_OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
+"""What launch_ros calls otherwise since Foxy."""
 _CALLEE = rf"(?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -44,6 +48,28 @@ class ArgumentsUnfit(TypeRule):
     examples = (
         Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
         Example(
+            "a variable that is a class by default only",
+            {
+                "sensor.py": "from rclpy.node import Node\n\n\n"
+                "class Sensor:\n"
+                "    def __init__(self, node=Node):\n"
+                "        self.node = node\n"
+                "        self.name = self.node.get_name()\n"
+            },
+        ),
+        Example(
+            "keywords of an old release, which LF009 reports",
+            {
+                "launch/a.launch.py": "from launch_ros.actions import LifecycleNode\n\n"
+                "driver = LifecycleNode(package='a', executable='b', node_name='c', namespace='')\n"
+            },
+        ),
+        Example(
+            "a method of a class",
+            {"name.py": "from rclpy.node import Node\n\nprint(Node.get_name())\n"},
+            Report("3:7", "get_name() lacks 'self': TypeError"),
+        ),
+        Example(
             "one missing",
             {"ticker.py": _NODE.format("0.1")},
             Report("7:22", "create_timer() lacks 'callback': TypeError"),
@@ -66,6 +92,8 @@ class ArgumentsUnfit(TypeRule):
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        if _is_old(finding):
+            return None  # LF009 says what its keywords are called today
         problem = _missing(finding) or _too_many(finding) or _unknown(finding) or _repeated(finding)
         return self.report(finding, f"{problem}: TypeError") if problem else None
 
@@ -83,8 +111,39 @@ def _missing(finding: TypeFinding) -> str:
     )
     if matched is None:
         return ""
+    if matched["names"] == "`self`" and not _is_of_class(finding):
+        return ""
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
     return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
+
+
+def _calls(finding: TypeFinding) -> Iterator[ast.Call]:
+    """Yield the calls that start where a finding does."""
+    for call in finding.module.walk(ast.Call):
+        if finding.module.location(call)[1:3] == finding.location[1:3]:
+            yield call
+
+
+def _is_old(finding: TypeFinding) -> bool:
+    """Tell whether a finding is about a call with keywords that are gone, or its arguments."""
+    line = finding.location.line
+    return any(
+        word.arg in _OLD_KEYWORDS
+        for call in finding.module.walk(ast.Call)
+        if call.lineno <= line <= (call.end_lineno or line)
+        for word in call.keywords
+    )
+
+
+def _is_of_class(finding: TypeFinding) -> bool:
+    """Tell whether a method is called on a class by its name.
+
+    A variable may hold an object as well: one that is a class by default, for instance.
+    """
+    return any(
+        isinstance(call.func, ast.Attribute) and finding.module.qualified_name(call.func.value)
+        for call in _calls(finding)
+    )
 
 
 def _too_many(finding: TypeFinding) -> str:

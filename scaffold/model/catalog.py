@@ -359,6 +359,7 @@ TRANSITIVE_DEPENDENCIES = {
     "launch_xml": "launch",
     "launch_yaml": "launch",
     "launch_pytest": "launch launch_testing osrf_pycommon python3-pytest",
+    "rosidl_default_generators": "action_msgs service_msgs",
     "rclpy": "ament_index_python builtin_interfaces rcl_interfaces action_msgs service_msgs "
     "lifecycle_msgs rosgraph_msgs rpyutils unique_identifier_msgs type_description_interfaces "
     "python3-yaml",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import TYPE_CHECKING
 
@@ -65,7 +66,8 @@ def may_be_made(package: Package, name: str) -> bool:
         return True
     cmake = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
     last = name.rpartition(".")[2]
-    if last in cmake or "pybind11" in cmake:
+    proto = re.sub(r"_pb2(_grpc)?$", ".proto", last)  # what protoc makes of a file
+    if last in cmake or proto in cmake or "pybind11" in cmake:
         return True
     return any(
         last in package.source(path).text

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from scaffold.model.programs.known_nodes import KnownNode
 
 _ALIKE = 0.75
-_LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".py")
+_LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
 
 
 class FileUse(NamedTuple):

@@ -59,7 +59,7 @@ def required_packages(package: Package) -> list[Requirement]:
                 continue
             known = result.get(item.root)
             for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
-            for_launch = path.endswith("launch.py")
+            for_launch = path.endswith("launch.py") or "launch" in path.split("/")[:-1]
             if known is None or (known.for_tests and not for_tests):
                 result[item.root] = Requirement(
                     keys, item.root, item.location, for_tests, for_launch
@@ -108,7 +108,7 @@ def is_shipped(package: Package, path: str) -> bool:
 
     A module of a Python package, a launch file, a test, or a script that a build file names.
     """
-    if path.startswith(_NOT_SHIPPED) or path.endswith("/setup.py"):
+    if path.startswith(_NOT_SHIPPED) or path.endswith(("/setup.py", "/conf.py")):
         return False
     if path.endswith("launch.py") or not path.endswith(".py"):
         return True

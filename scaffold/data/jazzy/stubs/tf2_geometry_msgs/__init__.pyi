@@ -1,5 +1,7 @@
 from tf2_geometry_msgs import tf2_geometry_msgs as tf2_geometry_msgs
 from tf2_geometry_msgs.tf2_geometry_msgs import (
+    Point as Point,
+    Point32 as Point32,
     PointStamped as PointStamped,
     PolygonStamped as PolygonStamped,
     Pose as Pose,

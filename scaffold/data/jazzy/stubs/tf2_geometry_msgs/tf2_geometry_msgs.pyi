@@ -5,6 +5,7 @@ import tf2_ros as tf2_ros
 
 from geometry_msgs.msg import (
     Point as Point,
+    Point32 as Point32,
     PointStamped as PointStamped,
     PolygonStamped as PolygonStamped,
     Pose as Pose,
