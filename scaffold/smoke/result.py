@@ -226,6 +226,8 @@ class PackageResult:
     executables: tuple[Executable, ...] = ()
     manifest: str = ""
     """Its package.xml, as the repository knows it."""
+    is_dependency: bool = False
+    """It was built for others, and not run."""
 
     @property
     def ok(self) -> bool:

@@ -62,6 +62,12 @@ class Options:
     """For another run in the same workspace to end."""
     jobs: int = 4
     """Executables that run at the same time, each in its own domain."""
+    run_only: frozenset[str] | None = None
+    """The packages whose executables are run; the others are built, as those need them."""
+
+    def runs(self, package: str) -> bool:
+        """Tell whether the executables of a package are run."""
+        return self.run_only is None or package in self.run_only
 
 
 def smoke(
@@ -172,8 +178,12 @@ class _Session:
 
     async def run(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
         try:
-            builds = await self._build(sources)
-            built = [source for source in sources if builds[source.name].ok]
+            builds = await self._build(sources) if sources else {}
+            built = [
+                source
+                for source in sources
+                if builds[source.name].ok and self._options.runs(source.name)
+            ]
             executables = await self._run_all(built) if built else {}
         finally:
             await self._stations.close()
@@ -183,6 +193,7 @@ class _Session:
                 builds[source.name],
                 executables.get(source.name, ()),
                 in_repository(source, MANIFEST),
+                is_dependency=not self._options.runs(source.name),
             )
             for source in sources
         )
@@ -203,7 +214,7 @@ class _Session:
         await asyncio.sleep(0)  # the build begins first
         from scaffold.smoke.declared import expectations
 
-        for source in sources:
+        for source in filter(lambda item: self._options.runs(item.name), sources):
             derived, stated = expectations(source), self._scenarios[source.name]
             self._expected[source.name] = {
                 name: overridden(derived.get(name, Expectation()), stated.get(name, NOTHING))

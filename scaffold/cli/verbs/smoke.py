@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING
 from scaffold.printable import printable
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from scaffold.model.discovery.targets import Target
+    from scaffold.model.package import Package
     from scaffold.smoke.cleanup.interruption import Interruption
     from scaffold.smoke.result import Smoke
 
@@ -31,6 +35,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=["."],
         metavar="PATH",
         help="a package or a workspace (default: the current directory)",
+    )
+    selection = parser.add_mutually_exclusive_group()
+    selection.add_argument(
+        "--packages-select",
+        nargs="+",
+        metavar="NAME",
+        help="run these packages only; what they need of the others is built as well",
+    )
+    selection.add_argument(
+        "--packages-up-to",
+        nargs="+",
+        metavar="NAME",
+        help="run these packages and those that they need",
+    )
+    selection.add_argument(
+        "--since",
+        metavar="REV",
+        help="run the packages that differ from a commit of git, and those that depend on them",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
@@ -118,7 +140,8 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from scaffold.smoke.session import Options, packages_of, smoke
 
     _validate(options)
-    packages = packages_of(targets.find(options.paths))
+    found = targets.find(options.paths)
+    packages, run_only = _selected(options, found, packages_of(found))
     with _Progress() as progress:
         result = smoke(
             packages,
@@ -130,15 +153,40 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 workspace=Path(options.workspace).absolute() if options.workspace else None,
                 keep=options.keep,
                 jobs=options.jobs,
+                run_only=run_only,
             ),
             progress=progress,
             announce=_announce,
             interruption=interruption,
         )
     _report(options, result)
+    if not packages:
+        _announce(f"no package differs from {options.since}")
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS
+
+
+def _selected(
+    options: argparse.Namespace, found: Sequence[Target], packages: Sequence[Package]
+) -> tuple[list[Package], frozenset[str] | None]:
+    """Return the packages to build, and the names of those to run; ``None`` for all."""
+    from scaffold.smoke.selection import named, with_dependencies
+
+    if options.packages_select:
+        names = named(packages, options.packages_select, "--packages-select")
+    elif options.packages_up_to:
+        wanted = named(packages, options.packages_up_to, "--packages-up-to")
+        names = with_dependencies(packages, wanted)
+    elif options.since is not None:
+        from scaffold.cli.since import Since
+
+        changed = Since(found[0].package.directory, options.since, found).targets()
+        names = {target.package.name for target in changed}
+    else:
+        return [*packages], None
+    needed = with_dependencies(packages, names)
+    return [package for package in packages if package.name in needed], frozenset(names)
 
 
 def _validate(options: argparse.Namespace) -> None:

@@ -34,6 +34,7 @@ def _package(package: PackageResult) -> dict[str, Any]:
     build = package.build
     return {
         "name": package.name,
+        "dependency": package.is_dependency,
         "build": {
             "ok": build.ok,
             "seconds": round(build.seconds, 3),

@@ -79,12 +79,13 @@ def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator
     name = paint(package.name, _BOLD)
     build = package.build
     if build.ok:
-        yield f"{name}: built in {build.seconds:.1f} s"
+        why = ", as others need it" if package.is_dependency else ""
+        yield f"{name}: built in {build.seconds:.1f} s{why}"
         yield from _indented(_captioned("info: warnings of the build", build.warnings), 2)
     else:
         yield f"{name}: {paint('does not build', _RED)}"
         yield from _indented(build.errors, 2)
-    if build.ok and not package.executables:
+    if build.ok and not package.executables and not package.is_dependency:
         yield "  no executables"
     for executable in package.executables:
         yield from _indented(_executable(executable, paint, verbose=verbose), 2)
