@@ -43,7 +43,7 @@ BUILDERS = ("ament_cmake", "ament_python")
 
 
 class Outcome(NamedTuple):
-    """What became of one package."""
+    """The outcome for one package."""
 
     name: str
     build_type: str
@@ -53,12 +53,12 @@ class Outcome(NamedTuple):
     removed: int
     by_hand: int
     notes: list[str]
-    """What the checker says only now."""
+    """The new findings."""
     is_stable: bool
     """The second run changes nothing."""
     built: str
     """``builds``, ``broken``, or why it was not built."""
-    said: str
+    error: str
     """The error of ``add``, if it failed."""
     diff: str
 
@@ -127,7 +127,9 @@ def builds(root: Path, package: Package, ros: environment.Environment, program: 
     variables = {**ros.variables}
     variables.pop("PYTHONDONTWRITEBYTECODE", None)
     prefixes = variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
-    unmet = sorted(name for name in package.manifest.build_names if not known(name, prefixes))
+    unmet = sorted(
+        name for name in package.manifest.build_names if not is_installed(name, prefixes)
+    )
     if unmet:
         return f"needs {unmet[0]}"
     command = [ros.colcon, "build", "--packages-select", package.name]
@@ -139,35 +141,38 @@ def builds(root: Path, package: Package, ros: environment.Environment, program: 
     return "builds" if not program or program in names else "program is not installed"
 
 
-def known(name: str, prefixes: list[str]) -> bool:
+def is_installed(name: str, prefixes: list[str]) -> bool:
     """Tell whether a package is in the environment."""
     marker = os.path.join("share", "ament_index", "resource_index", "packages", name)
     return any(os.path.exists(os.path.join(prefix, marker)) for prefix in prefixes)
 
 
-def shown(one: Outcome) -> str:
+def shown(outcome: Outcome) -> str:
     """Return a line for a package, and what is wrong with it."""
-    state = "" if one.is_stable else ", NOT STABLE"
+    state = "" if outcome.is_stable else ", NOT STABLE"
     line = (
-        f"{one.name}: {one.build_type}, exit {one.code}, +{one.added} -{one.removed}, "
-        f"{one.by_hand} by hand, {len(one.notes)} new findings, {one.built}{state}"
+        f"{outcome.name}: {outcome.build_type}, exit {outcome.code}, "
+        f"+{outcome.added} -{outcome.removed}, {outcome.by_hand} by hand, "
+        f"{len(outcome.notes)} new findings, {outcome.built}{state}"
     )
-    return "\n    ".join([line, *one.notes, *filter(None, [one.said])])
+    return "\n    ".join([line, *outcome.notes, *filter(None, [outcome.error])])
 
 
-def summary(found: list[Outcome]) -> str:
+def summary(outcomes: list[Outcome]) -> str:
     """Return the sums."""
-    sizes = Counter((one.added, one.removed) for one in found if not one.said)
-    built = Counter(one.built.partition(" ")[0] for one in found)
+    added = [outcome for outcome in outcomes if not outcome.error]
+    sizes = Counter((outcome.added, outcome.removed) for outcome in added)
+    good = sum(outcome.is_good for outcome in outcomes)
+    built = Counter(outcome.built.partition(" ")[0] for outcome in outcomes)
     return "\n".join(
         [
-            f"{len(found)} packages, {sum(one.is_good for one in found)} without a complaint",
-            f"failed: {sum(bool(one.said) for one in found)}",
-            f"with new findings: {sum(bool(one.notes) for one in found)}",
-            f"with something by hand: {sum(bool(one.by_hand) for one in found)}",
-            f"second run changes something: {sum(not one.is_stable for one in found)}",
-            f"only added lines: {sum(not one.removed for one in found if not one.said)}",
-            f"most lines added: {max((added for added, _ in sizes), default=0)}",
+            f"{len(outcomes)} packages, {good} without a complaint",
+            f"failed: {len(outcomes) - len(added)}",
+            f"with new findings: {sum(bool(outcome.notes) for outcome in outcomes)}",
+            f"with something by hand: {sum(bool(outcome.by_hand) for outcome in outcomes)}",
+            f"second run changes something: {sum(not outcome.is_stable for outcome in outcomes)}",
+            f"only added lines: {sum(not outcome.removed for outcome in added)}",
+            f"most lines added: {max((lines for lines, _ in sizes), default=0)}",
             f"builds: {dict(built)}",
         ]
     )
@@ -190,19 +195,21 @@ def run() -> int:
     ros = environment.select(os.environ) if options.build else None
     targets = discovery.find(options.directories)[:: options.every]
     what = [options.extra] if options.extra else ["publisher", NODE]
-    found: list[Outcome] = []
+    outcomes: list[Outcome] = []
     for target in targets:
         if target.package.build_type not in BUILDERS:
             continue
         with tempfile.TemporaryDirectory() as root:
-            one = judge(target.package, Path(root), ros, what)
-        if not any(reason in one.said for reason in PASSED_OVER):
-            found.append(one)
-            print(shown(one), flush=True)
-    print(summary(found))
+            outcome = judge(target.package, Path(root), ros, what)
+        if not any(reason in outcome.error for reason in PASSED_OVER):
+            outcomes.append(outcome)
+            print(shown(outcome), flush=True)
+    print(summary(outcomes))
     if options.diffs:
-        Path(options.diffs).write_text("".join(f"# {one.name}\n{one.diff}" for one in found))
-    return 0 if all(one.is_good for one in found) else 1
+        Path(options.diffs).write_text(
+            "".join(f"# {outcome.name}\n{outcome.diff}" for outcome in outcomes)
+        )
+    return 0 if all(outcome.is_good for outcome in outcomes) else 1
 
 
 if __name__ == "__main__":

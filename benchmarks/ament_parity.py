@@ -56,31 +56,31 @@ class Linter(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What was said about one package."""
+    """The findings of a linter and ours about one package."""
 
     package: str
     theirs: set[Finding]
     ours: set[Finding]
-    said: list[Diagnostic]
+    diagnostics: list[Diagnostic]
 
 
-def rejected_files(package: Package, _said: list[Diagnostic]) -> set[Finding]:
+def rejected_files(package: Package, _diagnostics: list[Diagnostic]) -> set[Finding]:
     """Return the files whose header the linter would reject."""
     return {(h.path, 0, "copyright") for h in headers(package) if not h.is_known}
 
 
-def cmake_findings(package: Package, _said: list[Diagnostic]) -> set[Finding]:
+def cmake_findings(package: Package, _diagnostics: list[Diagnostic]) -> set[Finding]:
     """Return what the scanner finds, as the linter counts lines."""
     return {
-        (found.source.path, 0 if name in WHOLE_FILE else found.location.line, name)
+        (finding.source.path, 0 if name in WHOLE_FILE else finding.location.line, name)
         for name in lint_cmake.FILTERS
-        for found in lint_cmake.findings(package, name)
+        for finding in lint_cmake.findings(package, name)
     }
 
 
-def xml_files(_package: Package, said: list[Diagnostic]) -> set[Finding]:
+def xml_files(_package: Package, diagnostics: list[Diagnostic]) -> set[Finding]:
     """Return the XML files that a rule complains about."""
-    return {(d.location.path, 0, "xmllint") for d in said if d.code != NESTED}
+    return {(d.location.path, 0, "xmllint") for d in diagnostics if d.code != NESTED}
 
 
 LINTERS = (
@@ -142,29 +142,31 @@ def _compare(
     between = time.perf_counter()
     verdicts = []
     for package, their in zip(packages, theirs, strict=True):
-        said = runner.check(package, rules)
-        verdicts.append(Verdict(package.directory, their, linter.ours(package, said), said))
+        diagnostics = runner.check(package, rules)
+        verdicts.append(
+            Verdict(package.directory, their, linter.ours(package, diagnostics), diagnostics)
+        )
         package.forget()
     _print(linter, verdicts, show)
     print(f"  linter {between - started:.1f} s, ours {time.perf_counter() - between:.1f} s")
-    return sum(bool(verdict.theirs) and not verdict.said for verdict in verdicts)
+    return sum(bool(verdict.theirs) and not verdict.diagnostics for verdict in verdicts)
 
 
 def _ask(linter: Linter, package: Package) -> set[Finding]:
     try:
-        found = linter.oracle(Path(package.directory).resolve())
+        findings = linter.oracle(Path(package.directory).resolve())
     except AssertionError:
         return {CRASH}
     if linter.name == "ament_lint_cmake":
-        return {(finding.path, finding.line, finding.code) for finding in found}
-    return {(finding.path, 0, finding.code) for finding in found}
+        return {(finding.path, finding.line, finding.code) for finding in findings}
+    return {(finding.path, 0, finding.code) for finding in findings}
 
 
 def _print(linter: Linter, verdicts: list[Verdict], show: int) -> None:
     rejected = [v for v in verdicts if v.theirs]
-    passes = [v for v in rejected if not v.said]
-    alarms = [v for v in verdicts if {d.code for d in v.said} - {NESTED} and not v.theirs]
-    nested = [v for v in rejected if {d.code for d in v.said} == {NESTED}]
+    passes = [v for v in rejected if not v.diagnostics]
+    alarms = [v for v in verdicts if {d.code for d in v.diagnostics} - {NESTED} and not v.theirs]
+    nested = [v for v in rejected if {d.code for d in v.diagnostics} == {NESTED}]
     both = sum(len(v.theirs & v.ours) for v in verdicts)
     only_theirs = [(v.package, f) for v in verdicts for f in sorted(v.theirs - v.ours)]
     only_ours = [(v.package, f) for v in verdicts for f in sorted(v.ours - v.theirs)]
@@ -176,7 +178,10 @@ def _print(linter: Linter, verdicts: list[Verdict], show: int) -> None:
     )
     for title, rows in (
         ("false pass", [(v.package, sorted(v.theirs)[:3]) for v in passes]),
-        ("rejected by us only", [(v.package, [d.message for d in v.said[:2]]) for v in alarms]),
+        (
+            "rejected by us only",
+            [(v.package, [d.message for d in v.diagnostics[:2]]) for v in alarms],
+        ),
         ("theirs only", only_theirs),
         ("ours only", only_ours),
     ):

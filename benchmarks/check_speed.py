@@ -65,8 +65,8 @@ def main() -> None:
     parser.add_argument("--only", choices=PARTS, action="append", help="what to measure")
     options = parser.parse_args()
     wanted = options.only or PARTS
-    found = targets.find([str(options.directory.resolve())])
-    packages = [Path(target.package.directory) for target in found]
+    found_targets = targets.find([str(options.directory.resolve())])
+    packages = [Path(target.package.directory) for target in found_targets]
     with TemporaryDirectory() as scratch:
         os.environ["XDG_CACHE_HOME"] = os.path.join(scratch, "cache")
         os.environ["PYTHONPYCACHEPREFIX"] = os.path.join(scratch, "bytecode")
@@ -106,7 +106,7 @@ def _run(command: Sequence[str]) -> Cost:
 
 
 def _together(costs: Sequence[Cost]) -> Cost:
-    return Cost(sum(one.seconds for one in costs), max(one.megabytes for one in costs))
+    return Cost(sum(cost.seconds for cost in costs), max(cost.megabytes for cost in costs))
 
 
 class States(NamedTuple):
@@ -129,8 +129,8 @@ class States(NamedTuple):
     def lines(self, unit: float) -> list[str]:
         """Return a line for each state, in units of ``unit`` seconds."""
         return [
-            f"  check, {name:10} {one.seconds / unit:8.2f}  ({one.seconds * 1000:.0f} ms)"
-            for name, one in self._asdict().items()
+            f"  check, {name:10} {cost.seconds / unit:8.2f}  ({cost.seconds * 1000:.0f} ms)"
+            for name, cost in self._asdict().items()
         ]
 
 
@@ -171,9 +171,9 @@ def _print_large(copy: Path, packages: int, linters: Mapping[str, Path], repeat:
     _forget_everything()
     fixed = cost([*_check([copy]), "--fix"])
     print("  against a check with nothing in the cache")
-    for name, one in (("unchanged", states.unchanged), ("one edited", once), ("--fix", fixed)):
-        print(f"  check, {name:10} {one.seconds / states.new.seconds:8.2f}", end="")
-        print(f"  ({one.seconds * 1000:.0f} ms, {one.megabytes:.0f} MB)", flush=True)
+    for name, measured in (("unchanged", states.unchanged), ("one edited", once), ("--fix", fixed)):
+        print(f"  check, {name:10} {measured.seconds / states.new.seconds:8.2f}", end="")
+        print(f"  ({measured.seconds * 1000:.0f} ms, {measured.megabytes:.0f} MB)", flush=True)
     of_python = {name: program for name, program in linters.items() if name in PYTHON_LINTERS}
     if of_python:
         commands = [[str(program), str(copy)] for program in of_python.values()]
@@ -199,30 +199,30 @@ def _linters(places: Sequence[Path]) -> dict[str, Path]:
 
 
 def _print_linters(packages: Sequence[Path], linters: Mapping[str, Path]) -> None:
-    commands = [[str(one), str(package)] for one in linters.values() for package in packages]
+    commands = [[str(linter), str(package)] for linter in linters.values() for package in packages]
     together = cost(*commands).seconds
     states = States.of(packages)
     print(f"{len(packages)} packages, each with {', '.join(linters)}")
     print(f"  the linters           1.00  ({together * 1000:.0f} ms)")
-    for name, one in states._asdict().items():
-        print(f"  check, {name:10} {together / one.seconds:8.1f} times faster", flush=True)
+    for name, measured in states._asdict().items():
+        print(f"  check, {name:10} {together / measured.seconds:8.1f} times faster", flush=True)
 
 
 def _print_growth(packages: Sequence[Path], most: int, scratch: Path) -> None:
     print("growth: ms for a package, against that among 10; memory of the largest process")
     first: States | None = None
-    for count in (one for one in GROWTH if one <= most):
+    for count in (cost for cost in GROWTH if cost <= most):
         top = scratch / f"growth_{count}"
         for number in range(count):
             _copy(packages[number % len(packages)], top, number // len(packages))
         states = States.of([top])
         first = first or states
         figures = [
-            f"{name} {one.seconds / count * 1000:6.2f} "
-            f"({one.seconds / count / (base.seconds / GROWTH[0]):.2f})"
-            for (name, one), base in zip(states._asdict().items(), first, strict=True)
+            f"{name} {cost.seconds / count * 1000:6.2f} "
+            f"({cost.seconds / count / (base.seconds / GROWTH[0]):.2f})"
+            for (name, cost), base in zip(states._asdict().items(), first, strict=True)
         ]
-        memory = max(one.megabytes for one in states)
+        memory = max(cost.megabytes for cost in states)
         print(f"  {count:4} packages: {'  '.join(figures)}  {memory:.0f} MB", flush=True)
         shutil.rmtree(top)
 

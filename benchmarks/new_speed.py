@@ -54,7 +54,7 @@ def main() -> None:
 
 
 def _least(measured: Sequence[Cost]) -> Cost:
-    return Cost(min(one.wall for one in measured), min(one.cpu for one in measured))
+    return Cost(min(cost.wall for cost in measured), min(cost.cpu for cost in measured))
 
 
 def _commands(ros2: str | None) -> dict[str, list[str]]:

@@ -40,10 +40,12 @@ def main() -> int:
     parser.add_argument("--keep", metavar="DIRECTORY", help="where the packages are written")
     options = parser.parse_args()
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)  # where `new` looks for messages
-    known = installed()
+    definitions = installed()
     with tempfile.TemporaryDirectory() as scratch:
         directory = Path(options.keep or scratch)
-        wanted = [publisher(directory, name, known) for name in options.types or names(known)]
+        wanted = [
+            publisher(directory, name, definitions) for name in options.types or names(definitions)
+        ]
         variables = {
             **environment.select(os.environ).variables,
             "ROS_DOMAIN_ID": str(1 + os.getpid() % 100),
@@ -70,18 +72,18 @@ def installed() -> Definitions:
     return Definitions([PrefixSource([sys.prefix])])
 
 
-def names(known: Definitions) -> list[str]:
+def names(definitions: Definitions) -> list[str]:
     """Return the messages that this Python can import."""
     return [
         name
-        for name in known.all_names()
+        for name in definitions.all_names()
         if "/msg/" in name and find_spec(name.partition("/")[0]) is not None
     ]
 
 
-def publisher(directory: Path, name: str, known: Definitions) -> Publisher:
+def publisher(directory: Path, name: str, definitions: Definitions) -> Publisher:
     """Write the package for a type."""
-    filled = payload.payload(name, known)
+    filled = payload.payload(name, definitions)
     package = f"{filled.package}_{filled.name.lower()}"[:48]
     written = write(directory, package=package, node_name="talker", message_type=filled.type)
     return Publisher(filled, written / package / "talker.py", f"/{package}")

@@ -35,7 +35,7 @@ def _attributes(text: str) -> object:
 
 def _instructions(text: str) -> object:
     document = parse(Source("a.xml", f"<?a {text}?><a/>"))
-    return [one.pseudo_attributes for one in document.instructions]
+    return [instruction.pseudo_attributes for instruction in document.instructions]
 
 
 def _suppressions(text: str) -> object:

@@ -83,20 +83,20 @@ def ament_pep257(executable: str, directory: Path, *arguments: str) -> set[Findi
             check=False,
         )
         cases = ET.parse(report).iter("testcase")  # noqa: S314  written by the linter
-        found = set()
+        findings = set()
         for case in cases:
             match = PEP257_CASE.match(case.get("name", ""))
             if match and case.find("failure") is not None:
                 code, path, line = match.groups()
                 is_rule = line != "-"
-                found.add(
+                findings.add(
                     (
                         os.path.normpath(path),
                         int(line) if is_rule else 0,
                         code if is_rule else "E999",
                     )
                 )
-        return found
+        return findings
 
 
 def oracle(args: argparse.Namespace, directory: Path) -> tuple[set[Finding], set[Finding]]:
@@ -155,8 +155,11 @@ class WholeTree(DiskTree):
 def ours(directory: Path) -> set[Finding]:
     """Return what scaffold.ament reports for a directory."""
     package = Package(WholeTree(directory))
-    found = StyleCheck([package]).diagnostics(package)
-    return {(one.location.path, one.location.line, one.code) for one in found}
+    diagnostics = StyleCheck([package]).diagnostics(package)
+    return {
+        (diagnostic.location.path, diagnostic.location.line, diagnostic.code)
+        for diagnostic in diagnostics
+    }
 
 
 def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
@@ -169,9 +172,9 @@ def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
         theirs = {item for item in theirs if not item[0].startswith(nested)}
         # The findings of a linter that is not run are ours alone.
         mine = {
-            (one.location.path, one.location.line, one.code)
-            for one in StyleCheck([package]).diagnostics(package)
-            if one.code != UNFOLLOWED and runs_linter(package, one)
+            (diagnostic.location.path, diagnostic.location.line, diagnostic.code)
+            for diagnostic in StyleCheck([package]).diagnostics(package)
+            if diagnostic.code != UNFOLLOWED and runs_linter(package, diagnostic)
         }
         mine = without_lines(mine, theirs)
         tally.add(directory, theirs, mine)
@@ -183,12 +186,12 @@ def own(args: argparse.Namespace, directories: Iterable[Path]) -> int:
 def own_findings(args: argparse.Namespace, package: Package, linter: str) -> set[Finding]:
     """Return what the runs of a linter by the tests of a package report."""
     run = {"flake8": ament_flake8, "pep257": ament_pep257}[linter]
-    found: set[Finding] = set()
+    findings: set[Finding] = set()
     for call in linter_calls(package, linter):
         words = [word for word in call.arguments if word is not None]
         if len(words) == len(call.arguments):
-            found |= run(getattr(args, linter), Path(package.directory), *words)
-    return {(relative(path, package), line, code) for path, line, code in found}
+            findings |= run(getattr(args, linter), Path(package.directory), *words)
+    return {(relative(path, package), line, code) for path, line, code in findings}
 
 
 def relative(path: str, package: Package) -> str:
@@ -199,7 +202,9 @@ def relative(path: str, package: Package) -> str:
 def write_mutants(directories: Iterable[Path], count: int, seed: int, top: Path) -> None:
     """Write copies of Python files, each with one edit; the same ones for the same seed."""
     chance = random.Random(seed)  # noqa: S311  chance, not secrecy
-    files = sorted(path for one in directories for path in one.rglob("*.py") if path.is_file())
+    files = sorted(
+        path for directory in directories for path in directory.rglob("*.py") if path.is_file()
+    )
     number = 0
     while number < count:
         text = mutant(chance.choice(files).read_text(encoding="utf-8", errors="replace"), chance)

@@ -24,13 +24,13 @@ class _Budget:
         self.left = MOST_COMPARED
 
 
-def closest_name(package: Package, word: str, known: Collection[str], cutoff: float) -> str:
-    """Return the known name that looks most like a word.
+def closest_name(package: Package, word: str, names: Collection[str], cutoff: float) -> str:
+    """Return the name that looks most like a word.
 
     Args:
         package: What the word is found in.
         word: The word.
-        known: The names.
+        names: The names.
         cutoff: How similar they must be, from 0 to 1.
 
     Returns:
@@ -40,10 +40,10 @@ def closest_name(package: Package, word: str, known: Collection[str], cutoff: fl
     from difflib import get_close_matches
 
     budget = package.remember("comparisons", _Budget)
-    budget.left -= len(known)
+    budget.left -= len(names)
     if budget.left < 0 or len(word) > LONGEST:
         return ""
-    return next(iter(get_close_matches(word, known, 1, cutoff)), "")
+    return next(iter(get_close_matches(word, names, 1, cutoff)), "")
 
 
 def listed_names(names: Iterable[str], word: str, none: str = "none") -> str:

@@ -100,10 +100,10 @@ def bundled(definitions: Definitions, prefix: str, package: str) -> str:
 def version(prefix: str, package: str) -> str:
     """Return the version of an installed package."""
     manifest = os.path.join(prefix, "share", package, "package.xml")
-    found = ET.parse(manifest).findtext("version")  # noqa: S314  an installed file
-    if not found:
+    text = ET.parse(manifest).findtext("version")  # noqa: S314  an installed file
+    if not text:
         raise SystemExit(f"{manifest} has no version")
-    return found
+    return text
 
 
 if __name__ == "__main__":

@@ -389,7 +389,7 @@ def _used(body: Sequence[Statement]) -> list[Statement]:
         for item in ast.walk(node)
         if isinstance(item, ast.Name)
     }
-    known = set()
+    imported = set()
     result: list[Statement] = []
     for node in body:
         if not isinstance(node, ast.Import | ast.ImportFrom):
@@ -399,13 +399,13 @@ def _used(body: Sequence[Statement]) -> list[Statement]:
         for alias in node.names:
             name = alias.asname or alias.name.split(".")[0]
             is_export = alias.name in {alias.asname, "*"}
-            if name not in known and (name in names or is_export):
+            if name not in imported and (name in names or is_export):
                 kept.append(alias)
-                known.add(name)
+                imported.add(name)
         if kept:
             node.names = kept
             result.append(node)
-    if "Any" in names and "Any" not in known:
+    if "Any" in names and "Any" not in imported:
         result.insert(0, ast.ImportFrom("typing", [ast.alias("Any")], 0))
     return result
 

@@ -8,8 +8,8 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, 
 from scaffold.api.install import (
     absolute_name,
     file_of,
+    intended_module,
     may_be_made,
-    meant_module,
     modules_of,
     own_roots,
     uninstalled_import,
@@ -153,10 +153,10 @@ class OwnImportMissing(Rule):
                 hint = f"; closest: {near!r}" if near else ""
                 yield self.report(node, f"the package has no module {name!r}{hint}")
         elif not node.level:
-            meant = meant_module(package, where, name)
-            if meant:
+            intended = intended_module(package, where, name)
+            if intended:
                 message = f"no module {name!r} is installed: ModuleNotFoundError"
-                yield self.report(node, f"{message}; closest: {meant!r}")
+                yield self.report(node, f"{message}; closest: {intended!r}")
 
     def _check_names(
         self, package: Package, node: Import, name: str, path: str

@@ -71,18 +71,20 @@ class RosParametersMissing(Rule):
             is_given = bool(use_of(package, path).nodes)
             is_read = is_given or bool(file.sections and not is_loaded(package, path))
             for entry in file.misplaced[:1]:
-                if entry.near is not None and (is_read or self._is_meant(file.misplaced)):
-                    edit = Edit(path, entry.near.start, entry.near.end, KEY)
-                    message = f"unknown key {entry.near.text!r}: rcl rejects the file; "
+                if entry.node_key is not None and (is_read or self._is_meant(file.misplaced)):
+                    edit = Edit(path, entry.node_key.start, entry.node_key.end, KEY)
+                    message = f"unknown key {entry.node_key.text!r}: rcl rejects the file; "
                     message += f"did you mean {KEY!r}?"
-                    yield self.report(entry.near, message, Fix(f"rename it to {KEY!r}", (edit,)))
-                elif entry.near is None and is_read:
+                    yield self.report(
+                        entry.node_key, message, Fix(f"rename it to {KEY!r}", (edit,))
+                    )
+                elif entry.node_key is None and is_read:
                     message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"
                     yield self.report(entry.key, message)
 
     def _is_meant(self, misplaced: list[Misplaced]) -> bool:
         """Return whether this is a parameter file, not a file of another tool with such a key."""
-        return all(entry.near is not None and entry.depth == 1 for entry in misplaced)
+        return all(entry.node_key is not None and entry.depth == 1 for entry in misplaced)
 
     def _given(self, package: Package) -> Iterator[str]:
         """Yield the files that launch files pass to nodes."""

@@ -148,17 +148,15 @@ class PackageSettings:
         codes = dict.fromkeys(item for item in asked[PEP257] if isinstance(item, frozenset))
         if not self._runs[PEP257] and options and codes:
             # What flake8 is told to ignore, the linter that is not run does not bring up.
-            ignored = [
-                code for code in _OF_BOTH if not any(options_.reports(code) for options_ in options)
-            ]
+            ignored = [code for code in _OF_BOTH if not any(item.reports(code) for item in options)]
             codes = {pep257.AMENT.difference(ignored): None}
         return [
             Settings(
-                (FLAKE8 if flake8_options else 0) | (0 if codes_ is None else PEP257),
+                (FLAKE8 if flake8_options else 0) | (0 if reported is None else PEP257),
                 flake8_options or flake8.AMENT,
-                pep257.AMENT if codes_ is None else codes_,
+                pep257.AMENT if reported is None else reported,
             )
-            for flake8_options, codes_ in zip_longest(options, codes)
+            for flake8_options, reported in zip_longest(options, codes)
         ]
 
     def _read(self, linter: str, read: Callable[[Call], _Run | None]) -> Iterator[_Run]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from scaffold.model.install.modules import (
     absolute_name,
     file_of,
+    intended_module,
     is_started,
     may_be_made,
-    meant_module,
     modules_of,
     names_imported,
     own_roots,
@@ -20,9 +20,9 @@ from scaffold.model.install.share import share_of
 __all__ = [
     "absolute_name",
     "file_of",
+    "intended_module",
     "is_started",
     "may_be_made",
-    "meant_module",
     "modules_of",
     "names_imported",
     "own_files",

@@ -15,27 +15,34 @@ from scaffold.record import NamedTuple
 
 
 class Adjustments(NamedTuple):
-    """Applied to all that is found, before anything is reported or fixed."""
+    """Applied to all findings, before anything is reported or fixed."""
 
     severities: Mapping[str, Severity] = {}
-    """By beginnings of codes; the longest one decides."""
+    """By prefix of a code; the longest matching one decides."""
     has_own_style_only: bool = False
     """Whether style counts only where a test of the package itself would report it."""
     exclusion: Exclusion = Exclusion()
     refused_at_release: Collection[str] = ()
     """Codes that are errors, because no release is made of what has them."""
     foreign: Foreign | None = None
-    """Tells what is not the user's; nothing is without it."""
+    """Decides which files are not the user's; without it, all are."""
 
-    def apply(self, package: Package, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    def apply(self, package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """Yield what is to be reported of a package, with its severity."""
-        for one in found:
-            if self.excludes(package, one.location.path) and one.code != RuleCrashed.code:
+        for diagnostic in diagnostics:
+            if (
+                self.excludes(package, diagnostic.location.path)
+                and diagnostic.code != RuleCrashed.code
+            ):
                 continue
-            if self.has_own_style_only and one.code in STYLE and not runs_linter(package, one):
+            if (
+                self.has_own_style_only
+                and diagnostic.code in STYLE
+                and not runs_linter(package, diagnostic)
+            ):
                 continue
-            severity = self._severity(one.code)
-            yield one if severity is None else one._replace(severity=severity)
+            severity = self._severity(diagnostic.code)
+            yield diagnostic if severity is None else diagnostic._replace(severity=severity)
 
     def excludes(self, package: Package, path: str) -> bool:
         """Tell whether a file of a package is skipped."""
@@ -55,8 +62,8 @@ class Adjustments(NamedTuple):
                 for path in package.files
             )
             environments = getattr(package.tree, "environments", ())
-            found = {path: kind for path, kind in kinds if kind}
-            return {**found, **dict.fromkeys(environments, ENVIRONMENTS)}
+            foreign_paths = {path: kind for path, kind in kinds if kind}
+            return {**foreign_paths, **dict.fromkeys(environments, ENVIRONMENTS)}
 
         return package.remember("foreign files", find)
 

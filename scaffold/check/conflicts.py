@@ -1,4 +1,4 @@
-"""Conflicts that a merge has left in files: named as such, and not as mistakes of their syntax."""
+"""Reports merge conflict markers in files as such, and not as syntax errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known about a rule, as text: one function for the terminal and for ``docs/rules``."""
+"""The documentation of a rule as text, for the terminal and for ``docs/rules``."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def as_data(rule: type[Rule]) -> dict[str, object]:
 
 
 def write(directory: str, rules: Sequence[type[Rule]]) -> None:
-    """Write a page per code and tables of all, and remove pages of codes that are no more."""
+    """Write a page per code and tables of all; remove pages of codes that no longer exist."""
     import os
 
     from scaffold.ament.codes import STYLE

@@ -111,7 +111,8 @@ class PackageOfRos1(_Internal):
     """The package is for ROS 1: it is built with catkin.
 
     **Why.** Jazzy has no catkin: colcon stops at ``find_package(catkin)``, and nodes at
-    ``import rospy``. What else could be said of such a package is of no use, so nothing else is.
+    ``import rospy``. No other finding would help before the package is migrated, so none is
+    reported.
 
     **Fix.** Migrate the package, or put an empty file ``COLCON_IGNORE`` next to its package.xml.
 
@@ -140,8 +141,8 @@ class LicenseNotAllowed(_Internal):
         allowed = package.workspace.policy.licenses
         for element in package.manifest.all("license") if allowed else ():
             if {element.text, *spdx_of(element.text)}.isdisjoint(allowed):
-                known = ", ".join(allowed)
-                message = f"license {element.text!r} is not allowed here; allowed: {known}"
+                names = ", ".join(allowed)
+                message = f"license {element.text!r} is not allowed here; allowed: {names}"
                 yield self.report(element.text_location, message)
 
 

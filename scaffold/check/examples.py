@@ -1,4 +1,4 @@
-"""Run the examples of rules: they are tests, documentation and what a rule's author looks at."""
+"""Runs the examples of rules, which are tests and documentation."""
 
 from __future__ import annotations
 

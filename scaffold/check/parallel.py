@@ -90,8 +90,8 @@ def run(
             for note in done.learnt:
                 note.add_to(packages)
             rules.update(done.rules)
-            for at, found in done.style.items():
-                style.setdefault(at, {}).update(found)
+            for at, styles in done.style.items():
+                style.setdefault(at, {}).update(styles)
             is_complete = number == len(tasks) or tasks[number].has_rules
             for at in sorted(rules) if is_complete else ():
                 yield session.result(targets[at], rules.pop(at), style.pop(at, {}))
@@ -99,14 +99,14 @@ def run(
 
 def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
     """Return the sizes of the Python files that are to be read, as far as they are on disk."""
-    known = earlier.get(package.directory)
+    previous = earlier.get(package.directory)
     if package.root is None:
         return {}
     root = package.root
     return {
         path: size(os.path.join(root, path))
         for path in (*package.tree.files, *getattr(package.tree, "broken_links", ()))
-        if path.endswith(".py") and (known is None or package.full_path(path) in known.edited)
+        if path.endswith(".py") and (previous is None or package.full_path(path) in previous.edited)
     }
 
 
@@ -184,7 +184,7 @@ def _run(number: int) -> _Done:
 
 def _all_packages(targets: Sequence[Target]) -> list[Package]:
     """Return the packages to check and those around them."""
-    found = {id(target.package): target.package for target in targets}
+    packages = {id(target.package): target.package for target in targets}
     for around in {id(item.package.known_workspace): item for item in targets}.values():
-        found.update((id(package), package) for package in around.package.known_workspace or ())
-    return list(found.values())
+        packages.update((id(package), package) for package in around.package.known_workspace or ())
+    return list(packages.values())

@@ -28,8 +28,8 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
     """
     rules: dict[str, type[Rule]] = {}
     taken: dict[str, type[Rule]] = {}
-    for known in AMENT_RULES:
-        taken[known.code] = taken[known.name] = known
+    for rule in AMENT_RULES:
+        taken[rule.code] = taken[rule.name] = rule
     for root in roots:
         prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
         files = _rule_files(root)

@@ -24,7 +24,7 @@ MOST_REFUSED = 100
 
 
 def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
-    """Return what the rules say, in reading order.
+    """Return the diagnostics of the rules, in reading order.
 
     A file that cannot be parsed gives one SC001, a rule that fails one SC002.
     """
@@ -43,7 +43,7 @@ class Check:
         self._package = package
         self._kept: dict[str, Part] = {}
         self._reads: dict[str, Reads] = {}
-        self._found: dict[str, list[Diagnostic]] = {}
+        self._diagnostics: dict[str, list[Diagnostic]] = {}
         self._unparsable: list[Diagnostic] = []
         self._earlier_facts: EarlierFacts | None = None
         self._facts: dict[FactId, Fact] = {}
@@ -69,20 +69,22 @@ class Check:
         ]
 
     def run(self, rules: Iterable[Rule]) -> list[Diagnostic]:
-        """Return what the rules say, in reading order."""
+        """Return the diagnostics of the rules, in reading order."""
         for rule in rules:
             if rule.code in self._kept:
                 continue
-            for key, found in self._run(rule).items():
-                self._found.setdefault(key, []).extend(found)
+            for key, part_diagnostics in self._run(rule).items():
+                self._diagnostics.setdefault(key, []).extend(part_diagnostics)
         self._facts = {fact.id: fact for fact in self._package.facts}
         if self._earlier_facts is not None:
             self._earlier_facts.end()
         self._unparsable = [*dict.fromkeys([*self._unparsable, *_unparsable(self._package)])]
-        said = [item for part in self._kept.values() for item in part.diagnostics]
-        said += [item for found in self._found.values() for item in found]
-        said = [*dict.fromkeys([*said, *self._unparsable])]
-        return sorted(said, key=lambda diagnostic: diagnostic.sort_key)
+        diagnostics = [item for part in self._kept.values() for item in part.diagnostics]
+        diagnostics += [
+            item for part_diagnostics in self._diagnostics.values() for item in part_diagnostics
+        ]
+        diagnostics = [*dict.fromkeys([*diagnostics, *self._unparsable])]
+        return sorted(diagnostics, key=lambda diagnostic: diagnostic.sort_key)
 
     def verdict(self, style: Mapping[str, Sequence[Diagnostic]]) -> Verdict | None:
         """Return what was found in parts, ``None`` if it cannot be taken apart.
@@ -99,16 +101,16 @@ class Check:
             files, used = reads.all()
             facts.update((fact.id, fact) for fact in used)
             ids = frozenset(fact.id for fact in used)
-            parts[key] = Part(files, ids, tuple(self._found.get(key, ())))
+            parts[key] = Part(files, ids, tuple(self._diagnostics.get(key, ())))
         return Verdict(parts, style, self._unparsable, self._stored(facts))
 
     def _stored(self, facts: dict[FactId, Fact]) -> Mapping[FactId, StoredFact]:
         """Return some facts, those of the parts that are taken over, and what all depend on."""
         if self._earlier_facts is not None:
             wanted = {wanted for part in self._kept.values() for wanted in part.facts}
-            for known in map(self._earlier_facts.fact, wanted):
-                if known is not None:
-                    facts.setdefault(known.id, known)
+            for fact in map(self._earlier_facts.fact, wanted):
+                if fact is not None:
+                    facts.setdefault(fact.id, fact)
         pending = list(facts.values())
         result: dict[FactId, StoredFact] = {}
         while pending:
@@ -120,7 +122,7 @@ class Check:
         return result
 
     def _run(self, rule: Rule) -> Mapping[str, list[Diagnostic]]:
-        """Return what a rule says; a file that exhausts it counts as unparsable from then on."""
+        """Return the diagnostics of a rule; a file that exhausts it counts as unparsable then."""
         package = self._package
         for _ in range(MOST_REFUSED):
             result: dict[str, list[Diagnostic]] = {}
@@ -140,19 +142,19 @@ class Check:
             break
         return result
 
-    def _collect(self, rule: Rule, found: dict[str, list[Diagnostic]]) -> None:
-        """Add to ``found`` what a rule says, by part."""
+    def _collect(self, rule: Rule, parts: dict[str, list[Diagnostic]]) -> None:
+        """Add the diagnostics of a rule to ``parts``."""
         # One more than is shown, so that the session knows of it.
         most = MAX_FINDINGS + 1
         for key, say in self._steps(rule):
-            said = found.setdefault(key, [])
+            diagnostics = parts.setdefault(key, [])
             reads = self._reads.setdefault(key, Reads())
             try:
                 with recorded(reads):
-                    said.extend(islice(say(), most))
+                    diagnostics.extend(islice(say(), most))
             except ViewError:
                 continue  # what the rule needs is not there
-            most -= len(said)
+            most -= len(diagnostics)
             self._is_whole &= most > 0  # else other files decide what is omitted
 
     def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:

@@ -71,21 +71,21 @@ def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tupl
             codes = [upper]
         if not codes:
             is_name = "-" in word or not any(map(str.isdigit, word))
-            what, known = ("name", names.values()) if is_name else ("code", names.keys())
-            hint = nearest(lower if is_name else upper, known)
+            what, choices = ("name", names.values()) if is_name else ("code", names.keys())
+            hint = nearest(lower if is_name else upper, choices)
             raise ConfigError(f"{origin}: no rule has the {what} {word!r}{hint}")
         result.update(dict.fromkeys(codes))
     return tuple(result)
 
 
-def nearest(word: str, known: Collection[str]) -> str:
-    """Return the end of an error message: what replaces a word, or the known ones next to it."""
+def nearest(word: str, choices: Collection[str]) -> str:
+    """Return the end of an error message: the code that replaces a word, or the closest ones."""
     renamed = new_codes(word.upper())
     if renamed:
         return f"; renamed to {', '.join(renamed)}"
     typed = word[:2] + word[2:].translate(_TAKEN_FOR_DIGITS)
-    near = [typed] if typed in known else get_close_matches(word, known, n=3, cutoff=0.5)
-    return f"; did you mean {', '.join(near)}?" if near else "; see `ros2-scaffold rules`"
+    closest = [typed] if typed in choices else get_close_matches(word, choices, n=3, cutoff=0.5)
+    return f"; did you mean {', '.join(closest)}?" if closest else "; see `ros2-scaffold rules`"
 
 
 def split(values: Sequence[str] | None) -> list[str]:

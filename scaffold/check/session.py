@@ -66,7 +66,7 @@ class Session:
         selection: Which of them, and of their findings, count.
         adjustments: What the configuration changes about findings.
         has_types: Whether the type checker runs.
-        is_reference: Whether style is judged with the configuration that ament brings along.
+        is_reference: Whether style is checked with the configuration that ament ships with.
         line_length: The characters of a line where the tests of a package do not run flake8.
     """
 
@@ -127,24 +127,24 @@ class Session:
             style: The style backend, where it has been started for them.
             earlier: What an earlier run found in some, by directory.
         """
-        known = earlier or {}
+        previous = earlier or {}
         is_first = self._types is None
         if is_first:
             self._types = self._start_types(targets)
         try:
-            return self._run_batch(targets, style, known)
+            return self._run_batch(targets, style, previous)
         finally:
             if is_first:
                 self._end_types()
 
     def _run_batch(
-        self, targets: Sequence[Target], style: StyleCheck | None, known: Mapping[str, Earlier]
+        self, targets: Sequence[Target], style: StyleCheck | None, earlier: Mapping[str, Earlier]
     ) -> list[Result]:
-        style = style or self.start_style([target.package for target in targets], known)
+        style = style or self.start_style([target.package for target in targets], earlier)
         results: list[Result] = []
         for target in targets:
             package = target.package
-            rules = self.check_rules(package, known.get(package.directory))
+            rules = self.check_rules(package, earlier.get(package.directory))
             results.append(self.result(target, rules, style.by_file(package) if style else {}))
             package.forget()
         return results
@@ -152,17 +152,17 @@ class Session:
     def result(
         self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
     ) -> Result:
-        """Put together what rules and style found in a package."""
+        """Combine the findings of rules, types and style in a package."""
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
         types = self._check_types(target.package, rules.found)
         styles = (item for path in sorted(everything) for item in everything[path])
-        found = [*rules.found, *types, *styles]
+        diagnostics = [*rules.found, *types, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if verdict is not None and self._types is not None:
             # Without findings: what is found is remembered file by file.
             part = Part(self._types.needed_by(target.package), frozenset(), ())
             verdict = verdict._replace(parts={**verdict.parts, _TYPES: part})
-        diagnostics = self._report(target, found)
+        diagnostics = self._report(target, diagnostics)
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
         return Result(target.package, rules.files, diagnostics, verdict, rules.foreign)
@@ -214,8 +214,8 @@ class Session:
         from scaffold.ament import StyleCheck
 
         def is_wanted(package: Package, path: str) -> bool:
-            known = (earlier or {}).get(package.directory)
-            if known is not None and path in known.verdict.style:
+            previous = (earlier or {}).get(package.directory)
+            if previous is not None and path in previous.verdict.style:
                 return False
             if self.adjustments.excludes(package, path) or _of_ros1(package):
                 return False
@@ -249,18 +249,18 @@ class Session:
             self._types.close()
             self._types = None
 
-    def _check_types(self, package: Package, known: Sequence[Diagnostic]) -> list[Diagnostic]:
-        """Return what the types of a package show, besides what is known."""
+    def _check_types(self, package: Package, others: Sequence[Diagnostic]) -> list[Diagnostic]:
+        """Return the findings about types, except where another rule reports the same place."""
         if self._types is None:
             return []
         reported = self._types.by_file(package)
         if self._types.failure or not (reported or self._types.may_suppress(package)):
             return []
         type_rules.give(package, reported)
-        found = runner.check(package, self._type_rules)
-        result = suppression.apply(package, found, {rule.code for rule in self._type_rules})
+        diagnostics = runner.check(package, self._type_rules)
+        result = suppression.apply(package, diagnostics, {rule.code for rule in self._type_rules})
         package.forget()
-        places = {item.location[:2] for item in known}
+        places = {item.location[:2] for item in others}
         return [item for item in result if item.location[:2] not in places]
 
     def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
@@ -271,8 +271,8 @@ class Session:
             _ = package.name  # which everybody asks for: a malformed manifest is told of
         check = runner.Check(package, earlier)
         of_ros1 = [*_of_ros1(package)]
-        found = of_ros1 or check.run(self._counted_rules())
-        said = suppression.apply(package, found, self._ran)
+        diagnostics = of_ros1 or check.run(self._counted_rules())
+        reported = suppression.apply(package, diagnostics, self._ran)
         _ = package.identity  # while the manifest is at hand
         verdict = None
         if len(package.python_files) >= WORTH_PARTS and not of_ros1:
@@ -282,7 +282,7 @@ class Session:
             verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
         count = sum(not self.adjustments.excludes(package, path) for path in package.files)
         foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
-        return Ruled(count, said, verdict, foreign)
+        return Ruled(count, reported, verdict, foreign)
 
     def _paths(self, package: Package, path: str) -> tuple[str, ...]:
         """Return the paths of a file that the patterns of the configuration are compared with."""
@@ -328,7 +328,7 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
 
 
 def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-    """Leave out what one code says too often, and say so."""
+    """Limit the findings per code, and add a note about the rest."""
     if len(diagnostics) <= MAX_FINDINGS:
         return diagnostics
     counts: dict[str, int] = {}

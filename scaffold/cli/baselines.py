@@ -28,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--baseline",
         metavar="FILE",
-        help="report only findings that this file does not have; only these count for the exit "
-        "code, and --fix fixes the others as well",
+        help="report only findings that are not in this file, and count only these for the exit "
+        "code; --fix fixes the others as well",
     )
 
 
@@ -81,7 +81,7 @@ def hide(
     targets: Sequence[Target],
     session: Session,
 ) -> list[Result]:
-    """Return results without what the baseline has; note for the report how many that are."""
+    """Return results without the findings of the baseline, and add a note to the report."""
     if options.accepted is None:
         return [*results]
     from scaffold.reporters import baseline

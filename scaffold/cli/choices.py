@@ -1,4 +1,4 @@
-"""What the configuration and the flags of `check` make of the rules."""
+"""Which rules run and how, by the configuration and the flags of `check`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Choices:
-    """Understands the words of the configuration and of flags as rules.
+    """Resolves the words of the configuration and of flags to rules.
 
     Args:
         settings: The configuration.
@@ -30,7 +30,7 @@ class Choices:
     def selection(
         self, select: Sequence[str] | None = None, ignore: Sequence[str] | None = None
     ) -> Selection:
-        """Return which codes are asked for.
+        """Return the selected codes.
 
         Args:
             select: The values of the flag; they win over the configuration.

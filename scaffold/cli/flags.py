@@ -53,5 +53,5 @@ def offer_rules(prefix: str, **_: object) -> list[str]:
     rules = all_rules(registry.load(content.roots("rules")))
     words = [text for rule in rules for text in (rule.code, rule.name)]
     words += [text for code, style in CODES.items() for text in (code, style.name)]
-    near = [text for text in dict.fromkeys(words) if text.startswith((word, word.upper()))]
-    return [f"{before}{comma}{text}" for text in near]
+    matches = [text for text in dict.fromkeys(words) if text.startswith((word, word.upper()))]
+    return [f"{before}{comma}{text}" for text in matches]

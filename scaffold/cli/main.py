@@ -92,7 +92,7 @@ def _run(given: list[str]) -> int:
 
 
 def _failed(error: Exception | KeyboardInterrupt) -> int:
-    """Say in one line why a run ends; return its exit code."""
+    """Report in one line why a run failed; return its exit code."""
     if isinstance(error, KeyboardInterrupt):
         import signal
 

@@ -15,7 +15,7 @@ from scaffold.cli.main import VERBS
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, as every other error of this tool, and what may be meant."""
+    """Reports errors in one line, as everywhere in this tool, with the closest word."""
 
     chosen: _Parser | None = None
     """The parser of the verb that the words begin with."""
@@ -33,7 +33,7 @@ class _Parser(argparse.ArgumentParser):
 
     @property
     def flags(self) -> list[str]:
-        """The flags that it knows."""
+        """The flags of the parser."""
         return [name for action in self._actions for name in action.option_strings]
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
@@ -54,12 +54,12 @@ class _Parser(argparse.ArgumentParser):
         terminal.show(message.removesuffix("\n"))
 
 
-def nearest(word: str, known: Sequence[str]) -> str:
-    """Return the end of an error message: the known word nearest to a wrong one, or nothing."""
+def nearest(word: str, words: Sequence[str]) -> str:
+    """Return the end of an error message: the closest word to a wrong one, or nothing."""
     from difflib import get_close_matches
 
-    near = get_close_matches(word.partition("=")[0], known, n=1)
-    return f"; did you mean {near[0]!r}?" if near else ""
+    closest = get_close_matches(word.partition("=")[0], words, n=1)
+    return f"; did you mean {closest[0]!r}?" if closest else ""
 
 
 def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Parser:
@@ -79,9 +79,11 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Pars
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", required=True, prog="ros2-scaffold")
     listed = {verb: VERBS[verb]} if comes_first and verb in VERBS else VERBS
     for name, text in listed.items():
-        one = verbs.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        verb_parser = verbs.add_parser(
+            name, help=text, description=text[0].upper() + text[1:] + "."
+        )
         if verb == name:
-            parser.chosen = one
+            parser.chosen = verb_parser
         if verb is None or verb == name:
-            import_module(f"scaffold.cli.verbs.{name}").add_arguments(one)
+            import_module(f"scaffold.cli.verbs.{name}").add_arguments(verb_parser)
     return parser

@@ -40,9 +40,9 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
 
-    left_out = None if of_user else config.user_file(Disk())
+    excluded = None if of_user else config.user_file(Disk())
     origins = {item.origin for key, item in settings.values.items() if key.startswith(_ANSWERS)}
-    if not origins - {left_out} or settings.warnings:
+    if not origins - {excluded} or settings.warnings:
         return  # what was ignored may hold templates that ask for more
     from scaffold.generate.questions import defaults, questions
     from scaffold.generate.templates import template
@@ -51,7 +51,7 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
     table = {
         key: item
         for key, item in defaults.configured(settings).items()
-        if left_out is None or not item.origin.startswith(f"{left_out}:")
+        if excluded is None or not item.origin.startswith(f"{excluded}:")
     }
     questions.from_table(table, questions.unique(templates.values()))
 

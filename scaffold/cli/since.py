@@ -1,4 +1,4 @@
-"""``check --since REV``: what a change touches, and what it breaks elsewhere."""
+"""``check --since REV``: findings in changed files, and what the change breaks elsewhere."""
 
 from __future__ import annotations
 
@@ -56,7 +56,11 @@ class Since:
         names = {target.package.name for target in touched} | self._old_names()
         pending = [target for target in self._all if target not in touched]
         while True:
-            depending = [one for one in pending if not names.isdisjoint(_needed(one.package))]
+            depending = [
+                candidate
+                for candidate in pending
+                if not names.isdisjoint(_needed(candidate.package))
+            ]
             if not depending:
                 break
             touched += depending
@@ -140,7 +144,7 @@ class Since:
             top = os.path.realpath(made)
             self._commit.export(top)
             os.mkdir(os.path.join(top, ".git"))  # the top of a repository, for who looks for it
-            places = [os.path.join(top, self._path(one.package, "")) for one in self._all]
+            places = [os.path.join(top, self._path(checked.package, "")) for checked in self._all]
             there = [place for place in places if _is_package(place)]
             wanted = {self._path(result.package, "") for result in results}
             targets = [

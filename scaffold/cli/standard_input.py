@@ -61,7 +61,7 @@ def read(path: str, disk: Disk, policy: Policy) -> Target:
         raise InputError(f"--stdin-filename {path}: is a directory; name a file")
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
-        raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB are read at most")
+        raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB is the limit")
     (target,) = discovery.find([path], disk, are_saved=False, policy=policy)
     overlay = Overlay(target.package.tree)
     overlay.changed[_name(target)] = data

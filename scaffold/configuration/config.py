@@ -1,4 +1,4 @@
-"""The configuration file, and where each value came from.
+"""The configuration files, and the origin of each value.
 
 ``ros2-scaffold.toml``, or ``[tool.ros2-scaffold]`` in ``pyproject.toml``, is the project's: `check`
 looks for it where everything that it checks is, other verbs in the current directory, and both
@@ -36,7 +36,7 @@ FLAG = "--content"
 
 
 class Value(NamedTuple):
-    """A value and the file it stands in."""
+    """A value and the file that sets it."""
 
     value: Any
     origin: str
@@ -61,14 +61,14 @@ class Config(NamedTuple):
         set_value = self.values.get(key)
         if set_value is not None:
             return set_value.value
-        return next(one.default for one in keys.KEYS if one.path == key)
+        return next(item.default for item in keys.KEYS if item.path == key)
 
     def strings(self, key: str) -> tuple[str, ...]:
         """Return a list of strings, empty when not set."""
         return tuple(self.value(key))
 
     def origin(self, key: str) -> str:
-        """Return the file that a value stands in."""
+        """Return the file that sets a value."""
         return self.values[key].origin
 
 
@@ -140,12 +140,12 @@ def _validate(file: _File, table: str, entries: object) -> None:
         raise ConfigError(f"{file.path}: unknown table [{file.prefix}{table}]{_table_hint(table)}")
     if table == keys.ANSWERS:
         return
-    known = keys.of_table(table)
+    allowed = keys.of_table(table)
     for name, value in entries.items():
-        if name not in known:
-            hint = keys.nearest(name, sorted(known))
+        if name not in allowed:
+            hint = keys.nearest(name, sorted(allowed))
             raise ConfigError(f"{file.path}: [{file.prefix}{table}] has no key {name!r}; {hint}")
-        key = known[name]
+        key = allowed[name]
         wrong = key.kind.refuse(value)
         if wrong:
             raise ConfigError(f"{file.path}: {key.path} {wrong}")

@@ -1,4 +1,4 @@
-"""What `exclude` leaves out of a check, by patterns of paths relative to the configuration."""
+"""The files that `exclude` skips, by patterns of paths relative to the configuration."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Exclusion(NamedTuple):
-    """Patterns, and where they count from."""
+    """Patterns, and the directory that they are relative to."""
 
     patterns: tuple[str, ...] = ()
     origin: str = ""

@@ -88,7 +88,7 @@ def _refuse_severities(value: Any) -> str:  # noqa: ANN401  likewise
     for rule, severity in value.items():
         if severity not in SEVERITIES:
             hint = nearest(severity, SEVERITIES)
-            return f"has {severity!r} for {rule!r}, which is no severity; {hint}"
+            return f"has {severity!r} for {rule!r}, which is not a severity; {hint}"
     return ""
 
 
@@ -100,8 +100,8 @@ def _refuse_number(value: Any) -> str:  # noqa: ANN401  likewise
 def _refuse_distribution(value: Any) -> str:  # noqa: ANN401  likewise
     if value in DISTRIBUTIONS:
         return ""
-    known = ", ".join(DISTRIBUTIONS)
-    return f"is {value!r}: there is data of {known} only"
+    supported = ", ".join(DISTRIBUTIONS)
+    return f"is {value!r}: only {supported} is supported"
 
 
 def _refuse_kinds(value: Any) -> str:  # noqa: ANN401  likewise
@@ -109,14 +109,14 @@ def _refuse_kinds(value: Any) -> str:  # noqa: ANN401  likewise
         return _must_be(_KINDS_NOUN)
     for kind in value:
         if kind not in FOREIGN:
-            return f"has {kind!r}, which is no choice; {nearest(kind, FOREIGN)}"
+            return f"has {kind!r}, which is not a choice; {nearest(kind, FOREIGN)}"
     return ""
 
 
 def _refuse_style(value: Any) -> str:  # noqa: ANN401  likewise
     if value in STYLES:
         return ""
-    return f"has {value!r}, which is no choice; {nearest(value, STYLES)}"
+    return f"has {value!r}, which is not a choice; {nearest(value, STYLES)}"
 
 
 _STRINGS_NOUN = "a list of strings"
@@ -187,8 +187,8 @@ KEYS = (
         "severity",
         SEVERITIES_BY_RULE,
         {},
-        "Report these rules as `error`, `warning` or `info`; of two beginnings of a code the "
-        "longer one decides.",
+        "Report these rules as `error`, `warning` or `info`; the longest matching "
+        "prefix of a code decides.",
     ),
     Key(
         "check",
@@ -259,12 +259,12 @@ def of_table(table: str) -> dict[str, Key]:
     return {key.name: key for key in KEYS if key.table == table}
 
 
-def nearest(word: object, known: Sequence[str]) -> str:
-    """Return a hint: the known word nearest to a wrong one, or all known ones."""
+def nearest(word: object, choices: Sequence[str]) -> str:
+    """Return a hint: the choice closest to a wrong word, or all choices."""
     from difflib import get_close_matches
 
-    near = get_close_matches(str(word), known, n=1)
-    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
+    closest = get_close_matches(str(word), choices, n=1)
+    return f"did you mean {closest[0]!r}?" if closest else f"choose from {', '.join(choices)}"
 
 
 def schema() -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """The user's cache: files that may be dropped at any time, and that nothing damaged is read from.
 
 A file is sealed: it starts with a head, which says who wrote it and of what, and with a digest of
-its data. One that has another head or that is damaged is as good as none. This module is imported
+its data. One that has another head or that is damaged is ignored. This module is imported
 by every start and imports next to nothing.
 """
 
@@ -16,7 +16,7 @@ SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
 MAX_BYTES = 100_000_000
 """Of all files of a kind."""
-KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types", "pages")
+KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
 _ABANDONED_AFTER = 3600
 """Seconds after which a temporary file is no longer being written."""
@@ -42,7 +42,7 @@ def directory(kind: str) -> str | None:
 def read_sealed(path: str, head: bytes) -> bytes | None:
     """Return what was written under a head, ``None`` if it is not there, other or damaged.
 
-    What another user wrote is as good as none.
+    What another user wrote is ignored.
     """
     try:
         with open(path, "rb", buffering=0) as file:
@@ -72,21 +72,6 @@ def _is_in_repository(path: str) -> bool:
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:
     """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
-    return _write(path, head + digest(data).encode() + data)
-
-
-def write_plain(path: str, data: bytes) -> bool:
-    """Write what other programs read, unless it is there; tell whether it is there then."""
-    try:
-        with open(path, "rb", buffering=0) as file:
-            if file.read(MAX_BYTES) == data:
-                return True
-    except OSError:
-        pass  # it is written
-    return _write(path, data)
-
-
-def _write(path: str, data: bytes) -> bool:
     from scaffold.files import temporary
 
     directory = os.path.dirname(path)
@@ -95,7 +80,7 @@ def _write(path: str, data: bytes) -> bool:
         os.makedirs(directory, exist_ok=True)
         with open(temporary.create(aside), "wb") as file:
             try:
-                file.write(data)
+                file.write(head + digest(data).encode() + data)
                 file.flush()
                 os.replace(aside, path)
             except BaseException:

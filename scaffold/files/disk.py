@@ -32,7 +32,7 @@ class LargeFileError(OSError):
     """A file has more bytes than are read; it was not read at all."""
 
     def __init__(self, path: str, size: int, most: int) -> None:
-        reason = f"it has {size // 1000} kB, {most // 1000} kB are read"
+        reason = f"it has {size // 1000} kB; the limit is {most // 1000} kB"
         super().__init__(errno.EFBIG, reason, path)
         self.size = size
 
@@ -95,9 +95,9 @@ class Disk:
 
         A directory that cannot be listed is empty.
         """
-        found = _names(directory)
-        self.note({("names", directory): _digest_of(*found)})
-        return found
+        entries = _names(directory)
+        self.note({("names", directory): _digest_of(*entries)})
+        return entries
 
     def entries(self, directory: str, *starts: str) -> list[str]:
         """Return the names in a directory; one that cannot be listed is empty.
@@ -106,9 +106,9 @@ class Disk:
             directory: The directory.
             starts: How the names start, in capitals, whatever their own case; all without it.
         """
-        found = _entries(directory, starts)
-        self.note({(" ".join(("entries", *starts)), directory): _digest_of(found)})
-        return found
+        names = _entries(directory, starts)
+        self.note({(" ".join(("entries", *starts)), directory): _digest_of(names)})
+        return names
 
     def exists(self, path: str) -> bool:
         """Tell whether something is there."""
@@ -189,7 +189,7 @@ def read_file(path: str, most: int = MAX_BYTES) -> bytes:
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise FileNotFoundError(errno.ENOENT, "no regular file", path)
+            raise FileNotFoundError(errno.ENOENT, "not a regular file", path)
         size = status.st_size
         parts: list[bytes] = []
         count = 0

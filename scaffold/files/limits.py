@@ -42,17 +42,17 @@ def why_unread(path: str, data: bytes) -> str:
     longest = max(map(len, data.splitlines()))
     if longest > MOST_BYTES_OF_LINE:
         most = MOST_BYTES_OF_LINE // 1000
-        return f"a line of {longest // 1000} kB, {most} kB are read: the file is not checked"
+        return f"a line of {longest // 1000} kB; the limit is {most} kB: the file is not checked"
     most = _most_words(path)
     words = len(data) if len(data) <= most else _words(data)
     if words > most:
-        return f"{words} words and signs of {most} that are read: it is not checked"
+        return f"{words} tokens; the limit is {most}: the file is not checked"
     return ""
 
 
 def too_large(size: int, path: str) -> str:
     """Return why a file of a size is not read."""
-    return f"{size // 1000} kB of {most_bytes(path) // 1000} kB that are read: it is not checked"
+    return f"{size // 1000} kB; the limit is {most_bytes(path) // 1000} kB: the file is not checked"
 
 
 def _words(data: bytes) -> int:

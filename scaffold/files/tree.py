@@ -189,11 +189,11 @@ class MemoryTree:
     @cached_property
     def directories(self) -> Collection[str]:
         """The paths of all directories below the root."""
-        found = set(self._empty)
+        directories = set(self._empty)
         for path in [*self.files, *self._empty]:
             parts = path.split("/")
-            found.update("/".join(parts[:depth]) for depth in range(1, len(parts)))
-        return frozenset(found)
+            directories.update("/".join(parts[:depth]) for depth in range(1, len(parts)))
+        return frozenset(directories)
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""

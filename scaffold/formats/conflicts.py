@@ -1,4 +1,4 @@
-"""The marks that a merge leaves around a conflict."""
+"""Finds the conflict markers that a merge leaves in a file."""
 
 from __future__ import annotations
 

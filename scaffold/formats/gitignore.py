@@ -45,8 +45,10 @@ class IgnoreFile:
     def _compiled(self) -> tuple[list[_Pattern], re.Pattern[str], re.Pattern[str]]:
         patterns = [*_read(self._text)]
         # The last pattern that fits decides.
-        groups = [(f"(?P<p{at}>{one.regex})", one) for at, one in enumerate(patterns)][::-1]
-        files = [group for group, one in groups if not one.is_for_directories]
+        groups = [(f"(?P<p{at}>{pattern.regex})", pattern) for at, pattern in enumerate(patterns)][
+            ::-1
+        ]
+        files = [group for group, pattern in groups if not pattern.is_for_directories]
         never = ["(?!)"]
         return (
             patterns,

@@ -85,12 +85,12 @@ class IniFile:
     def option(self, section: str, *keys: str) -> IniOption | None:
         """Return the first of some options that a section has, or the defaults have."""
         for name in (section, DEFAULT_SECTION):
-            found = self.sections.get(name)
-            if found is None and name == section:
+            current = self.sections.get(name)
+            if current is None and name == section:
                 return None
             for key in keys:
-                if found is not None and key in found.options:
-                    return found.options[key]
+                if current is not None and key in current.options:
+                    return current.options[key]
         return None
 
     def get(self, section: str, *keys: str) -> str | None:
@@ -110,13 +110,13 @@ class IniFile:
         from scaffold.edits import Edit
 
         path, newline = self.source.path, self.source.newline
-        found = self.sections.get(section)
-        if found is not None and key in found.options:
-            option = found.options[key]
+        existing = self.sections.get(section)
+        if existing is not None and key in existing.options:
+            option = existing.options[key]
             return Edit(path, option.value_start, option.value_end, value)
         line = f"{key}={value}"
-        if found is not None:
-            return Edit(path, found.end, found.end, f"{newline}{line}")
+        if existing is not None:
+            return Edit(path, existing.end, existing.end, f"{newline}{line}")
         text = self.source.text
         at = len(text.rstrip())
         before = newline if text[:at] else ""

@@ -1,4 +1,4 @@
-"""What is wrong with an XML file, said for people."""
+"""Error messages about XML files, more helpful than those of expat."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def explain(source: Source, code: int, at: int, inside: Element | None) -> Parse
         inside: The innermost element that is open there.
     """
     error = errors.messages[code]
-    said = _text_before_declaration(source.text)
-    if said is None and error in _OF_ELEMENTS:
-        said = _OF_ELEMENTS[error](source, at, inside)
-    if said is None and error in _OF_TEXT:
-        said = _OF_TEXT[error](source.text, at)
-    if said is None:
-        said = _not_well_formed(source.text, at, inside) or (at, at + 1, error)
-    start, end, message = said
+    explained = _text_before_declaration(source.text)
+    if explained is None and error in _OF_ELEMENTS:
+        explained = _OF_ELEMENTS[error](source, at, inside)
+    if explained is None and error in _OF_TEXT:
+        explained = _OF_TEXT[error](source.text, at)
+    if explained is None:
+        explained = _not_well_formed(source.text, at, inside) or (at, at + 1, error)
+    start, end, message = explained
     return ParseError(source.location(start, end), message)
 
 
@@ -217,7 +217,7 @@ def _in_tag(text: str, opening: int, at: int) -> Explanation:
     elif before.endswith("="):
         message = f"a value in quotes expected in the tag {tag}>"
     elif before.endswith(("'", '"')) and len(before) == at - opening:
-        message = f"a blank expected between attributes of {tag}>"
+        message = f"a space expected between attributes of {tag}>"
         width = max(len(_word(text, at)), 1)
     elif here == ">" or re.search(r"[ \t\r\n][^\s=\"'<>]+$", before):
         message = f"an attribute of {tag}> has no value"

@@ -79,7 +79,7 @@ class _Offsets:
 
 
 class _Reader:
-    """Builds the elements from what expat tells."""
+    """Builds the elements from the events of expat."""
 
     def __init__(self, source: Source) -> None:
         self.source = source

@@ -159,15 +159,15 @@ class Open(NamedTuple):
         return list(_uses_of(self.template, self.answers, self.node))
 
 
-def agreed_types(part: Open, others: Iterable[Open], known: Iterable[Use]) -> dict[str, Given]:
+def agreed_types(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dict[str, Given]:
     """Return the types that a part takes from others that use a name that the user has given.
 
     Args:
         part: Its types are taken over where the user has not said another one.
         others: The other parts of the package.
-        known: What nodes use that are there already.
+        uses: What the existing nodes use.
     """
-    theirs = [(use.kind, use.name, use.type) for use in known]
+    theirs = [(use.kind, use.name, use.type) for use in uses]
     for other in others:
         for (_, typed), use in zip(pairs(other.template.questions), other.uses, strict=False):
             if typed.name in other.explicit:
@@ -181,9 +181,9 @@ def agreed_types(part: Open, others: Iterable[Open], known: Iterable[Use]) -> di
     return result
 
 
-def agreed_qos(part: Open, others: Iterable[Open], known: Iterable[Use]) -> dict[str, Given]:
+def agreed_qos(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dict[str, Given]:
     """Return the qualities of service that a part takes from others, to connect with them."""
-    theirs = [use for other in others for use in other.uses] + list(known)
+    theirs = [use for other in others for use in other.uses] + list(uses)
     result: dict[str, Given] = {}
     for (question, _), use in zip(pairs(part.template.questions), part.uses, strict=False):
         asked = qos_question(question, part.template.questions)

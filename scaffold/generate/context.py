@@ -1,4 +1,4 @@
-"""What templates may use: answers, and the names and texts made of them."""
+"""The variables of templates: answers, and the names and texts derived from them."""
 
 from __future__ import annotations
 
@@ -196,7 +196,7 @@ _OWN_NAMES: Mapping[str, frozenset[str]] = {
 
 
 def _refuse_own(question: Question, full_name: str, node: str) -> None:
-    """Raise if a name is one that the node has for itself: two of them would not get along."""
+    """Raise if a name is one that ROS itself gives every node."""
     own = full_name.removeprefix(f"/{node}/")
     if own != full_name and own in _OWN_NAMES.get(question.type, ()):
         what = question.type.partition("_")[0]
@@ -243,5 +243,5 @@ def _texts(
     key: str, scopes: Iterable[tuple[Template, Mapping[str, Any]]], renderer: Renderer
 ) -> list[str]:
     """Return the texts that the layers have under a key, each once, in alphabetical order."""
-    found = {renderer.text(text, scope) for layer, scope in scopes for text in getattr(layer, key)}
-    return sorted(found - {""})
+    texts = {renderer.text(text, scope) for layer, scope in scopes for text in getattr(layer, key)}
+    return sorted(texts - {""})

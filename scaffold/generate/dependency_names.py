@@ -27,7 +27,7 @@ _RULES = frozenset({"dependency-misspelled", "dependency-of-ros1", "dependency-u
 
 
 def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
-    """Yield a line about each name that nothing here knows.
+    """Yield a line about each name that is not known on this machine.
 
     Args:
         names: The dependencies.
@@ -75,7 +75,7 @@ def _names() -> set[str]:
 
 
 def _is_slip(name: str, other: str) -> bool:
-    """Tell whether a name is another one with a slip of the finger, and nothing else."""
+    """Tell whether a name differs from another one by a typo only."""
     if name.startswith(_PYTHON) and other.startswith(_PYTHON):
         # Two short names of Python modules resemble each other by chance: pip, pil.
         return catalog.is_near(name.removeprefix(_PYTHON), other.removeprefix(_PYTHON))
@@ -85,7 +85,7 @@ def _is_slip(name: str, other: str) -> bool:
 
 
 class _Here:
-    """What the machine and the workspace know."""
+    """The packages and rosdep keys that the machine and the workspace have."""
 
     def __init__(self, directory: str) -> None:
         self._directory = directory

@@ -48,6 +48,6 @@ def neighbours(top: str) -> list[str]:
     """Return the packages of the workspace around a directory, and those in it."""
     disk = Disk()
     sources = colcon.sources_at(disk, top)
-    found = colcon.package_directories(disk, sources) if sources else []
+    packages = colcon.package_directories(disk, sources) if sources else []
     beside = (os.path.join(top, name) for name in disk.names(top)[1])
-    return [*found, *(item for item in beside if disk.is_file(os.path.join(item, MANIFEST)))]
+    return [*packages, *(item for item in beside if disk.is_file(os.path.join(item, MANIFEST)))]

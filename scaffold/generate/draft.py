@@ -1,4 +1,4 @@
-"""From what the user gave to a package in memory, checked before anything is written."""
+"""Turns the user's answers into a package in memory, checked before anything is written."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ class Composed(NamedTuple):
 
 
 class Existing(NamedTuple):
-    """What a package has that something is added to."""
+    """What an existing package has, if something is added to one."""
 
     answers: Mapping[str, Any] = MappingProxyType({})
     """Those that are as they are, such as its name."""
@@ -154,11 +154,11 @@ def compose(
     comments = _answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
     existing = existing or Existing()
-    known = {**existing.answers, "contents": parts.contents(order.requests)}
+    settled = {**existing.answers, "contents": parts.contents(order.requests)}
     answers = questions.resolve(
-        [question for question in asked if question.name not in known],
+        [question for question in asked if question.name not in settled],
         given,
-        known=known,
+        context=settled,
         render=renderer.text,
         fallback=user.answer,
         where=user.directory,
@@ -181,7 +181,7 @@ def compose(
 
 
 def defects(package: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-    """Return what the checker says about a draft: a defect of the templates."""
+    """Return the findings about a draft: each is a defect of the templates."""
     return Check(package).end(rules)
 
 
@@ -201,7 +201,7 @@ class Check:
         self._style = StyleCheck([self._package])
 
     def end(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-        """Return what the rules and the style say."""
+        """Wait, and return the findings of the rules and the style check."""
         from scaffold.check.selection import Selection
         from scaffold.check.session import Session
 
@@ -254,7 +254,7 @@ class _Settings(NamedTuple):
         return questions.resolve(
             request.template.questions,
             {**self.given, **request.given, **more},
-            known=self.answers,
+            context=self.answers,
             render=self.renderer.text,
             fallback=lambda _: None,
             where=self.where,
@@ -266,8 +266,8 @@ def _parts(
 ) -> tuple[list[Part], list[dict[str, Any]]]:
     """Return the parts with their answers, and those answers as in an answers file.
 
-    Where the user has left it open, a part has the type and the quality of service of those that
-    it meets on a topic.
+    Where the user has not answered, a part takes the type and the quality of service of the nodes
+    that it shares a topic with.
     """
     more: list[dict[str, Given]] = [{} for _ in wanted]
     resolved = [settings.resolve(request, {}) for request in wanted]
@@ -277,9 +277,9 @@ def _parts(
                 Open(
                     item.template,
                     own.values,
-                    frozenset(settings.given.keys() | item.given.keys() | known.keys()),
+                    frozenset(settings.given.keys() | item.given.keys() | taken_over.keys()),
                 )
-                for item, own, known in zip(wanted, resolved, more, strict=True)
+                for item, own, taken_over in zip(wanted, resolved, more, strict=True)
             ]
             others = [part for at, part in enumerate(open_parts) if at != index]
             taken = agreed(open_parts[index], others, neighbors)
@@ -330,9 +330,9 @@ def _answer(name: str, asked: Sequence[Question], given: Mapping[str, Given]) ->
 
 
 def _refuse_useless(given: Mapping[str, Given], order: Order) -> None:
-    known = {question.name for question in questions.unique(order.layers)}
+    names = {question.name for question in questions.unique(order.layers)}
     for name, answer in given.items():
-        if name not in known and answer.origin.startswith("--"):
+        if name not in names and answer.origin.startswith("--"):
             chosen = " and ".join(template.name for template in order.layers[1:])
             raise InputError(f"{answer.origin}: does not apply to {chosen}")
 

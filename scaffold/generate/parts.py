@@ -127,7 +127,7 @@ def refuse_impossible(
 
 
 def _refuse_endless(messages: Sequence[Part]) -> None:
-    """Raise if a message holds itself, by way of others or not: no array of it would ever end."""
+    """Raise if a message contains itself, directly or through others."""
     held = {
         part.name: {
             name
@@ -188,13 +188,13 @@ def _request(entry: Mapping[str, Any], origin: str, templates: Mapping[str, Temp
 
     kind = choose(str(entry.get(KIND)), kinds(templates), origin)
     template = templates[kind]
-    known = {question.name for question in template.questions}
+    names = {question.name for question in template.questions}
     given: dict[str, Given] = {}
     for key, value in entry.items():
         name = template.name_question if key == "name" else key.replace("-", "_")
-        if key != KIND and name not in known:
+        if key != KIND and name not in names:
             raise InputError(
-                f"{origin}: {kind} has no option {key!r}; it has {', '.join(sorted(known))}"
+                f"{origin}: {kind} has no option {key!r}; it has {', '.join(sorted(names))}"
             )
         if key != KIND and value is not None:
             given[name] = Given(value, f"{origin}: {kind}" if key == "name" else f"{origin}: {key}")

@@ -1,6 +1,6 @@
 """Plain data from a YAML file that a user wrote: texts, numbers, yes and no, lists and mappings.
 
-Less than YAML can say, so that no file multiplies itself, builds an object or means two things: a
+A subset of YAML, so that no file expands without end, builds an object or is ambiguous: a
 date stays the text it is, a key is a text and there once, and aliases and tags are refused.
 """
 
@@ -127,7 +127,7 @@ class _Reader:
         return result
 
     def _scalar(self, event: yaml.ScalarEvent) -> object:
-        """Return a text, or what YAML takes one without quotes for."""
+        """Return a text, or the value that YAML reads an unquoted one as."""
         from yaml import SafeLoader, ScalarNode
 
         self._refuse_tag(event, {f"{_TAG}str", "!"})
@@ -144,9 +144,9 @@ class _Reader:
         except (ValueError, OverflowError):
             self._refuse(event, f"{event.value!r} is not a number; a string needs quotes")
 
-    def _refuse_tag(self, event: yaml.Event, known: set[str]) -> None:
+    def _refuse_tag(self, event: yaml.Event, allowed: set[str]) -> None:
         tag = getattr(event, "tag", None)
-        if tag is not None and tag not in known:
+        if tag is not None and tag not in allowed:
             self._refuse(event, f"the tag {tag.replace(_TAG, '!!')!r}: write the value without it")
 
     def _refuse(self, event: yaml.Event, reason: str) -> NoReturn:

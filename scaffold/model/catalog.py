@@ -289,7 +289,7 @@ _INDEX_NAMES = {
 
 
 def is_near(name: str, other: str) -> bool:
-    """Tell whether a name is another one misspelt: see ``similar_package``."""
+    """Tell whether a name is another one misspelled: see ``similar_package``."""
     if name == other or len(name) < 5:  # noqa: PLR2004  short names resemble by chance
         return False
     plain = name.replace("-", "").replace("_", "").lower()
@@ -297,7 +297,7 @@ def is_near(name: str, other: str) -> bool:
 
 
 def similar_package(name: str) -> str | None:
-    """Return the known package that a misspelt name means, if it is near enough to be sure.
+    """Return the known package that a misspelled name means, if it is near enough to be sure.
 
     Near is one letter added, missing, changed or swapped, or other separators; a digit is no typo
     (``turtlebot4_msgs`` is not ``turtlebot3_msgs``).
@@ -310,7 +310,7 @@ def similar_package(name: str) -> str | None:
         # Wherever the slip is, one end of the name is as it should be.
         for end in (name[:1] + "*", "*" + name[-1:]):
             candidates.update(_alike()[length, end])
-    return next((known for known in sorted(candidates) if is_near(name, known)), None)
+    return next((candidate for candidate in sorted(candidates) if is_near(name, candidate)), None)
 
 
 _ALIKE: defaultdict[tuple[int, str], list[str]] = defaultdict(list)

@@ -240,8 +240,8 @@ class Package:
 
     def parsed_module(self, path: str) -> PythonModule | None:
         """Return a Python file if somebody has asked for it before."""
-        known = self._views.get(("module", path))
-        return None if isinstance(known, ViewError) else cast("PythonModule | None", known)
+        view = self._views.get(("module", path))
+        return None if isinstance(view, ViewError) else cast("PythonModule | None", view)
 
     def imports(self, path: str) -> frozenset[str]:
         """Return the top-level packages that a Python file imports, a fact; raises ViewError."""
@@ -363,15 +363,15 @@ class Package:
 
     def fact(self, key: Key, make: Callable[[], View]) -> View:
         """Return a fact; see `scaffold.model.facts.fact`."""
-        known = self._facts.get(key) or self._recall(key)
-        if known is None:
-            known = Fact(self.directory, key)
-            known.make(make)
-            self._facts[key] = known
-        reads.note_fact(known)
-        if known.error is not None:
-            raise known.error
-        return cast("View", known.value)
+        fact = self._facts.get(key) or self._recall(key)
+        if fact is None:
+            fact = Fact(self.directory, key)
+            fact.make(make)
+            self._facts[key] = fact
+        reads.note_fact(fact)
+        if fact.error is not None:
+            raise fact.error
+        return cast("View", fact.value)
 
     def known_fact(self, key: Key) -> Fact | None:
         """Return a fact that was asked for, or that is known from an earlier run."""
@@ -393,10 +393,10 @@ class Package:
 
     def _recall(self, key: Key) -> Fact | None:
         for recall in self._recalls:
-            known = recall(key)
-            if known is not None:
-                self._facts[key] = known
-                return known
+            fact = recall(key)
+            if fact is not None:
+                self._facts[key] = fact
+                return fact
         return None
 
     def refuse(self, path: str, message: str) -> bool:
@@ -525,10 +525,10 @@ class Package:
                     raise
                 self.is_repeatable &= not isinstance(error, OutOfTimeError)
                 self._views[key] = ParseError(Location.start_of(path), exhausted(error))
-        found = self._views[key]
-        if isinstance(found, ViewError):
-            raise found
-        return cast("View", found)
+        view = self._views[key]
+        if isinstance(view, ViewError):
+            raise view
+        return cast("View", view)
 
 
 @fact

@@ -50,11 +50,11 @@ def text(results: Sequence[Result]) -> str:
 def _entries(results: Sequence[Result]) -> Iterator[Entry]:
     fingerprints = Fingerprints()
     for result in results:
-        for one in result.diagnostics:
-            if one.code != RuleCrashed.code:
-                path = in_repository(result.package, one.location.path)
-                fingerprint = fingerprints.of(result.package, one)
-                yield Entry(path, one.code, one.message, fingerprint)
+        for diagnostic in result.diagnostics:
+            if diagnostic.code != RuleCrashed.code:
+                path = in_repository(result.package, diagnostic.location.path)
+                fingerprint = fingerprints.of(result.package, diagnostic)
+                yield Entry(path, diagnostic.code, diagnostic.message, fingerprint)
 
 
 def read(path: str, disk: Disk) -> list[Entry]:
@@ -98,29 +98,29 @@ def hide(
     session: Session,
     name: str,
 ) -> Filtered:
-    """Take out of results what a baseline has.
+    """Remove the findings of a baseline from results.
 
     Args:
         entries: The baseline.
-        results: What was found.
+        results: The findings.
         targets: What was checked, in the same order.
         session: What checked it: entries of codes that it does not report are not missed.
         name: The baseline, for people.
     """
-    known = {entry.fingerprint for entry in entries}
+    accepted = {entry.fingerprint for entry in entries}
     seen: set[str] = set()
     fingerprints = Fingerprints()
     kept: list[Result] = []
     hidden = 0
     for result in results:
         new = []
-        for one in result.diagnostics:
-            fingerprint = fingerprints.of(result.package, one)
-            if fingerprint in known and one.code != RuleCrashed.code:
+        for diagnostic in result.diagnostics:
+            fingerprint = fingerprints.of(result.package, diagnostic)
+            if fingerprint in accepted and diagnostic.code != RuleCrashed.code:
                 hidden += 1
                 seen.add(fingerprint)
             else:
-                new.append(one)
+                new.append(diagnostic)
         kept.append(Result(result.package, result.files, new, result.verdict))
     covered = _covered(targets)
     gone = sum(
@@ -138,12 +138,12 @@ def hide(
 
 
 def _covered(targets: Sequence[Target]) -> tuple[str, ...]:
-    """Return how the paths of entries begin that concern what was checked."""
-    found: list[str] = []
+    """Return the prefixes of the paths that were checked."""
+    prefixes: list[str] = []
     for package, only in targets:
         if only is not None:
-            found += [in_repository(package, path) for path in only]
+            prefixes += [in_repository(package, path) for path in only]
         else:
             place = in_repository(package, ".")
-            found.append("" if place == "." else f"{place}/")
-    return tuple(found)
+            prefixes.append("" if place == "." else f"{place}/")
+    return tuple(prefixes)

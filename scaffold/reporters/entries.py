@@ -1,4 +1,4 @@
-"""Findings as people read them: what has one cause is one entry, and what matters comes first."""
+"""Findings grouped by cause, the most important first."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 """Worst first."""
 
 _LAST = ("PX", "LY", "NM", "TS")
-"""What stops no build and no program by itself: the manifest, files, names, tests."""
+"""Areas whose findings stop no build and no program: the manifest, files, names, tests."""
 _LATER = ("CM", *_LAST)
-"""What does not crash a program that runs."""
+"""Areas whose findings do not crash a running program."""
 DEPENDENCY = "dependency "
 """Begins the cause of what only happens on a machine that lacks a package."""
 

@@ -1,4 +1,4 @@
-"""Fingerprints: what makes a finding the same after the lines around it have moved."""
+"""Fingerprints identify a finding even after the lines around it have moved."""
 
 from __future__ import annotations
 

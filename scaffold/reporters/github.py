@@ -25,8 +25,8 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 
     The place is in the message as well: the log of the step shows nothing else.
     """
-    for package, one in _worst_first(results):
-        at = one.location
+    for package, diagnostic in _worst_first(results):
+        at = diagnostic.location
         path = printable(in_repository(package, at.path))
         properties = {
             "file": path,
@@ -34,12 +34,12 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
             "endLine": at.end_line,
             "col": at.column,
             "endColumn": at.end_column,
-            "title": f"{one.code} {one.name}",
+            "title": f"{diagnostic.code} {diagnostic.name}",
         }
         if at.line != at.end_line:
             del properties["col"], properties["endColumn"]  # GitHub knows them for one line only
-        message = f"{path}:{at.line}:{at.column}: {one.code} {printable(one.message)}"
-        out.write(command(_COMMANDS[one.severity], properties, message))
+        message = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.message)}"
+        out.write(command(_COMMANDS[diagnostic.severity], properties, message))
 
 
 def command(level: str, properties: Mapping[str, object], message: str) -> str:
@@ -78,9 +78,10 @@ def _worst_first(results: Sequence[Result]) -> list[tuple[Package, Diagnostic]]:
 def _table(findings: Sequence[tuple[Package, Diagnostic]]) -> Iterator[str]:
     yield "| severity | place | code | message |"
     yield "|---|---|---|---|"
-    for package, one in findings:
-        place = f"{in_repository(package, one.location.path)}:{one.location.line}"
-        cells = (one.severity.value, code(place), one.code, cell(one.message))
+    for package, diagnostic in findings:
+        place = f"{in_repository(package, diagnostic.location.path)}:{diagnostic.location.line}"
+        message = cell(diagnostic.message)
+        cells = (diagnostic.severity.value, code(place), diagnostic.code, message)
         yield f"| {' | '.join(cells)} |"
 
 

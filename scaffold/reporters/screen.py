@@ -1,15 +1,13 @@
-"""The report on a terminal: what breaks first, once for each cause, and no more than a screen."""
+"""The report on a terminal: errors first, one entry per cause, no more than fits the screen."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from textwrap import shorten
-from types import MappingProxyType
 from typing import TextIO
 
 from rich.console import Console
-from rich.style import Style
 from rich.text import Text
 
 from scaffold.check.adjustments import runs_linter
@@ -17,7 +15,7 @@ from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple
-from scaffold.reporters import ReportOptions, rule_pages
+from scaffold.reporters import ReportOptions
 from scaffold.reporters.entries import SEVERITIES, Entry, by_cause, in_order, is_style
 from scaffold.reporters.excerpt import excerpt
 from scaffold.reporters.summary import by_severity, count, fixable, summary
@@ -68,11 +66,10 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     room = len(blocks)
     if not options.everything:
         room = _room(blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width)
-    links = rule_pages.links({entry.first.code for entry in entries[:room]})
-    for block in _blocks(entries[:room], options, links):
+    for block in blocks[:room]:
         console.print(block)
     if room < len(blocks) and not options.quiet:
-        footer = [*_left_out(entries[room:]), *footer]
+        footer = [*_hidden_lines(entries[room:]), *footer]
     if blocks and footer:
         console.print()
     for text in footer:
@@ -92,7 +89,7 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
         for result in results
         for diagnostic in result.diagnostics
     )
-    found = [
+    styles = [
         Result(
             result.package,
             result.files,
@@ -105,21 +102,11 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
         )
         for result in results
     ]
-    return _Folded([result for result in found if result.diagnostics])
+    return _Folded([result for result in styles if result.diagnostics])
 
 
-def _blocks(
-    entries: Sequence[Entry],
-    options: ReportOptions,
-    links: Mapping[str, str] = MappingProxyType({}),
-) -> list[Text]:
-    """Return what is written for each entry: some lines, the name of the package above them.
-
-    Args:
-        entries: In the order to write them in.
-        options: What the user wants to see.
-        links: The pages of codes; terminals that know no links ignore them.
-    """
+def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
+    """Return what is written for each entry: some lines, the name of the package above them."""
     blocks: list[Text] = []
     package = None
     for entry in entries:
@@ -127,14 +114,14 @@ def _blocks(
         if entry.package is not package:
             package = entry.package
             lines += [Text(), Text(printable(package.name), style="bold underline")]
-        lines += _lines(entry, options, links.get(entry.first.code))
+        lines += _lines(entry, options)
         blocks.append(Text("\n").join(lines))
     if blocks:
         blocks[0] = blocks[0][1:]  # no empty line above the first package
     return blocks
 
 
-def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]:
+def _lines(entry: Entry, options: ReportOptions) -> list[Text]:
     first = entry.first
     message = printable(first.message)
     if not options.everything:
@@ -145,7 +132,7 @@ def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]
             ": ",
             (first.severity.value, _COLORS[first.severity]),
             " ",
-            (first.code, Style(bold=True, link=link)),
+            (first.code, "bold"),
             f" {message} ",
             (f"[{first.name}]", "dim"),
         )
@@ -184,7 +171,7 @@ def _room(blocks: Sequence[Text], height: int, width: int) -> int:
     return len(blocks)
 
 
-def _left_out(entries: Sequence[Entry]) -> list[Text]:
+def _hidden_lines(entries: Sequence[Entry]) -> list[Text]:
     """Return what does not fit on the screen, by code and by package, and how to see it."""
     result = [item for entry in entries for item in entry.places]
     codes = Counter(item.code for item in result)
@@ -219,11 +206,11 @@ def _footer(results: Sequence[Result], folded: _Folded, options: ReportOptions) 
 
 
 def _style_line(result: Result, *, unsafe: bool) -> Text:
-    found = result.diagnostics
+    diagnostics = result.diagnostics
     return Text.assemble(
         (f"{printable(result.package.name)}: ", "bold"),
-        count(len(found), "style finding"),
-        _hints(found, unsafe=unsafe),
+        count(len(diagnostics), "style finding"),
+        _hints(diagnostics, unsafe=unsafe),
     )
 
 

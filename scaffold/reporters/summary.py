@@ -1,4 +1,4 @@
-"""The last lines of a report for people: how much was found, and what can be done about it."""
+"""The summary line of a report: how many findings there are, and how many are fixable."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scaffold.reporters.entries import SEVERITIES
 
 
 def summary(results: Sequence[Result], *, unsafe: bool) -> str:
-    """Return one line: what was checked, what was found, and what can be fixed.
+    """Return one line: what was checked, the findings, and how many are fixable.
 
     Args:
         results: Of all packages.
@@ -20,11 +20,11 @@ def summary(results: Sequence[Result], *, unsafe: bool) -> str:
     """
     total = Summary.of(results)
     checked = f"{count(total.packages, 'package')}, {count(total.files, 'file')}"
-    found = [diagnostic for result in results for diagnostic in result.diagnostics]
-    if not found:
+    diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
+    if not diagnostics:
         return f"{checked}: no findings"
-    fixes = fixable(found, unsafe=unsafe)
-    return "; ".join(filter(None, (f"{checked}: {by_severity(found)}", fixes)))
+    fixes = fixable(diagnostics, unsafe=unsafe)
+    return "; ".join(filter(None, (f"{checked}: {by_severity(diagnostics)}", fixes)))
 
 
 def by_severity(diagnostics: Iterable[Diagnostic]) -> str:

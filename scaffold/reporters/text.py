@@ -31,10 +31,10 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         screen.report(results, out, options)
         return
     else:
-        for package, one in worst_first(results, options):
-            out.write(f"{line(package, one)}\n")
+        for package, diagnostic in worst_first(results, options):
+            out.write(f"{line(package, diagnostic)}\n")
             if options.source:
-                out.writelines(f"    {text}\n" for text in excerpt(package, one.location))
+                out.writelines(f"    {text}\n" for text in excerpt(package, diagnostic.location))
     if not options.quiet:
         out.writelines(f"{printable(note)}\n" for note in options.notes)
         out.write(summary(results, unsafe=options.unsafe) + "\n")
@@ -65,12 +65,12 @@ def place(package: Package, diagnostic: Diagnostic) -> str:
 
 def _statistics(results: Sequence[Result], out: TextIO) -> None:
     """Write how often each code is reported, the most frequent first."""
-    found = [diagnostic for result in results for diagnostic in result.diagnostics]
-    numbers = Counter((item.code, item.name, item.severity) for item in found)
-    fixable = {item.code for item in found if item.fix is not None}
+    diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
+    numbers = Counter((item.code, item.name, item.severity) for item in diagnostics)
+    fixable = {item.code for item in diagnostics if item.fix is not None}
     width = len(str(max(numbers.values(), default=0)))
     for (code, name, severity), number in numbers.most_common():
         mark = "[*]" if code in fixable else "[ ]"
         out.write(f"{number:>{width}}  {severity.value:<7}  {code:<6} {mark} {name}\n")
     if fixable:
-        out.write("[*] some or all of these can be fixed with --fix, perhaps --unsafe-fixes\n")
+        out.write("[*] some or all of these are fixable with --fix or --fix --unsafe-fixes\n")

@@ -208,7 +208,7 @@ class _Log:
     directory: Path
     jobs: Mapping[str, _Job] | None
     """By package; ``None`` with a colcon that lacks colcon-output."""
-    said: str
+    console: str
     """On its own stdout and stderr."""
     succeeded: bool
     left_running: tuple[str, ...] = ()
@@ -244,16 +244,16 @@ class _Log:
     def result(self, package: Source) -> Build:
         name = package.name
         written = output.read(self.directory / name / "stdout_stderr.log")
-        of_colcon = output.complaints(self.said, os.path.realpath(package.directory))
+        of_colcon = output.complaints(self.console, os.path.realpath(package.directory))
         left = (f"left a process running: {command}" for command in self.left_running)
         warnings = (*of_colcon, *output.warnings(written), *left)
         if self.jobs is None:
-            errors = () if self.succeeded else tuple(output.errors(self.said))
+            errors = () if self.succeeded else tuple(output.errors(self.console))
             return Build(ok=self.succeeded, errors=errors, warnings=warnings)
         job = self.jobs.get(name)
         if job is None:
             # Also when colcon has given up before it began: then it says why.
-            why = [] if self.succeeded else output.errors(self.said)
+            why = [] if self.succeeded else output.errors(self.console)
             return Build(ok=False, errors=("not built: colcon does not find it", *why))
         seconds = 0.0 if job.ended is None else job.ended - job.started
         errors = () if job.succeeded else tuple(self._errors(job, written))
@@ -265,7 +265,7 @@ class _Log:
             return [f"not built: it depends on {', '.join(failed)}, which failed"]
         # A setup.py that cannot be run fails in colcon itself, which then has the reason.
         has_reason = written.strip() and job.ended and output.PASSED_ON not in written
-        return output.errors(written if has_reason else self.said)
+        return output.errors(written if has_reason else self.console)
 
     def _failed_dependencies(self, job: _Job) -> list[str]:
         return [

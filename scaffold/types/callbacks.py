@@ -63,10 +63,10 @@ def _annotated(segment: str) -> str:
         pattern = (
             rf"(\bdef {name}\(\s*(?:self\s*,\s*)?)({_PARAMETER})(?:(\s*,\s*)({_PARAMETER}))?{_END}"
         )
-        found = list(re.finditer(pattern, segment))
-        if len(found) == 1 and given:
-            start, end = found[0].span()
-            typed = _typed(found[0], given, _body(segment, start, end))
+        matches = list(re.finditer(pattern, segment))
+        if len(matches) == 1 and given:
+            start, end = matches[0].span()
+            typed = _typed(matches[0], given, _body(segment, start, end))
             segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 

@@ -46,12 +46,12 @@ class _File:
         source: Source,
         reached: Mapping[str, Source],
         key: str,
-        found: list[TyDiagnostic] | None,
+        diagnostics: list[TyDiagnostic] | None,
     ) -> None:
         self.source = source
         self.reached = reached
         self.key = key
-        self.found = found
+        self.diagnostics = diagnostics
 
 
 class TypeCheck:
@@ -83,8 +83,8 @@ class TypeCheck:
 
     def _start(self, is_wanted: Callable[[Package, str], bool]) -> None:
         home = self._environment()
-        known = os.listdir(os.path.join(home, environment.PACKAGES))
-        stubbed = frozenset(name.removesuffix(".pyi") for name in known) - INCOMPLETE
+        entries = os.listdir(os.path.join(home, environment.PACKAGES))
+        stubbed = frozenset(name.removesuffix(".pyi") for name in entries) - INCOMPLETE
         self._stubbed = stubbed
         self._cache = Cache(
             f"{ty.identity()} {environment.identity(DISTRIBUTION)} {sys.version_info[:2]}"
@@ -107,7 +107,7 @@ class TypeCheck:
                 key = self._cache.key(source, reached)
                 file = _File(source, reached, key, self._cache.get(key))
                 files.append(file)
-                if file.found is None:
+                if file.diagnostics is None:
                     asked.append(file)
         if asked:
             self._home = home
@@ -148,27 +148,31 @@ class TypeCheck:
         if self.failure:
             return {}
         files = self._files.get(id(package), ())
-        return {file.source.path: file.found for file in files if file.found}
+        return {file.source.path: file.diagnostics for file in files if file.diagnostics}
 
     def _collect(self) -> None:
         if self._run is None:
             return
-        asked = [file for files in self._files.values() for file in files if file.found is None]
+        asked = [
+            file for files in self._files.values() for file in files if file.diagnostics is None
+        ]
         try:
             reported = self._run.results()
             for file in asked:
-                found = reported.get(file.source.place, ())
+                diagnostics = reported.get(file.source.place, ())
                 stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
                 stubbed |= _roots(file.reached, are_stubs=True)
-                file.found = [item for item in found if _concerns(item, stubbed)]
-            self._confirm([file for file in asked if any(map(_may_be_annotated, file.found or ()))])
+                file.diagnostics = [item for item in diagnostics if _concerns(item, stubbed)]
+            self._confirm(
+                [file for file in asked if any(map(_may_be_annotated, file.diagnostics or ()))]
+            )
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
             return
         finally:
             self.close()
         for file in asked:
-            self._cache.put(file.key, file.found or ())
+            self._cache.put(file.key, file.diagnostics or ())
         self._cache.trim()
 
     def _confirm(self, files: Sequence[_File]) -> None:
@@ -179,9 +183,9 @@ class TypeCheck:
         reported = self._run.results()
         for file in files:
             again = {item[:3] for item in reported.get(file.source.place, ())}
-            file.found = [
+            file.diagnostics = [
                 item
-                for item in file.found or ()
+                for item in file.diagnostics or ()
                 if item[:3] in again or not _may_be_annotated(item)
             ]
 

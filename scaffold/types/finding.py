@@ -146,7 +146,7 @@ class TypeFinding:
             name
             for item in self.module.imports
             if item.guarded
-            for name in (item.asname, *(one.asname or one.name for one in item.names))
+            for name in (item.asname, *(alias.asname or alias.name for alias in item.names))
             if name
         )
 

@@ -44,10 +44,10 @@ class Cache:
         data = cache.read_sealed(os.path.join(self._directory, key), _MAGIC)
         return None if data is None else [TyDiagnostic(*item) for item in marshal.loads(data)]  # noqa: S302  own files
 
-    def put(self, key: str, found: Sequence[TyDiagnostic]) -> None:
+    def put(self, key: str, diagnostics: Sequence[TyDiagnostic]) -> None:
         """Store what was reported."""
         if self._directory is not None:
-            data = marshal.dumps([*map(tuple, found)])
+            data = marshal.dumps([*map(tuple, diagnostics)])
             cache.write_sealed(os.path.join(self._directory, key), _MAGIC, data)
 
     def trim(self) -> None:

@@ -26,9 +26,9 @@ def members(package: Package, marked: str) -> frozenset[str]:
     for _ in range(_DEEPEST):
         if not pending:
             break
-        found = _class(package, pending.pop())
-        if found is not None:
-            node, module, tree = found
+        class_ = _class(package, pending.pop())
+        if class_ is not None:
+            node, module, tree = class_
             result.update(_names(node.body))
             for base in node.bases:
                 pending += _resolved(tree, module, base)
@@ -70,11 +70,11 @@ def keywords(package: Package, callee: str) -> Sequence[str]:
 def _function(package: Package, callee: str) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
     """Return a function or method by its name in a message; ``None`` if it has overloads."""
     owner, _, method = callee.rpartition(".")
-    found = _class(package, owner) if owner else None
-    if owner and found is None:
+    class_ = _class(package, owner) if owner else None
+    if owner and class_ is None:
         return None
-    if found is not None:
-        body: Sequence[ast.stmt] = found[0].body
+    if class_ is not None:
+        body: Sequence[ast.stmt] = class_[0].body
     else:
         method, *where = callee.split(MARK)
         tree = _tree(package, ".".join(where))

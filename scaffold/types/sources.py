@@ -60,15 +60,15 @@ def _imports(data: bytes, module: str) -> Iterator[str]:
     if b"import" not in data:
         return
     text = _LATER.sub(b"\n", data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" "))
-    for found in _IMPORT.finditer(text):
-        if found["modules"] is not None:
-            for part in found["modules"].split(b","):
+    for match in _IMPORT.finditer(text):
+        if match["modules"] is not None:
+            for part in match["modules"].split(b","):
                 word = _WORD.search(part)
                 if word:
                     yield word[0].decode("utf-8", "replace")
             continue
-        base = (found["base"] or found["dots"]).decode("utf-8", "replace")
-        names = found["names"] if found["base"] else found["siblings"]
+        base = (match["base"] or match["dots"]).decode("utf-8", "replace")
+        names = match["names"] if match["base"] else match["siblings"]
         absolute = _absolute(base, module)
         if absolute is None:
             continue
@@ -121,12 +121,12 @@ class Sources:
     def _directly(self, user: Package, source: Source) -> list[Source]:
         key = (id(user), source.place)
         if key not in self._imported:
-            found: dict[str, Source] = {}
+            sources: dict[str, Source] = {}
             for name in source.imports:
                 package = self._package(user, name.partition(".")[0])
                 if package is not None:
-                    found.update((item.place, item) for item in self._of(package).modules(name))
-            self._imported[key] = list(found.values())
+                    sources.update((item.place, item) for item in self._of(package).modules(name))
+            self._imported[key] = list(sources.values())
         return self._imported[key]
 
     def _package(self, user: Package, root: str) -> Package | None:
@@ -134,8 +134,8 @@ class Sources:
         key = (id(user), root)
         if key not in self._looked_up:
             names = (root, f"{root}{_OF_PYTHON}")
-            found = [user if user.name == name else user.workspace.get(name) for name in names]
-            packages = [item for item in found if item is not None]
+            candidates = [user if user.name == name else user.workspace.get(name) for name in names]
+            packages = [item for item in candidates if item is not None]
             importable = [item for item in packages if self._of(item).provides(root)]
             self._looked_up[key] = next(iter(importable or packages), None)
         return self._looked_up[key]

@@ -48,8 +48,10 @@ def library_stubs(distribution: str) -> dict[str, str]:
         InputError: there are no stubs for this distribution.
     """
     if distribution not in distributions():
-        known = ", ".join(distributions())
-        raise InputError(f"no stubs for distribution {distribution!r}; there are some for {known}")
+        supported = ", ".join(distributions())
+        raise InputError(
+            f"no stubs for distribution {distribution!r}; there are some for {supported}"
+        )
     top = os.path.join(_DATA, distribution, _STUBS)
     files: dict[str, str] = {}
     for directory, _, names in os.walk(top):

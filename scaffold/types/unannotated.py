@@ -90,7 +90,7 @@ class _Edits:
 
     def __init__(self, text: str) -> None:
         self._text = text
-        self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\r|\n", text))]
+        self._starts = [0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", text))]
         self._parts: list[tuple[int, int, str]] = []
 
     def replace(self, kind: str, annotation: ast.expr) -> None:
@@ -103,14 +103,14 @@ class _Edits:
         if kind in _AROUND:
             before, after = _AROUND[kind]
             line = self._text[self._starts[annotation.lineno - 1] : start]
-            found = before.search(line)
-            if found is not None and after.match(self._text, end) and "\n" not in old:
-                self._parts.append((start - len(found[0]), end, " " * (len(found[0]) + len(old))))
+            prefix = before.search(line)
+            if prefix is not None and after.match(self._text, end) and "\n" not in old:
+                self._parts.append((start - len(prefix[0]), end, " " * (len(prefix[0]) + len(old))))
                 return
-        blank = re.sub(r"[^\r\n]", " ", old)
+        spaces = re.sub(r"[^\r\n]", " ", old)
         is_long = "\n" in old or "\r" in old
         self._parts.append(
-            (start, end, f"({_UNKNOWN}{blank[2:-1]})" if is_long else f"{_UNKNOWN}{blank[1:]}")
+            (start, end, f"({_UNKNOWN}{spaces[2:-1]})" if is_long else f"{_UNKNOWN}{spaces[1:]}")
         )
 
     def text(self) -> str:

@@ -40,14 +40,14 @@ def is_function(type_: str) -> bool:
 
 def class_in(type_: str) -> str:
     """Return the marked name of the class that a type is an object of; empty for others."""
-    found = re.fullmatch(rf"({MARKED})(?:\[.*\])?", type_, re.DOTALL)
-    return found[1] if found else ""
+    match = re.fullmatch(rf"({MARKED})(?:\[.*\])?", type_, re.DOTALL)
+    return match[1] if match else ""
 
 
 def class_itself(type_: str) -> str:
     """Return the marked name of a class where that is the value, not an object of it."""
-    found = re.fullmatch(rf"(?:<class '({MARKED})'>|type\[({MARKED})\])", type_)
-    return (found[1] or found[2]) if found else ""
+    match = re.fullmatch(rf"(?:<class '({MARKED})'>|type\[({MARKED})\])", type_)
+    return (match[1] or match[2]) if match else ""
 
 
 def in_words(type_: str) -> str:

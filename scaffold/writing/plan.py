@@ -1,4 +1,4 @@
-"""Writing files: everything is decided first, then all of it happens or nothing.
+"""Writing files: a plan is made first, then all of it happens or nothing.
 
 All verbs that write do it through a plan. A new directory appears whole: it is written next to its
 place under a hidden name and renamed. Changes of an existing one are a transaction, which compares

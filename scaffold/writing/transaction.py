@@ -61,7 +61,7 @@ class Change(NamedTuple):
     after: str | None
 
     def reversed(self) -> Change:
-        """Return what undoes the change."""
+        """Return the change that undoes this one."""
         return Change(self.path, self.after, self.before)
 
 
@@ -87,7 +87,7 @@ class Replacement(NamedTuple):
 
 @contextmanager
 def exclusive(directory: str, notify: Callable[[str], None] = _ignore) -> Iterator[None]:
-    """Hold a package from the first read to the last write, and heal what an earlier run left.
+    """Lock a package from the first read to the last write, and recover interrupted runs.
 
     Args:
         directory: The root of the package.
@@ -111,7 +111,7 @@ def exclusive(directory: str, notify: Callable[[str], None] = _ignore) -> Iterat
 
 
 def is_unfinished(directory: str) -> bool:
-    """Tell whether a run was cut off while it changed a package, and no other one healed it."""
+    """Tell whether a run was interrupted while it changed a package, and not recovered since."""
     if not any(_has_journal(directory, name) for name in _temporary_names(directory)):
         return False
     try:
@@ -307,7 +307,7 @@ def _staged(
 
 
 class _Transaction:
-    """The changes that a journal lists, and what was done of them."""
+    """The changes that a journal lists, and how far they are done."""
 
     def __init__(
         self,
@@ -330,7 +330,7 @@ class _Transaction:
     # -- the journal
 
     def write_journal(self) -> None:
-        """Write down what is about to happen, so that it survives this process."""
+        """Write the changes that are about to be made to disk, to survive this process."""
         os.close(temporary.create(self.stage.file(_MARK)))
         entries = {
             "mark": self._mark(),
@@ -348,17 +348,17 @@ class _Transaction:
 
     @classmethod
     def of_journal(cls, root: str, stage: Stage) -> _Transaction | None:
-        """Return what a journal says; ``None`` if this machine has not written it there.
+        """Return the transaction of a journal; ``None`` if this machine did not write it there.
 
         A journal may come with a repository or a copy. Then its mark, which cannot be checked
-        out or copied, is another one, and nothing of the journal is believed. Nor is that of
+        out or copied, is another one, and the journal is not trusted. Nor is that of
         another user which leads out of the package, to files that only this user may change.
         """
-        found = cls(root, stage, [], [], is_forward=False)
+        transaction = cls(root, stage, [], [], is_forward=False)
         try:
             with open(stage.file(_JOURNAL), encoding="ascii") as file:
                 entries = json.load(file)
-            if entries["mark"] != found._mark():
+            if entries["mark"] != transaction._mark():
                 return None
             changes = [Change(*entry) for entry in entries["changes"]]
             if any(
@@ -434,13 +434,13 @@ class _Transaction:
         self.close()
 
     def _compare_again(self) -> None:
-        """Raise ChangedError if an old file changed after it was exchanged, by who had it open."""
+        """Raise ChangedError if an old file was changed after the exchange, by who had it open."""
         for change in self.changes:
             if change.before is not None and state(self._slot(change)) != change.before:
                 raise ChangedError(change.path)
 
     def heal(self) -> str:
-        """Complete or undo what another process began; return what was done, for its user.
+        """Complete or undo the changes of another process; return the outcome for a message.
 
         It is undone, unless all of it is done, or the user went on working with what came of it,
         or it is what is left of a new package.
@@ -524,7 +524,7 @@ class _Transaction:
 
 
 def _recover(root: str, directory: str, notify: Callable[[str], None]) -> None:
-    """Heal what earlier runs left in a directory whose lock is held."""
+    """Recover interrupted runs in a directory whose lock is held."""
     for name in _temporary_names(root):
         stage = Stage(root, os.path.join(root, name))
         if not _has_journal(root, name):

@@ -324,13 +324,13 @@ def test_a_line_that_is_too_long(tmp_path: Path, place: str) -> None:
     found = _check(_package(tmp_path, {place: b"x;" * 30_000}))
     (told,) = (one for one in found if one["code"] == "SC004")
     assert told["path"].endswith(place)
-    assert told["message"].startswith("a line of 60 kB, 20 kB are read")
+    assert told["message"].startswith("a line of 60 kB; the limit is 20 kB")
 
 
 TINY = {
-    "manifest": (b"<a/>\n" * 6_000, "30000 words and signs of 20000 that are read"),
-    "setup.cfg": (b"a=b\n" * 6_000, "24000 words and signs of 20000 that are read"),
-    "cmake": (b"f()\n" * 8_000, "32000 words and signs of 30000 that are read"),
+    "manifest": (b"<a/>\n" * 6_000, "30000 tokens; the limit is 20000"),
+    "setup.cfg": (b"a=b\n" * 6_000, "24000 tokens; the limit is 20000"),
+    "cmake": (b"f()\n" * 8_000, "32000 tokens; the limit is 30000"),
     "service": (b"a\n" * 60_000, ""),
 }
 
@@ -341,7 +341,7 @@ def test_too_many_words(tmp_path: Path, place: str) -> None:
     data, message = TINY[place]
     found = _check(_package(tmp_path, {PLACES[place]: data}))
     told = [one["message"] for one in found if one["code"] == "SC004"]
-    assert told == ([f"{message}: it is not checked"] if message else [])
+    assert told == ([f"{message}: the file is not checked"] if message else [])
 
 
 @pytest.mark.parametrize("place", ["launch xml", "launch yaml"])
@@ -360,18 +360,18 @@ def test_too_many_words_for_the_style(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
     said = [one["message"] for one in found if one["code"] == "SC004"]
     assert {one["code"] for one in found if one["path"].endswith("node.py")} <= {"SC004", "LY020"}
-    assert said == ["120000 words and signs of 100000 that are read: it is not checked"]
+    assert said == ["120000 tokens; the limit is 100000: the file is not checked"]
 
 
 OVERSIZED = {
-    "a block": ("x = 1\n" * 4001, "4001 statements in one block of 4000 that are read"),
+    "a block": ("x = 1\n" * 4001, "4001 statements in one block; the limit is 4000"),
     "inner blocks": (
         "def f(a):\n    if a:\n        a = 1\n    else:\n" + "        a = 2\n" * 4500,
-        "4500 statements in one block of 4000 that are read",
+        "4500 statements in one block; the limit is 4000",
     ),
     "a tree": (
         "a + a + a + a + a\n" * 6000,
-        "a syntax tree of 60001 nodes of 60000 that are read",
+        "a syntax tree of 60001 nodes; the limit is 60000",
     ),
 }
 
@@ -383,7 +383,7 @@ def test_too_much_code(tmp_path: Path, name: str) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": text.encode()}))
     here = [item for item in found if item["path"].endswith("node.py")]
     messages = [item["message"] for item in here if item["code"] != "LY020"]
-    assert messages == [f"{message}: it is not checked"]
+    assert messages == [f"{message}: the file is not checked"]
 
 
 def test_the_largest_files_that_people_write_are_checked(tmp_path: Path) -> None:

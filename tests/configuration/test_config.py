@@ -105,18 +105,24 @@ def test_a_pyproject_of_others_need_not_be_valid(
         ("[check]\nexclude = ['/a']\n", "check.exclude has '/a': a pattern is a path below"),
         (
             "[check]\nstyle = 'onw'\n",
-            "check.style has 'onw', which is no choice; did you mean 'own'?",
+            "check.style has 'onw', which is not a choice; did you mean 'own'?",
         ),
-        ("[check]\nstyle = ['own']\n", "check.style has ['own'], which is no choice; "),
+        ("[check]\nstyle = ['own']\n", "check.style has ['own'], which is not a choice; "),
         (
             "[check]\nseverity = 'error'\n",
             "check.severity must be a table of rules with severities",
         ),
         (
             "[check.severity]\nPX020 = 'warn'\n",
-            "check.severity has 'warn' for 'PX020', which is no severity; did you mean 'warning'?",
+            (
+                "check.severity has 'warn' for 'PX020', which is not a severity; "
+                "did you mean 'warning'?"
+            ),
         ),
-        ("[check.severity]\nPX020 = 1\n", "check.severity has 1 for 'PX020', which is no severity"),
+        (
+            "[check.severity]\nPX020 = 1\n",
+            "check.severity has 1 for 'PX020', which is not a severity",
+        ),
         ("[check.severity]\nPX999 = 'info'\n", "severity: no rule has the code 'PX999'; did you "),
         (
             "[tool.ros2-scaffold.new]\nlicence = 'MIT'\n",
@@ -298,10 +304,10 @@ def test_dependencies_that_are_known_to_be_there(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("distribution = 'humble'", "check.distribution is 'humble': there is data of jazzy only"),
+        ("distribution = 'humble'", "check.distribution is 'humble': only jazzy is supported"),
         (
             "leave-out = ['vendor']",
-            "check.leave-out has 'vendor', which is no choice; did you mean",
+            "check.leave-out has 'vendor', which is not a choice; did you mean",
         ),
         ("line-length = '99'", "check.line-length must be a number from 1 to 10000"),
         ("licences = ['MIT']", "[check] has no key 'licences'; did you mean 'licenses'?"),

@@ -1128,7 +1128,7 @@ def package_variables() -> list[str]:
         return questions.resolve(
             asked,
             given,
-            known={"contents": "a node"},
+            context={"contents": "a node"},
             render=renderer.text,
             fallback=User(".").answer,
         ).values

@@ -45,7 +45,7 @@ class EarlierFacts:
         return self._facts[wanted]
 
     def end(self) -> None:
-        """Let packages find out their facts by themselves again.
+        """Stop recalling facts; packages compute them again.
 
         What is recalled for this package need not hold for others, which depend on other packages.
         """
@@ -58,12 +58,12 @@ class EarlierFacts:
         if stored is None or not stored.files.isdisjoint(self._edited) or stored.has_failed:
             return None
         used = [self.fact(item) for item in stored.facts]
-        known = [item for item in used if item is not None]
-        if len(known) < len(used):
+        facts = [item for item in used if item is not None]
+        if len(facts) < len(used):
             return None
         result = Fact(*wanted, stored.encoded)
         result.reads.files |= stored.files
-        result.reads.facts.update(known)
+        result.reads.facts.update(facts)
         return result
 
     def _made_again(self, wanted: FactId) -> Fact | None:

@@ -1,4 +1,4 @@
-"""Checks only the packages that an earlier run cannot speak for, and remembers this one."""
+"""Checks only the packages whose earlier results no longer hold, and remembers the new ones."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 
 
 _NOTHING = Part(frozenset(), frozenset(), ())
-"""Of rules that looked at no Python file and found nothing: most rules, in most packages."""
+"""The part of a rule that read no Python file and found nothing, as most rules do."""
 
 
-class _Known(NamedTuple):
-    """A package in a remembered run, made of what marshal can write."""
+class _Record(NamedTuple):
+    """The results of a package in a remembered run, in types that marshal can write."""
 
     directory: str
     only: tuple[str, ...] | None
@@ -51,11 +51,11 @@ class _Known(NamedTuple):
 
 
 class ResultCache:
-    """What is known of some packages from the last run of the same command line."""
+    """The results of packages from the last run of the same command line."""
 
     def __init__(self, run: CachedRun | None, targets: Sequence[Target]) -> None:
         self._targets = targets
-        self._known: dict[int, _Known] = {}
+        self._records: dict[int, _Record] = {}
         """By place, the packages whose findings are the same."""
         self._earlier: dict[str, Earlier] = {}
         """By directory, those of which some findings are the same."""
@@ -64,26 +64,26 @@ class ResultCache:
         self._trees: dict[int, Seen] = {}
         self._outside: Seen = {}
         if run is not None and run.is_same_outside():
-            self._recall(run, [_Known(*result) for result in run.results])
+            self._recall(run, [_Record(*result) for result in run.results])
 
-    def _recall(self, run: CachedRun, known: Sequence[_Known]) -> None:
-        if [(item.directory, item.only) for item in known] != [
+    def _recall(self, run: CachedRun, stored: Sequence[_Record]) -> None:
+        if [(item.directory, item.only) for item in stored] != [
             _asked(item) for item in self._targets
         ]:
             return
-        edits = [self._edits(run, at) for at in range(len(known))]
-        for one, target, edited in zip(known, self._targets, edits, strict=True):
-            if edited is None and one.identity != tuple(target.package.identity):
+        edits = [self._edits(run, at) for at in range(len(stored))]
+        for record, target, edited in zip(stored, self._targets, edits, strict=True):
+            if edited is None and record.identity != tuple(target.package.identity):
                 return
-        for at, one in enumerate(known):
-            needs = [at, *(range(len(known)) if one.needs is None else one.needs)]
+        for at, record in enumerate(stored):
+            needs = [at, *(range(len(stored)) if record.needs is None else record.needs)]
             edited = frozenset[str]()
             for other in needs:
                 if edits[other] is None:
                     break
                 edited |= edits[other] or frozenset()
             else:
-                self._remember(run, at, one, edited)
+                self._remember(run, at, record, edited)
 
     def _edits(self, run: CachedRun, at: int) -> frozenset[str] | None:
         """Return the Python files of a package that were edited, ``None`` after other changes."""
@@ -101,35 +101,35 @@ class ResultCache:
             edited.add(full)
         return frozenset(edited)
 
-    def _remember(self, run: CachedRun, at: int, known: _Known, edited: frozenset[str]) -> None:
+    def _remember(self, run: CachedRun, at: int, record: _Record, edited: frozenset[str]) -> None:
         package = self._targets[at].package
-        if not edited or _is_beside(package, known, edited):
-            self._known[at] = known
+        if not edited or _is_unaffected(package, record, edited):
+            self._records[at] = record
             self._trees[at] = run.trees[at] or {}
-        elif known.verdict is not None and not _configures(package, known.verdict, edited):
-            self._needed[at] = known.needs
+        elif record.verdict is not None and not _configures(package, record.verdict, edited):
+            self._needed[at] = record.needs
             self._earlier[package.directory] = Earlier.of(
-                package, _decode_verdict(known.verdict), edited
+                package, _decode_verdict(record.verdict), edited
             )
             full = {("content", path) for path in edited}
             seen = (run.trees[at] or {}).items()
             self._trees[at] = {asked: answer for asked, answer in seen if asked not in full}
         else:
             return
-        package.identify(*known.identity)
+        package.identify(*record.identity)
         self._outside = run.outside
 
     def run(self, session: Session) -> Iterator[Result]:
         """Yield the results of all packages in their order; check those that are not known."""
-        fresh = [item for at, item in enumerate(self._targets) if at not in self._known]
+        fresh = [item for at, item in enumerate(self._targets) if at not in self._records]
         checked = session.run(fresh, self._earlier)
         for at, target in enumerate(self._targets):
-            known = self._known.get(at)
-            if known is None:
+            record = self._records.get(at)
+            if record is None:
                 yield next(checked)
             else:
-                result = [_decode(diagnostic) for diagnostic in known.diagnostics]
-                yield Result(target.package, known.files, result, None, known.foreign)
+                result = [_decode(diagnostic) for diagnostic in record.diagnostics]
+                yield Result(target.package, record.files, result, None, record.foreign)
 
     def save(
         self,
@@ -160,18 +160,18 @@ class ResultCache:
         identities = [item.package.identity for item in self._targets]
         needs = Needs([item.package for item in self._targets], identities)
         trees: list[Seen | None] = []
-        found: list[tuple[object, ...]] = []
+        records: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
             needed = needs.of(target.package, self._needed.get(at, ()))
-            known = self._known.get(at) or _new(target, result, needed)
+            record = self._records.get(at) or _new(target, result, needed)
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
-            found.append(tuple(known))
-        slot.save(CachedRun(disk.seen, trees, found, code, output, (*warnings,)))
+            records.append(tuple(record))
+        slot.save(CachedRun(disk.seen, trees, records, code, output, (*warnings,)))
 
 
-def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Known:
+def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Record:
     encode = _Encoder()
-    return _Known(
+    return _Record(
         *_asked(target),
         (*target.package.identity,),
         needed,
@@ -182,11 +182,11 @@ def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Kno
     )
 
 
-def _is_beside(package: Package, known: _Known, edited: frozenset[str]) -> bool:
-    """Tell whether nothing that was found in a package depends on the edited files."""
-    if known.verdict is None or any(path.startswith(package.full_path("")) for path in edited):
+def _is_unaffected(package: Package, record: _Record, edited: frozenset[str]) -> bool:
+    """Tell whether no finding in a package depends on the edited files."""
+    if record.verdict is None or any(path.startswith(package.full_path("")) for path in edited):
         return False
-    paths, parts, *_, facts, _ = known.verdict
+    paths, parts, *_, facts, _ = record.verdict
     places = {at for at, path in enumerate(paths) if path in edited}
     made_of = [files for _, files, *_ in (*parts, *facts)]
     return all(map(places.isdisjoint, made_of))

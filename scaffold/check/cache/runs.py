@@ -1,4 +1,4 @@
-"""What earlier runs of `check` found, and what they accessed (docs/adr/0006).
+"""The results of earlier runs of `check`, and what they accessed (docs/adr/0006).
 
 One small file per command line and directory, in the user's cache. A file that is damaged, of
 another version of the tool or of another Python is as good as none. This module is imported by

@@ -1,4 +1,4 @@
-"""Applies fixes in memory: whole fixes, none that overlap, checked again until quiet."""
+"""Applies fixes in memory: whole fixes that do not overlap, and checks again until none is left."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def outcome(
     unsafe: bool,
     is_settled: bool,
 ) -> Fixed:
-    """Put together what became of a package.
+    """Return the outcome of fixing a package.
 
     Args:
         package: The package after the fixes.

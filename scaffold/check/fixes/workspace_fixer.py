@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Progress(Protocol):
-    """Shows people how far the work is."""
+    """Shows the progress of the work."""
 
     def begin(self, label: str, total: int) -> None:
         """Start another part of the work."""
@@ -101,8 +101,8 @@ def fix(
     for number in range(1, MAX_ROUNDS + 1):
         _check(pending, session, progress, f"round {number}")
         changed = [item for item in pending if item.apply(item.diagnostics, unsafe=unsafe)]
-        for one in changed:
-            _fix_style(one, session, unsafe=unsafe)
+        for piece in changed:
+            _fix_style(piece, session, unsafe=unsafe)
         pending = _affected(pieces, changed)
         if not pending:
             break
@@ -122,14 +122,14 @@ def fix(
 
 
 def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
-    """Bring the style of edited files to rest: that takes much less time than the rules."""
+    """Fix the style of edited files until it is stable: that is much faster than the rules."""
     before = piece.checked
     for _ in range(MAX_ROUNDS):
         paths = piece.overlay.edited_since(before) or piece.package.files
-        found = session.check_style(piece.package, paths)
-        piece.style.update(found)
+        by_path = session.check_style(piece.package, paths)
+        piece.style.update(by_path)
         selected = session.selected(
-            piece.target, (item for ones in found.values() for item in ones)
+            piece.target, (item for diagnostics in by_path.values() for item in diagnostics)
         )
         before = piece.overlay
         if not piece.apply(selected, unsafe=unsafe):
@@ -145,14 +145,14 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
     needs = Needs(packages, [package.identity for package in packages])
     edits = {at: item.edited() for at, item in enumerate(pieces) if item in changed}
     affected: list[_Piece] = []
-    for at, one in enumerate(pieces):
-        needed = needs.of(one.package)
+    for at, piece in enumerate(pieces):
+        needed = needs.of(piece.package)
         places = edits.keys() & (edits.keys() if needed is None else {at, *needed})
         if places:
-            affected.append(one)
+            affected.append(piece)
             files = [edits[place] for place in places]
             is_known = None not in files
-            one.leave(frozenset().union(*(some or () for some in files)) if is_known else None)
+            piece.leave(frozenset().union(*(some or () for some in files)) if is_known else None)
     for workspace in {id(item.known_workspace): item.known_workspace for item in packages}.values():
         if workspace is not None:
             workspace.forget()

@@ -14,13 +14,13 @@ _TOGETHER = {"fields": ";", "dependencies": " "}
 """What separates several values in one line, by the type of the answer."""
 
 
-def shown(question: Question, known: object) -> str:
+def shown(question: Question, default: object) -> str:
     """Return the default as text to edit; one that is derived from other answers is not shown."""
-    if isinstance(known, bool):
-        return "yes" if known else "no"
-    if isinstance(known, list | tuple):
-        return f"{_TOGETHER.get(question.type, ' ')} ".join(map(str, known)).replace("  ", " ")
-    return "" if known is None or "{" in str(known) else str(known)
+    if isinstance(default, bool):
+        return "yes" if default else "no"
+    if isinstance(default, list | tuple):
+        return f"{_TOGETHER.get(question.type, ' ')} ".join(map(str, default)).replace("  ", " ")
+    return "" if default is None or "{" in str(default) else str(default)
 
 
 def is_default(question: Question, value: object) -> bool:

@@ -26,7 +26,7 @@ class Choice(NamedTuple):
     name: str
     summary: str = ""
     is_last: bool = False
-    """Whether it is found by nothing but its own name, such as "nothing more"."""
+    """Whether only its own name matches it, such as "nothing more"."""
 
 
 class ChoiceList:
@@ -65,9 +65,9 @@ class ChoiceList:
         """Return how many rows there is room for."""
         lines = get_app_session().output.get_size().rows
         around = len(self._lines_of_head()) + len(self._foot_lines()) + 1
-        return max(2, min(len(self._found()) or 1, lines - around))
+        return max(2, min(len(self._matches()) or 1, lines - around))
 
-    def _found(self) -> list[Choice]:
+    def _matches(self) -> list[Choice]:
         """Return the choices that match: the named one first, then names, then summaries."""
         word = self._typed.strip().lower()
         if not word:
@@ -97,11 +97,11 @@ class ChoiceList:
         return f"{box}{choice.name:{NAME_WIDTH}} {choice.summary}".rstrip()
 
     def _rows(self) -> FormattedText:
-        found = self._found()
-        if not found:
+        matches = self._matches()
+        if not matches:
             return FormattedText([("", f"  no match for {self._typed.strip()!r}")])
         tokens: list[tuple[str, str]] = []
-        for number, choice in enumerate(found):
+        for number, choice in enumerate(matches):
             is_pointed = number == self._at
             text = _cut(self._row(choice), columns() - 3)
             if is_pointed:
@@ -115,8 +115,8 @@ class ChoiceList:
         """Return the whole summary of the choice that is pointed at, where the row is cut."""
         if all(len(self._row(choice)) <= columns() - 3 for choice in self._choices):
             return []
-        found = self._found()
-        text = found[self._at].summary if found else ""
+        matches = self._matches()
+        text = matches[self._at].summary if matches else ""
         return textwrap.wrap(text, max(columns() - 1, 2), max_lines=_MOST_FOOT, placeholder="...")
 
     def _foot(self) -> FormattedText:
@@ -132,7 +132,7 @@ class ChoiceList:
     def _bind_moves(self, keys: KeyBindings) -> None:
         def move(steps: int) -> Callable[[KeyPressEvent], None]:
             def by(_: KeyPressEvent) -> None:
-                self._at = (self._at + steps) % max(len(self._found()), 1)
+                self._at = (self._at + steps) % max(len(self._matches()), 1)
 
             return by
 
@@ -163,12 +163,12 @@ class ChoiceList:
     def _bind_ends(self, keys: KeyBindings) -> None:
         @keys.add("enter")
         def end(event: KeyPressEvent) -> None:
-            found = self._found()
+            matches = self._matches()
             if self._takes_several:
                 names = [choice.name for choice in self._choices if choice.name in self._chosen]
                 event.app.exit(result=names)
-            elif found:
-                event.app.exit(result=[found[self._at].name])
+            elif matches:
+                event.app.exit(result=[matches[self._at].name])
 
         @keys.add("c-c")
         @keys.add("<sigint>")
@@ -183,9 +183,9 @@ class ChoiceList:
         self._typed, self._at = text, 0
 
     def _toggle(self) -> None:
-        found = self._found()
-        if found:
-            self._chosen ^= {found[self._at].name}
+        matches = self._matches()
+        if matches:
+            self._chosen ^= {matches[self._at].name}
 
 
 def _cut(text: str, width: int) -> str:

@@ -55,13 +55,13 @@ def line(
         start = default if is_dumb() else answer
 
 
-def one(question: str, choices: Sequence[Choice], default: str | None = None) -> str:
+def choose(question: str, choices: Sequence[Choice], default: str | None = None) -> str:
     """Ask for the name of one choice; see `line`."""
     if is_dumb():
         return _by_name(question, choices, default)
-    found = ChoiceList(question, choices, default, takes_several=False).run()
-    _echo(question, found)
-    return found[0]
+    chosen = ChoiceList(question, choices, default, takes_several=False).run()
+    _echo(question, chosen)
+    return chosen[0]
 
 
 def several(question: str, choices: Sequence[Choice]) -> list[str]:

@@ -72,12 +72,12 @@ def ask(
             answers = _Interview(templates, given, user, trial).answers()
     except EOFError:
         raise KeyboardInterrupt from None
-    found = {name: Given(value, f"{ORIGIN}: {name}") for name, value in answers.items()}
+    answered = {name: Given(value, f"{ORIGIN}: {name}") for name, value in answers.items()}
     base = {question.name: question for question in templates[BASE].questions}
-    said = {name: item.value for name, item in given.items() if item.origin.startswith("--")}
-    words = answer_text.command({**said, **answers}, base, templates)
+    flags = {name: item.value for name, item in given.items() if item.origin.startswith("--")}
+    words = answer_text.command({**flags, **answers}, base, templates)
     return Asked(
-        {**given, **found}, " ".join(answer_text.quoted(word) for word in [*words, *options])
+        {**given, **answered}, " ".join(answer_text.quoted(word) for word in [*words, *options])
     )
 
 
@@ -107,9 +107,9 @@ class _Interview:
         for name in ("extras", "description", "license"):
             self._settle(name)
         for name in ("maintainer_name", "maintainer_email"):
-            known = self._user.answer(name)
-            if known is None or known.origin == LOGIN or self._wrong(name, known):
-                self._settle(name, known.value if known else None)
+            default = self._user.answer(name)
+            if default is None or default.origin == LOGIN or self._wrong(name, default):
+                self._settle(name, default.value if default else None)
         return self._answers
 
     def _settle(self, name: str, default: object = None) -> None:
@@ -118,9 +118,9 @@ class _Interview:
             if value not in (None, "", []):
                 self._answers[name] = value
 
-    def _wrong(self, name: str, known: Given) -> bool:
+    def _wrong(self, name: str, default: Given) -> bool:
         """Tell whether git's name and email of the user are unusable in a package."""
-        return name in self._base and self._fault(self._base[name], known.value) is not None
+        return name in self._base and self._fault(self._base[name], default.value) is not None
 
     @property
     def _build_type(self) -> str:
@@ -150,9 +150,9 @@ class _Interview:
         ]
         if not taken:
             usual = self._base["node_kind"].default if "node_kind" in self._base else None
-            return prompts.one("What is in the package?", choices, usual)
+            return prompts.choose("What is in the package?", choices, usual)
         choices.insert(0, Choice(_DONE, is_last=True))
-        return prompts.one("What else is in the package?", choices, _DONE)
+        return prompts.choose("What else is in the package?", choices, _DONE)
 
     def _contradiction(self, entries: list[dict[str, Any]]) -> str | None:
         answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
@@ -196,11 +196,11 @@ class _Interview:
         for other in entries:
             theirs = self._templates[other[parts.KIND]]
             for name, typed in connections.pairs(theirs.questions):
-                known = other.get(typed.name, typed.default)
-                is_known = isinstance(known, str) and not questions.is_derived(known)
+                type_ = other.get(typed.name, typed.default)
+                is_known = isinstance(type_, str) and not questions.is_derived(type_)
                 full_name = _full_name(name, other, theirs)
                 if is_known and full_name and (name.type, full_name) in mine:
-                    return str(known)
+                    return str(type_)
         return None
 
     def _ask(
@@ -214,27 +214,29 @@ class _Interview:
         """Ask one question until the answer is acceptable; an empty one takes the default."""
         text, _, more = question.help.partition(" (")
         text = text[0].upper() + text[1:]
-        known = question.default if default is None else default
+        preset = question.default if default is None else default
         if question.type == SEVERAL:
             choices = [self._choice(name) for name in question.choices]
             return prompts.several(text, choices) if choices else []
         if question.choices:
-            return prompts.one(text, [self._choice(name) for name in question.choices], str(known))
+            return prompts.choose(
+                text, [self._choice(name) for name in question.choices], str(preset)
+            )
         words: list[str] = []
         if definitions is not None and question.type in INTERFACES:
             middle = f"/{INTERFACES[question.type]}/"
             words = [name for name in definitions.all_names() if middle in name]
-        usual = answer_text.shown(question, known)
+        usual = answer_text.shown(question, preset)
 
         def judge(answer: str) -> str | None:
-            if not answer and known is not None:
+            if not answer and preset is not None:
                 return None if usual not in refused else f"the package already has {usual}"
             if answer in refused:
                 return f"the package already has {answer}"
             return self._fault(question, answer_text.split(question, answer))
 
         made = more.rstrip(")") or "default: derived from the other answers"
-        hint = made if known is not None and not usual else ""
+        hint = made if preset is not None and not usual else ""
         answer = prompts.line(text, usual, judge, hint=hint, completions=words)
         if not answer and usual:
             say(f"using {usual}")

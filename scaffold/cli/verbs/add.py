@@ -82,13 +82,13 @@ def run(options: argparse.Namespace) -> int:
         above = repository.plan(target.place, added.above)
         if above is not None:
             _refuse_differing(above, [*added.above], force=options.force)
-        said = _said(session, before, added)
-        if _is_defect(session, said, added):
-            _report(target.package, said)
+        findings = _findings(session, before, added)
+        if _is_defect(session, findings, added):
+            _report(target.package, findings)
             return INTERNAL_ERROR
         if not is_dry:
             plan.write(force=True, around=above)
-    for note in [*added.remarks, *(_line(target.package, item) for item in said)]:
+    for note in [*added.remarks, *(_line(target.package, item) for item in findings)]:
         terminal.note(note)
     _show(options, target.package, added, plan, above)
     return FINDINGS if any(item.is_needed for item in added.by_hand) else CLEAN
@@ -186,7 +186,7 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
             )
 
 
-def _said(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:
+def _findings(session: Session, before: list[Diagnostic], added: Added) -> list[Diagnostic]:
     """Return the findings that are new and unexpected."""
     from scaffold.generate.add import add
 
@@ -235,10 +235,10 @@ def _refuse_differing(
 
 
 def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
-    """Tell whether an edit or a template made something that the checker calls an error.
+    """Tell whether an edit or a template caused an error.
 
-    What it says of other files is not: they may be checked only now that there is a program.
-    Nor is what it would say of the package's own lines without any edit.
+    Findings in other files do not count: some are checked only now that there is a program. Nor do
+    findings about the package's own lines that are there without any edit.
     """
     from scaffold.diagnostic import Severity
 

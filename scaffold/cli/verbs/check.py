@@ -18,10 +18,8 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
     from scaffold.files.disk import Disk
-    from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
     from scaffold.reporters import ReportOptions
-    from scaffold.writing.plan import WritePlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -37,27 +35,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.reporters import NAMES
 
     parser.add_argument("--format", choices=NAMES, default="text", help="output format")
-    parser.add_argument(
-        "--output-file", metavar="FILE", help="write the report into a file instead"
-    )
+    parser.add_argument("--output-file", metavar="FILE", help="write the report to a file")
     select = parser.add_argument(
         "--select",
         action="append",
         metavar="RULES",
-        help="report only these codes, beginnings of codes or names, separated by commas, or ALL",
+        help="report only these codes, prefixes of codes or names, separated by commas, or ALL",
     )
     ignore = parser.add_argument(
         "--ignore",
         action="append",
         metavar="RULES",
-        help="do not report these; the longer one of two beginnings that fit decides",
+        help="do not report these; the longest matching prefix decides",
     )
     for action in (select, ignore):
         action.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
         "--release",
         action="store_true",
-        help="report what a release is refused for as errors, such as names that rosdep lacks",
+        help="report what blocks a release as errors, such as names that rosdep does not have",
     )
     parser.add_argument(
         "--fix",
@@ -68,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--unsafe-fixes",
         action="store_true",
-        help="with --fix or --diff: also unsafe fixes, to be reviewed; else: count them",
+        help="with --fix or --diff, also apply unsafe fixes, which need review; else count them",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument(
@@ -81,16 +77,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--add-noqa",
         action="store_true",
-        help="silence findings by `noqa: CODE` at the end of their lines; with --diff, show it",
+        help="add `noqa: CODE` comments that silence the findings; with --diff, only show them",
     )
     parser.add_argument(
         "--since",
         metavar="REV",
-        help="report what is found in files that differ from this commit of git, and what the "
-        "change breaks in other files",
+        help="report findings in files that differ from this git commit, and what the change "
+        "breaks in other files",
     )
     parser.add_argument(
-        "--no-types", action="store_true", help="leave out what needs the type checker"
+        "--no-types", action="store_true", help="skip the rules that need the type checker"
     )
     parser.add_argument(
         "--stdin-filename",
@@ -100,7 +96,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--reference",
         action="store_true",
-        help="instead, run pydocstyle, too, and show where the docstring rules disagree with it",
+        help="compare the docstring rules with pydocstyle, and show the differences instead",
     )
     parser.add_argument(
         "--include-all",
@@ -110,8 +106,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--reference-config",
         action="store_true",
-        help="judge style with the configuration that ament brings along, not with that which the "
-        "tests of a package hand to it",
+        help="check style with the configuration that ament ships with, not the one that the tests "
+        "of a package use",
     )
     parser.add_argument(
         "--content",
@@ -124,10 +120,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
     report = parser.add_argument_group(
-        "the report", "what is left out keeps its part in the exit code"
+        "the report", "findings that are not shown still count for the exit code"
     )
     report.add_argument(
-        "--all", action="store_true", help="show every finding, also what does not fit on a screen"
+        "--all",
+        action="store_true",
+        help="show every finding, even if they do not fit on the screen",
     )
     report.add_argument(
         "--style",
@@ -146,11 +144,11 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
         help="show the source line of each finding (default: on a terminal)",
     )
     report.add_argument(
-        "--statistics", action="store_true", help="count the findings of each code instead"
+        "--statistics", action="store_true", help="show the number of findings per code instead"
     )
     report.add_argument("-q", "--quiet", action="store_true", help="leave out the summary")
     report.add_argument(
-        "--exit-zero", action="store_true", help="exit with 0 even when something is found"
+        "--exit-zero", action="store_true", help="exit with 0 even if there are findings"
     )
 
 
@@ -218,7 +216,7 @@ def _note_types(session: Session) -> None:
 
 
 def _exit_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:
-    """Return the exit code; what could not be looked at decides it."""
+    """Return the exit code; packages that could not be checked decide it."""
     from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
 
     code = exit_code(results, is_zero=options.exit_zero)
@@ -258,21 +256,23 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
     from scaffold.reporters.summary import count
 
     adjustments = session.adjustments
-    left_out: set[str] = set()
+    excluded: set[str] = set()
     targets = discovery.find(
         options.paths,
         disk,
         whole_packages=options.whole_packages,
         exclusion=adjustments.exclusion,
-        left_out=left_out,
+        skipped=excluded,
         foreign=adjustments.foreign,
         policy=options.policy,
     )
     if adjustments.exclusion.patterns:
-        packages = sum(map(os.path.isdir, left_out))
-        files = len(left_out) - packages
+        packages = sum(map(os.path.isdir, excluded))
+        files = len(excluded) - packages
         for target in targets:
-            files += sum(adjustments.excludes(target.package, one) for one in target.package.files)
+            files += sum(
+                adjustments.excludes(target.package, path) for path in target.package.files
+            )
         parts = [count(packages, "package")] if packages else []
         parts += [count(files, "file")] if files or not packages else []
         origin = adjustments.exclusion.origin
@@ -281,7 +281,7 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
 
 
 def _foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
-    """Return the line about what is not the user's and was skipped, if anything was."""
+    """Return the note about skipped files that are not the user's, if there are any."""
     from scaffold.model.discovery.foreign import ENVIRONMENTS, WHERE
     from scaffold.reporters.summary import count
 
@@ -316,7 +316,7 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
 
 
 def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry | None:
-    """Return where the run is remembered: under its packages if files stand for them."""
+    """Return the cache slot of the run: that of its packages if single files are checked."""
     from scaffold.check.cache.runs import CacheEntry
 
     slot: CacheEntry | None = getattr(options, "slot", None)
@@ -347,12 +347,13 @@ def _report_options(options: argparse.Namespace) -> ReportOptions:
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
     """Fix, or show what would be fixed; report what remains."""
     from scaffold.check.result import Result
+    from scaffold.cli import fixing
     from scaffold.cli.exit_codes import USAGE_ERROR
     from scaffold.model.discovery.targets import Target
 
-    written, has_failed = _write_fixes(options, session, targets)
-    for one in written:
-        _note_links(one)
+    written, has_failed = fixing.write(
+        options, session, targets, lambda: _targets(options, session, None)
+    )
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
@@ -362,103 +363,13 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     return USAGE_ERROR if has_failed else code
 
 
-def _write_fixes(
-    options: argparse.Namespace, session: Session, targets: Sequence[Target]
-) -> tuple[list[Fixed], bool]:
-    """Fix packages, and write them or show the patch; tell whether any was refused.
-
-    A package that somebody else is changing does not cost the others.
-    """
-    from contextlib import ExitStack
-
-    from scaffold.check.fixes import workspace_fixer
-    from scaffold.cli import writing
-    from scaffold.cli.interactive.progress import Bar
-    from scaffold.errors import ScaffoldError
-
-    with ExitStack() as stack:
-        held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
-        if held.has_waited:  # what was found before may have changed
-            targets = _targets(options, session, None)
-        targets = [item for item in targets if item.package.root in held.roots]
-        trees = [target.package.tree for target in targets]
-        with Bar() as bar:
-            fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
-        plans: list[WritePlan] = []
-        written: list[Fixed] = []
-        has_failed = held.has_failed
-        for one, tree in zip(fixed, trees, strict=True):
-            try:
-                plan = _plan(one, tree)
-                if not options.diff:
-                    plan.write(force=True)
-            except ScaffoldError as error:
-                terminal.error(str(error))
-                has_failed = True
-            else:
-                plans.append(plan)
-                written.append(one)
-    if options.diff:
-        terminal.show_patch(_patch(plans))
-    return written, has_failed
-
-
-def _note_links(fixed: Fixed) -> None:
-    """Say which files keep their findings because they are somewhere else."""
-    from scaffold.writing.plan import target_outside
-
-    root = fixed.package.directory
-    for path in sorted({diagnostic.location.path for diagnostic in fixed.diagnostics}):
-        target = target_outside(root, path)
-        if target is not None:
-            place = os.path.join(root, path)
-            terminal.note(f"{place}: not fixed: a link to {target}, outside of the package")
-
-
-def _roots(targets: Sequence[Target]) -> list[str]:
-    return [target.package.root for target in targets if target.package.root is not None]
-
-
 def _note_unfinished(targets: Sequence[Target]) -> bool:
-    """Say which packages a run was cut off in while it changed them; tell whether there are any."""
+    """Note the packages that an interrupted run was changing; return whether there are any."""
     from scaffold.cli import writing
 
-    unfinished = [root for root in _roots(targets) if writing.note_unfinished(root)]
+    roots = [target.package.root for target in targets if target.package.root is not None]
+    unfinished = [root for root in roots if writing.note_unfinished(root)]
     return bool(unfinished)
-
-
-def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
-    """Compare with what is there, and with what the fixes were made for.
-
-    Raises:
-        ConflictError: a file changed after it was read.
-    """
-    from scaffold.errors import ConflictError
-    from scaffold.files.tree import DiskTree
-    from scaffold.writing.plan import WritePlan
-
-    plan = WritePlan.of(
-        fixed.package.directory,
-        fixed.changed,
-        executable=fixed.executable,
-        remove=fixed.removed,
-        tree=tree if isinstance(tree, DiskTree) else None,
-    )
-    for file in plan.files:
-        is_content = file.path in fixed.changed or file.path in fixed.removed
-        if is_content and file.before != fixed.before.get(file.path):
-            raise ConflictError(
-                f"{file.path} in {plan.root} changed after it was read; "
-                "nothing was written: run this again"
-            )
-    return plan
-
-
-def _patch(plans: Sequence[WritePlan]) -> str:
-    from scaffold.writing import patch
-
-    base = patch.base([plan.root for plan in plans])
-    return "".join(plan.diff(relative_to=base) for plan in plans)
 
 
 def _report_fixes(
@@ -486,16 +397,16 @@ def _report_fixes(
 
 
 def _reference(targets: Sequence[Target]) -> int:
-    """Compare the docstring rules with pydocstyle itself; a difference is a defect of ours."""
+    """Compare the docstring rules with pydocstyle; each difference is a defect of ours."""
     from scaffold.ament.pep257 import reference
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.reporters.paths import shown
 
     count = 0
-    for package, one in reference.differences([target.package for target in targets]):
+    for package, difference in reference.differences([target.package for target in targets]):
         count += 1
-        place = f"{shown(package, one.path)}:{one.line}"
-        terminal.show(f"{place}: {one.message}")
+        place = f"{shown(package, difference.path)}:{difference.line}"
+        terminal.show(f"{place}: {difference.message}")
     terminal.show(f"{count or 'no'} differences from pydocstyle")
     return INTERNAL_ERROR if count else CLEAN
 
@@ -509,7 +420,7 @@ def _fixes(count: int) -> str:
 
 
 def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
-    """Return 0 for nothing but advice, 1 for something found, 3 for a rule that failed.
+    """Return 0 if there is only advice, 1 if there are findings, 3 if a rule crashed.
 
     Args:
         results: Of all packages.
@@ -519,15 +430,15 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.diagnostic import Severity
 
-    found = [diagnostic for result in results for diagnostic in result.diagnostics]
-    if any(diagnostic.code == RuleCrashed.code for diagnostic in found):
+    diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
+    if any(diagnostic.code == RuleCrashed.code for diagnostic in diagnostics):
         return INTERNAL_ERROR
-    has_findings = any(item.severity is not Severity.INFO for item in found)
+    has_findings = any(item.severity is not Severity.INFO for item in diagnostics)
     return FINDINGS if has_findings and not is_zero else CLEAN
 
 
 def _directory(paths: Sequence[str], disk: Disk) -> str:
-    """Return the directory that holds everything to check: the configuration is there or above."""
+    """Return the common directory of all paths: the configuration is there or above."""
     places = [os.path.abspath(path) for path in paths]
     return os.path.commonpath(
         [place if disk.is_directory(place) else os.path.dirname(place) for place in places]

@@ -68,16 +68,20 @@ def _rows(settings: Config) -> list[tuple[str, Any, str | None]]:
     rows: list[tuple[str, Any, str | None]] = []
     for key in keys.KEYS:
         if key.path == "content":
-            origins = dict.fromkeys(one.origin for one in settings.directories)
+            origins = dict.fromkeys(value.origin for value in settings.directories)
             rows += [
-                ("content", [one.value for one in settings.directories if one.origin == at], at)
+                (
+                    "content",
+                    [value.value for value in settings.directories if value.origin == at],
+                    at,
+                )
                 for at in origins
             ] or [("content", [], None)]
         else:
             given = settings.values.get(key.path)
             rows.append((key.path, settings.value(key.path), given and given.origin))
-    answers = {name: one for name, one in settings.values.items() if name.startswith(_ANSWERS)}
-    return rows + [(name, one.value, one.origin) for name, one in sorted(answers.items())]
+    answers = {name: value for name, value in settings.values.items() if name.startswith(_ANSWERS)}
+    return rows + [(name, value.value, value.origin) for name, value in sorted(answers.items())]
 
 
 _ANSWERS = "new."

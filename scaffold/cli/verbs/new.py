@@ -90,8 +90,8 @@ def run(options: argparse.Namespace) -> int:
             terminal.say_lines(f"Your answers as a command, to correct:\n    {command}")
         raise
     check = draft.Check(made)
-    found = check.end(registry.load(content.roots("rules")))
-    defects = [defect for defect in found if not dependency_names.is_about(defect, named)]
+    findings = check.end(registry.load(content.roots("rules")))
+    defects = [defect for defect in findings if not dependency_names.is_about(defect, named)]
     if defects:
         _report_defects(defects)
         return INTERNAL_ERROR
@@ -311,10 +311,10 @@ def _tell_by_hand(
     if by_hand:
         terminal.say("Add by hand:")
     directory = os.path.join(options.destination_directory, made.name)
-    for one in by_hand:
-        path = os.path.normpath(os.path.join(directory, one.path))
-        terminal.say(f"    {path}: {one.line}")
-        terminal.say(f"        because {one.reason}")
+    for edit in by_hand:
+        path = os.path.normpath(os.path.join(directory, edit.path))
+        terminal.say(f"    {path}: {edit.line}")
+        terminal.say(f"        because {edit.reason}")
     return bool(by_hand)
 
 

@@ -94,7 +94,7 @@ def _test(
     templates: Mapping[str, Template],
     names: Sequence[str],
 ) -> int:
-    """Say what became of each example; 1 if something is wrong, or nothing can be."""
+    """Print the outcome of each example; return 1 if one fails or there is none."""
     from scaffold.check import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
@@ -102,12 +102,11 @@ def _test(
 
     rules = registry.load(content.roots("rules"))
     tried: list[Tried] = []
-    for one in examples.check(names, roots, templates, rules):
-        tried.append(one)
-        terminal.show(
-            f"{one.example.template}: {one.example.title}: {'wrong' if one.defects else 'ok'}"
-        )
-        for defect in one.defects:
+    for attempt in examples.check(names, roots, templates, rules):
+        tried.append(attempt)
+        outcome = "wrong" if attempt.defects else "ok"
+        terminal.show(f"{attempt.example.template}: {attempt.example.title}: {outcome}")
+        for defect in attempt.defects:
             terminal.show(f"    {defect}")
     wrong = sum(bool(item.defects) for item in tried)
     if options.build:

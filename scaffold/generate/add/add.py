@@ -1,4 +1,4 @@
-"""Adds a part or an extra to an existing package, and edits the files that must know of it."""
+"""Adds a part or an extra to an existing package, and edits the files that mention it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
 """Dates, and the years of copyright notices: a second run on another day changes nothing."""
 HEADER_RULES = frozenset({"copyright-notice-missing", "license-header-unknown"})
-"""What the checker finds in files without a header; where the license is not known that is so."""
+"""Rules about missing headers, which are expected where the license is not known."""
 
 
 class Added(NamedTuple):
@@ -41,13 +41,13 @@ class Added(NamedTuple):
     above: Mapping[str, bytes]
     """What is written at the top of the git repository that the package is in."""
     new: Sequence[str]
-    """The files of what is added; all others are edited."""
+    """The files that are added; all others are edited."""
     executable: frozenset[str]
     notes: Mapping[str, str]
     """What a new file is for."""
     by_hand: tuple[ByHand, ...]
     start: str | None
-    """The command that starts what is new."""
+    """The command that starts the new part."""
     package: Package
     """The package as it will be."""
     unedited: Package
@@ -65,7 +65,7 @@ class Added(NamedTuple):
         return in_part and not self.has_header and diagnostic.name in HEADER_RULES
 
     def without_own(
-        self, said: Sequence[Diagnostic], unedited: Sequence[Diagnostic]
+        self, after: Sequence[Diagnostic], unedited: Sequence[Diagnostic]
     ) -> list[Diagnostic]:
         """Return the findings caused by the edits or the new files.
 
@@ -74,16 +74,16 @@ class Added(NamedTuple):
         mentions a new file reveals an incomplete edit; after a semicolon it is only advice.
 
         Args:
-            said: Of the package as it will be.
+            after: The findings of the package as it will be.
             unedited: The findings of `unedited`.
         """
-        known = Counter(map(_said, unedited))
+        remaining = Counter(map(_fingerprint, unedited))
         diagnostics: list[Diagnostic] = []
-        for item in said:
+        for item in after:
             about = item.message.partition("; ")[0]
             is_ours = item.location.path in self.new or any(path in about for path in self.new)
-            if not is_ours and known[_said(item)]:
-                known[_said(item)] -= 1
+            if not is_ours and remaining[_fingerprint(item)]:
+                remaining[_fingerprint(item)] -= 1
             else:
                 diagnostics.append(item)
         return diagnostics
@@ -160,11 +160,11 @@ def _refuse_ros_1(package: Package) -> None:
 
 @contextmanager
 def _refusing(package: Package) -> Iterator[None]:
-    """Tell the user of a package that cannot be read, and that it stays as it is."""
+    """Turn errors about a package that cannot be read into one line for the user."""
     try:
         yield
     except ParseError as error:
-        raise InputError(f"{told(package, error)}; nothing was changed") from error
+        raise InputError(f"{where_and_why(package, error)}; nothing was changed") from error
     except MissingFileError as error:
         raise InputError(f"{package.directory}/{error} is missing") from error
     except ViewError as error:
@@ -172,7 +172,7 @@ def _refusing(package: Package) -> Iterator[None]:
 
 
 def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str, bytes]:
-    """Return the files of the piece; an extra that is there already is its owner's."""
+    """Return the files of the piece, without those of an extra that exist already."""
     is_there = (
         made.template.role is Role.EXTRA and old is not None and regenerate.is_noted(old, made)
     )
@@ -206,7 +206,7 @@ def _content(target: Target, path: str) -> bytes | None:
 def _others(
     target: Target, old: Provenance | None, wanted: Wanted, made: Piece
 ) -> tuple[dict[str, bytes], tuple[ByHand, ...]]:
-    """Return the other files that change: made anew where that is right, else edited."""
+    """Return the other files that change: regenerated where possible, else edited."""
     whole = regenerate.as_new(target, old, made) if old else None
     if whole is not None:
         return {path: text.encode() for path, text in whole.items()}, ()
@@ -219,14 +219,14 @@ def _others(
 
 
 def _start(package: Package, made: Piece) -> str | None:
-    """Return the command that starts what is new."""
+    """Return the command that starts the new part."""
     if made.built is not None:
         return f"ros2 run {package.name} {made.built}"
     launch = next((path for path in made.rendered.files if path.startswith(LAUNCH)), None)
     return f"ros2 launch {package.name} {launch.rpartition('/')[2]}" if launch else None
 
 
-def told(package: Package, error: ParseError) -> str:
+def where_and_why(package: Package, error: ParseError) -> str:
     """Return where a package cannot be parsed, and why."""
     at = error.location
     where = f"{package.directory}/{at.path}" if package.directory else at.path
@@ -234,15 +234,15 @@ def told(package: Package, error: ParseError) -> str:
 
 
 def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Return what the checker says of a package only now.
+    """Return the findings that a package has only after the change.
 
-    Lines may have moved, and a message may name what is new; and a line that is added to a file
-    follows the style of that file, so what is found of style there already is not new.
+    Lines may have moved, and messages may mention what is new. A line that is added to a file
+    follows the style of that file, so the style findings it already has are not new there.
     """
     from scaffold.ament.codes import STYLE
     from scaffold.diagnostic import Severity
 
-    known = Counter(map(_said, before))
+    remaining = Counter(map(_fingerprint, before))
     styles = {
         (item.code, item.location.path)
         for item in before
@@ -250,11 +250,11 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
     }
     left: list[Diagnostic] = []
     for diagnostic in after:
-        if known[_said(diagnostic)]:
-            known[_said(diagnostic)] -= 1
+        if remaining[_fingerprint(diagnostic)]:
+            remaining[_fingerprint(diagnostic)] -= 1
         elif (diagnostic.code, diagnostic.location.path) not in styles:
             left.append(diagnostic)
-    reworded = Counter((code, path) for code, path, _ in known.elements())
+    reworded = Counter((code, path) for code, path, _ in remaining.elements())
     diagnostics: list[Diagnostic] = []
     for diagnostic in left:
         place = diagnostic.code, diagnostic.location.path
@@ -265,7 +265,7 @@ def new_diagnostics(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -
     return diagnostics
 
 
-def _said(diagnostic: Diagnostic) -> tuple[str, str, str]:
+def _fingerprint(diagnostic: Diagnostic) -> tuple[str, str, str]:
     return diagnostic.code, diagnostic.location.path, re.sub(r"\d+", "", diagnostic.message)
 
 
@@ -314,7 +314,7 @@ def _refuse_conflicts(package: Package, made: Piece) -> None:
 
 
 def _refuse_taken(package: Package, made: Piece) -> None:
-    """Raise if ``ros2 run`` knows another program by the name of a new one."""
+    """Raise if the package already has a program with the name of a new one."""
     program = made.addition.program
     if program is None:
         return
@@ -327,5 +327,5 @@ def _refuse_taken(package: Package, made: Piece) -> None:
 
 
 def _timeless(data: bytes) -> str:
-    """Return a text without what another day would change."""
+    """Return a text without its dates."""
     return re.sub(_OF_A_DAY, "", data.decode(errors="replace").replace("\r\n", "\n"))

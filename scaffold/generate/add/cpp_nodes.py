@@ -29,7 +29,7 @@ def executables(package: Package) -> Mapping[str, bool]:
 
 
 def _using(package: Package) -> set[str]:
-    """Return the targets that use rclcpp, themselves or with what they are linked to."""
+    """Return the targets that use rclcpp, directly or through the libraries they link to."""
     cmake = package.cmake
     linked: dict[str, set[str]] = {}
     for command in cmake.find(*_LINKED):

@@ -1,4 +1,4 @@
-"""What an existing package says of itself, as answers to the questions of templates."""
+"""What an existing package has decided, as answers to the questions of templates."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LICENSE_FILE = "LICENSE"
 _ACCOUNTS = frozenset({"root", "user", "ubuntu", "ros", "admin", "vscode", "none", "unknown"})
 """Accounts of containers and images, which `ros2 pkg create` takes for the maintainer's name."""
 _OF_EXAMPLES = ("open source robotics foundation", "open robotics", "willow garage")
-"""Whose notices come along with copied examples and tutorials, and with code ported from ROS 1."""
+"""Holders named in copied examples and tutorials, and in code ported from ROS 1."""
 _OF_OPEN_ROBOTICS = ("openrobotics.org", "osrfoundation.org")
 
 
@@ -33,16 +33,16 @@ def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
         licenses: The licenses that there are templates for.
     """
     maintainer, address = _maintainer(package.manifest)
-    found = {
+    decided = {
         "license": license_of(package, licenses),
         "copyright_holder": _holder(package) or maintainer,
         "maintainer_name": maintainer,
         "maintainer_email": address,
     }
-    return {name: Given(value, MANIFEST) for name, value in found.items() if value is not None}
+    return {name: Given(value, MANIFEST) for name, value in decided.items() if value is not None}
 
 
-def license_of(package: Package, known: Sequence[str]) -> str | None:
+def license_of(package: Package, templates: Sequence[str]) -> str | None:
     """Return the license of a package that there is a template for.
 
     The manifest decides; where it says too little (``BSD``) or nothing, the headers of the
@@ -53,16 +53,20 @@ def license_of(package: Package, known: Sequence[str]) -> str | None:
     declared = [
         spdx_of(element.text) or (element.text,) for element in package.manifest.all("license")
     ]
-    choices = {spelling for spellings in declared for spelling in spellings if spelling in known}
+    choices = {
+        spelling for spellings in declared for spelling in spellings if spelling in templates
+    }
     if len(choices) == 1:
         return choices.pop()
-    written = Counter(header.licence for header in own_headers(package) if header.licence in known)
+    written = Counter(
+        header.licence for header in own_headers(package) if header.licence in templates
+    )
     for licence, _ in written.most_common():
         if licence in choices or not choices:
             return licence
     if package.has(LICENSE_FILE):
         licence = notices.identify_file(LICENSE_FILE, package.tree.read(LICENSE_FILE))
-        if licence in known:
+        if licence in templates:
             return licence
     return min(choices, default=None)
 
@@ -97,7 +101,7 @@ def _comment(lines: Sequence[str], number: int) -> str:
 
 
 def _holder(package: Package) -> str | None:
-    """Return who holds the copyright of most own sources; those without a notice count, too."""
+    """Return the copyright holder of most own sources; those without a notice count, too."""
     headers = own_headers(package)
     names = (name for header in headers for name in {*map(_without_remark, header.holders)})
     holder = majority(names, len(headers))
@@ -117,7 +121,7 @@ def _may_hold(package: Package, name: str) -> bool:
 
 
 def _without_remark(name: str) -> str:
-    """Return the name of a holder without what some notices say after it."""
+    """Return the name of a holder without remarks such as "All rights reserved"."""
     remark = r"[.,]?\s*\b(all rights reserved|see (the )?licen[sc]e)\b.*$"
     return re.sub(remark, "", name, flags=re.IGNORECASE).strip()
 

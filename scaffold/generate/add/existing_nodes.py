@@ -18,7 +18,7 @@ CONFIG = "config"
 
 
 class FoundNodes(NamedTuple):
-    """What a package starts."""
+    """The nodes of a package, for launch files."""
 
     nodes: Sequence[Mapping[str, Any]]
     """Each with at least ``name``, ``executable``, ``parameter_file`` and ``has_parameters``."""
@@ -42,13 +42,13 @@ def find(
     kept = [
         node for node in recorded if node["executable"] in programs.sources or not programs.complete
     ]
-    known = {node["executable"] for node in recorded} | {item["name"] for item in compiled}
+    known_programs = {node["executable"] for node in recorded} | {item["name"] for item in compiled}
     result: list[Mapping[str, Any]] = list(kept)
     others: list[str] = []
     in_cpp = executables(package)
     for program, source in programs.sources.items():
         is_library = package.build_type == "ament_cmake" and not source and program not in in_cpp
-        if program in known or is_library:
+        if program in known_programs or is_library:
             continue
         names = {owner.node_name for owner in nodes_of(package, program)}
         if names or in_cpp.get(program):

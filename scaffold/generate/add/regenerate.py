@@ -23,7 +23,7 @@ OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_ema
 
 
 def provenance_of(package: Package) -> Provenance | None:
-    """Return how a package was created, if it was generated.
+    """Return the record of how a package was generated, if it was.
 
     Raises:
         InputError: the record is damaged.
@@ -138,10 +138,12 @@ def _with_piece(old: Provenance, piece: Piece) -> dict[str, Any]:
         return {**old.answers, **own, EXTRAS: [*extras, piece.template.name]}
     part = piece.composed.answers[parts.ADD][0]
     name = piece.template.name_question
-    known = old.answers.get(parts.ADD, [])
-    if any((item[parts.KIND], item.get(name)) == (part[parts.KIND], part[name]) for item in known):
+    existing = old.answers.get(parts.ADD, [])
+    if any(
+        (item[parts.KIND], item.get(name)) == (part[parts.KIND], part[name]) for item in existing
+    ):
         return dict(old.answers)
-    return {**old.answers, parts.ADD: [*known, part]}
+    return {**old.answers, parts.ADD: [*existing, part]}
 
 
 def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Draft:
@@ -165,7 +167,7 @@ def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> l
 
 
 def _is_as(package: Package, path: str, text: str | None) -> bool:
-    """Tell whether a file is as it was made; ``None``: it was not."""
+    """Tell whether a file is as it was generated; ``None`` if it was not generated."""
     if text is None or not package.has(path):
         return text is None and not package.has(path)
     return package.tree.read(path) == text.encode()

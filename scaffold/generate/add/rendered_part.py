@@ -1,4 +1,4 @@
-"""What is added to a package: a node, an interface, a program or an extra, rendered for it."""
+"""Renders what is added to a package: a node, an interface, a program or an extra."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ EXTRAS = "extras"
 LAUNCH = "launch/"
 """The directory of launch files."""
 _OF_README = "_readme.md"
-"""What an extra has to say in the README of its package."""
+"""What an extra adds to the README of its package."""
 
 _Scope = tuple[Template, Mapping[str, Any]]
 """A template, and the variables of its files."""
 
 
 class Target(NamedTuple):
-    """A package that something is added to, and what that is made with."""
+    """A package that something is added to, and the templates to use."""
 
     package: Package
     roots: Sequence[str]
@@ -120,11 +120,11 @@ def _launch_file(package: Package, given: str) -> str:
     Raises:
         InputError: it is not a launch file of the package.
     """
-    known = launch_files(package)
+    existing = launch_files(package)
     here = os.path.relpath(os.path.realpath(given), os.path.realpath(package.root or "."))
-    path = next((path for path in (os.path.normpath(given), here) if path in known), None)
+    path = next((path for path in (os.path.normpath(given), here) if path in existing), None)
     if path is None:
-        names = ", ".join(known) or "none"
+        names = ", ".join(existing) or "none"
         raise InputError(
             f"--launch: {given} is not a launch file of {package.name}; it has {names}"
         )
@@ -134,15 +134,15 @@ def _launch_file(package: Package, given: str) -> str:
 def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | None) -> Piece:
     """Render an extra for the nodes that the package has, ours and those of others."""
     package, template = target.package, wanted.template
-    known = update.recorded(old, target.templates, package.directory, []) if old else {}
+    recorded = update.recorded(old, target.templates, package.directory, []) if old else {}
     chosen = {
-        parts.ADD: known.get(parts.ADD, Given([], "KIND")),
+        parts.ADD: recorded.get(parts.ADD, Given([], "KIND")),
         EXTRAS: Given([template.name], "KIND"),
     }
-    composed = _compose(target, {**known, **wanted.given, **chosen}, day)
+    composed = _compose(target, {**recorded, **wanted.given, **chosen}, day)
     context = composed.context
-    found = existing_nodes.find(package, context["nodes"], context["programs"])
-    context["nodes"] = found.nodes
+    existing = existing_nodes.find(package, context["nodes"], context["programs"])
+    context["nodes"] = existing.nodes
     rendered = _rendered(target, composed, [(template, context)])
     if not rendered.files:
         raise InputError(
@@ -156,14 +156,14 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
         text = composed.renderer.text(macro, context).strip("\n")
         addition = addition._replace(readme=f"## Run\n\n{text}\n" if text else "")
     is_launch = any(path.startswith(LAUNCH) for path in rendered.files)
-    return Piece(template, composed, rendered, addition, found.others if is_launch else ())
+    return Piece(template, composed, rendered, addition, existing.others if is_launch else ())
 
 
 def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:
     """Settle all questions; what the package has decided needs no answer."""
     package = target.package
     decided = existing_answers.answers(package, licenses.names(target.roots))
-    known = {**decided, **given}
+    settled = {**decided, **given}
     answers = {**decided, **given, "build_type": Given(package.build_type, "package.xml")}
     fixed = {"package": package.name, "build_type": package.build_type}
     messages = [path[len("msg/") : -len(".msg")] for path in package.glob("msg/*.msg")]
@@ -176,11 +176,11 @@ def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Co
         existing=Existing(fixed, messages, list(remarks.uses(package))),
         place=target.place,
     )
-    composed.context["has_license"] = "license" in known
+    composed.context["has_license"] = "license" in settled
     if not composed.context["has_license"]:
         # Better the header of the author's other files, or none, than one with another license.
         composed.context["header"] = existing_answers.own_header(package)
-    elif not {"copyright_holder", "maintainer_name"} & {*known}:
+    elif not {"copyright_holder", "maintainer_name"} & {*settled}:
         composed.context["header"] = ""  # the user need not be the copyright holder
     return composed
 
@@ -228,7 +228,7 @@ def _described(
     package: str,
     rendered: Rendered,
 ) -> Addition:
-    """Return what the manifest of a template says of its dependencies and directories."""
+    """Return the dependencies and directories that the manifest of a template declares."""
     renderer = composed.renderer
     depends = {
         kind: [name for text in texts for name in renderer.text(text, scope).split()]

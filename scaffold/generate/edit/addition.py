@@ -1,4 +1,4 @@
-"""What is added to a package, and what became of it."""
+"""What is added to a package, and the outcome of each edit."""
 
 from __future__ import annotations
 

@@ -67,8 +67,8 @@ def runs_test(lists: CMakeLists, path: str) -> bool:
     for command in lists.commands:
         if not (command.name.startswith("ament_add_") and command.name.endswith("pytest_test")):
             continue
-        found = lists.expand_list(command.arguments[1:2], command)
-        for value in found or ():
+        arguments = lists.expand_list(command.arguments[1:2], command)
+        for value in arguments or ():
             tested = lists.path_of(value)
             if path == tested or path.startswith(f"{tested}/"):
                 return True
@@ -144,7 +144,7 @@ class Editor:
             self.edit(cmake_edit.insert_find_package(self.lists, PYTEST, testing=True))
         if len(line) > LONG_CALL:
             line = line.replace(" TIMEOUT", f"{self.lists.source.newline}    TIMEOUT")
-        self.edit(_behind_last_test(self.lists, line))
+        self.edit(_below_last_test(self.lists, line))
         if not runs_test(self.lists, path):
             self.edit(cmake_edit.insert_in_testing(self.lists, [line]))
         if not runs_test(self.lists, path):
@@ -159,7 +159,7 @@ class Editor:
             self.lists = changed
 
     def refused(self, line: str, *, is_test: bool = False) -> bool:
-        """Leave a line to the user where nothing at all can be added for sure."""
+        """Tell whether no edit of the file is safe; the user is told to add the line then."""
         lists = self.lists
         ends = [call for call in lists.find(*LAST_CALLS) if call.depth == 0]
         if lists.project_name != self.package:
@@ -173,7 +173,7 @@ class Editor:
         return True
 
     def refuse(self, line: str, reason: str) -> None:
-        """Leave a line to the user."""
+        """Tell the user to add a line."""
         self.by_hand.append(ByHand(self.lists.source.path, line, reason))
 
 
@@ -334,12 +334,12 @@ def _share_block(lists: CMakeLists, path: str) -> Edits | None:
     return cmake_edit.insert_install(lists, "DIRECTORY", path, "share")
 
 
-def _behind_last_test(lists: CMakeLists, line: str) -> Edits | None:
+def _below_last_test(lists: CMakeLists, line: str) -> Edits | None:
     """Add a call below the last one of its kind that always runs when tests are built."""
     block = cmake_edit.testing_block(lists)
-    found = [call for call in _tests(lists) if block is not None and call.branch is block[0]]
-    found += [call for call in _tests(lists) if call.depth == 0 and lists.guarded_by_testing(call)]
-    return cmake_edit.insert_below(lists, found[-1], line) if found else None
+    calls = [call for call in _tests(lists) if block is not None and call.branch is block[0]]
+    calls += [call for call in _tests(lists) if call.depth == 0 and lists.guarded_by_testing(call)]
+    return cmake_edit.insert_below(lists, calls[-1], line) if calls else None
 
 
 def _tests(lists: CMakeLists) -> Iterator[Command]:

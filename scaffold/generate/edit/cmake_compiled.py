@@ -30,12 +30,12 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         InputError: something else in the package has the name that the generated code needs.
     """
     for path in addition.interfaces:
-        found = _generation(editor.lists)
-        if found is None:
+        generation = _generation(editor.lists)
+        if generation is None:
             _refuse_conflict(editor.lists)
-        elif any(listed.path == path for listed in found.files):
+        elif any(listed.path == path for listed in generation.files):
             continue
-        elif not found.files:
+        elif not generation.files:
             editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not a literal list")
             continue
         line = f'{GENERATE}(${{PROJECT_NAME}} "{path}")'
@@ -45,13 +45,15 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         _enable(editor, "C", "CXX")
         for name in [GENERATORS, *addition.interface_depends]:
             editor.edit(cmake_edit.insert_find_package(editor.lists, name))
-        found = _generation(editor.lists)
-        editor.edit(_list_file(editor.lists, found, path) if found else _block(editor.lists, path))
+        generation = _generation(editor.lists)
+        editor.edit(
+            _list_file(editor.lists, generation, path) if generation else _block(editor.lists, path)
+        )
         for name in addition.interface_depends:
             _depend(editor, name)
         _export_runtime(editor)
-        found = _generation(editor.lists)
-        if found is None or path not in [listed.path for listed in found.files]:
+        generation = _generation(editor.lists)
+        if generation is None or path not in [listed.path for listed in generation.files]:
             editor.lists = before
             editor.refuse(line, "the end of the file is not always reached")
 
@@ -180,10 +182,10 @@ def _block(lists: CMakeLists, path: str) -> Edits | None:
 
 def _depend(editor: Editor, name: str) -> None:
     """Name a package whose types the interfaces use."""
-    found = _generation(editor.lists)
-    if found is None or found.dependencies is None or name in found.dependencies:
+    generation = _generation(editor.lists)
+    if generation is None or generation.dependencies is None or name in generation.dependencies:
         return
-    command = found.command
+    command = generation.command
     given = command.keyword("DEPENDENCIES", {"LIBRARY_NAME", "ADD_LINTER_TESTS", "SKIP_INSTALL"})
     keyword = [argument for argument in command.arguments if argument.value == "DEPENDENCIES"]
     last = [*command.arguments, *keyword, *given][-1]

@@ -1,4 +1,4 @@
-"""Edits the files of a package so that they know of something new."""
+"""Edits the files of a package so that they mention what is added."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Edito
     )
     needs = _with_build(addition, is_cmake=is_cmake, installs_python=installs_python)
     if is_cmake:
-        needs = _with_found(needs, package)
+        needs = _with_cmake_packages(needs, package)
     yield MANIFEST, lambda source: manifest.add_to_manifest(source, needs)
     if is_cmake:
         yield (
@@ -82,23 +82,23 @@ def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) ->
     return addition._replace(depends=depends)
 
 
-def _with_found(addition: Addition, package: Package) -> Addition:
+def _with_cmake_packages(addition: Addition, package: Package) -> Addition:
     """Return an addition whose dependencies are there when the package is built as well.
 
     CMakeLists.txt may look for a package that package.xml does not declare: when it is declared
     for running or for tests alone, the build still fails.
     """
-    known = package.manifest.names_for("build", "run")
-    found = {
+    declared = package.manifest.names_for("build", "run")
+    required = {
         found_package.name
         for found_package in package.cmake.found_packages
         if not found_package.in_testing
-    } - known
+    } - declared
     depends = {kind: list(names) for kind, names in addition.depends.items()}
     for kind, wider in (("exec", "depend"), ("test", "build")):
-        moved = [name for name in depends.get(kind, ()) if name in found]
+        moved = [name for name in depends.get(kind, ()) if name in required]
         if moved:
-            depends[kind] = [name for name in depends[kind] if name not in found]
+            depends[kind] = [name for name in depends[kind] if name not in required]
             depends[wider] = [*depends.get(wider, ()), *moved]
     return addition._replace(depends=depends)
 

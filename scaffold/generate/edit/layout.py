@@ -35,7 +35,7 @@ class Layout(NamedTuple):
 
 
 def layout_of(package: Package) -> Layout:
-    """Return where a package keeps its things.
+    """Return the directories of a package.
 
     Raises:
         InputError: its build type is not supported.
@@ -53,13 +53,13 @@ def layout_of(package: Package) -> Layout:
 
 def _of_cmake(package: Package) -> Layout:
     name, tests = package.name, _tests(package)
-    found = Counter(
+    destinations = Counter(
         program.path.rpartition("/")[0]
         for program in programs(package)
         if (program.destination or "").rstrip("/") == f"lib/{name}"
         and program.path in package.python_files
     )
-    usual = _choose(found, (name, *_USUAL))
+    usual = _choose(destinations, (name, *_USUAL))
     if usual is not None:
         return Layout(usual, name if usual == name else "", tests)
     installed = _installed_python(package)
@@ -74,17 +74,17 @@ def _of_cmake(package: Package) -> Layout:
 
 def _of_setup(package: Package) -> Layout:
     setup = package.setup_py
-    found = Counter(entry.module.rpartition(".")[0] for entry in setup.console_scripts)
-    module = _choose(found, (package.name,)) or package.name
+    modules = Counter(entry.module.rpartition(".")[0] for entry in setup.console_scripts)
+    module = _choose(modules, (package.name,)) or package.name
     directory = _directory(setup, module)
     init = f"{directory}/__init__.py"
     missing = () if package.has(init) else (init,)
     return Layout(directory, module, _tests(package), missing)
 
 
-def _choose(found: Mapping[str, int], usual: Iterable[str]) -> str | None:
+def _choose(counts: Mapping[str, int], usual: Iterable[str]) -> str | None:
     """Return the usual place among those in use, else the only one."""
-    places = [place for place in found if place and not place.startswith(_TESTS)]
+    places = [place for place in counts if place and not place.startswith(_TESTS)]
     for place in usual:
         if place in places:
             return place

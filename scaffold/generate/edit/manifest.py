@@ -77,9 +77,9 @@ def _insertion(manifest: Manifest, tag: str, name: str) -> Edit:
     """Return the edit that adds a dependency; the first for running comes below the others."""
     if tag == "exec_depend" and manifest.one(tag) is None:
         for other in _BEFORE_EXEC:
-            found = manifest.all(other)
-            if found:
+            elements = manifest.all(other)
+            if elements:
                 return manifest_edit.insert_after(
-                    manifest, found[-1], manifest_edit.render(tag, name)
+                    manifest, elements[-1], manifest_edit.render(tag, name)
                 )
     return manifest.insert(tag, name)

@@ -1,4 +1,4 @@
-"""What a configuration of pre-commit that exists lacks."""
+"""What an existing configuration of pre-commit is missing."""
 
 from __future__ import annotations
 
@@ -59,5 +59,5 @@ def _hooks(there: bytes) -> Iterator[dict[str, Any]]:
 
 
 def _entries(table: object, key: str) -> list[dict[str, Any]]:
-    found = table.get(key) if isinstance(table, dict) else None
-    return [item for item in found if isinstance(item, dict)] if isinstance(found, list) else []
+    entries = table.get(key) if isinstance(table, dict) else None
+    return [item for item in entries if isinstance(item, dict)] if isinstance(entries, list) else []

@@ -86,7 +86,7 @@ def _blocks(lines: Sequence[str], section: Section) -> list[Section]:
 
 
 def add_to_readme(source: Source, addition: Addition) -> Outcome:
-    """Merge what README.md would say of a part alone; one that is not like ours is left alone.
+    """Merge the README.md of a package with one part into another; leave foreign ones alone.
 
     A table of somebody else's README gets its rows where it has the very same columns.
     """
@@ -143,13 +143,13 @@ def _join(source: Source, title: str, new: Section) -> Source:
 
 
 def _extend(source: Source, old: Section, new: Section) -> Source:
-    """Add to a block what it does not say yet, above its table."""
+    """Add to a block the text that it does not have yet, above its table."""
     if _says(old.lines, new):
         return source
     # What both begin with applies to all parts, and rows of tables are added one by one.
     shared = 0
-    for one, two in zip(old.lines, new.lines, strict=False):
-        if one != two or one.startswith(_FENCE):
+    for old_line, new_line in zip(old.lines, new.lines, strict=False):
+        if old_line != new_line or old_line.startswith(_FENCE):
             break
         shared += 1
     has_rows = any(map(_is_row, old.lines))

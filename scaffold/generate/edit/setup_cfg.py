@@ -22,25 +22,25 @@ def add_to_setup_cfg(source: Source, addition: Addition) -> Outcome:
     Raises:
         ParseError: setuptools would refuse the file.
     """
-    found = scripts(IniFile.parse(source))
+    option = scripts(IniFile.parse(source))
     program = addition.program
-    if found is None or program is None:
+    if option is None or program is None:
         return Outcome(source)
-    names = [line.text.partition("=")[0].strip() for line in found.lines]
+    names = [line.text.partition("=")[0].strip() for line in option.lines]
     if program.name in names:
         return Outcome(source)
     line = f"{program.name} = {program.entry_point}"
-    last = found.lines[-1].location if found.lines else found.key_location
-    if found.lines and last.line == found.key_location.line:
+    last = option.lines[-1].location if option.lines else option.key_location
+    if option.lines and last.line == option.key_location.line:
         reason = f"{KEY} begins on the line of its key"
         return Outcome(source, (ByHand(source.path, line, reason),))
-    indent = " " * (last.column - 1) if found.lines else "    "
+    indent = " " * (last.column - 1) if option.lines else "    "
     at = source.offset(last.end_line, 1)
     end = source.text.find("\n", at)
     end = len(source.text) if end < 0 else end
     if source.text[end - 1 : end] == "\r":
         end -= 1
-    glue = line if not found.lines or " = " in found.lines[-1].text else line.replace(" = ", "=")
+    glue = line if not option.lines or " = " in option.lines[-1].text else line.replace(" = ", "=")
     return Outcome(
         spliced(source, [Edit(source.path, end, end, f"{source.newline}{indent}{glue}")])
     )
@@ -61,11 +61,11 @@ def add_directories(source: Source, addition: Addition, *, has_others: bool) -> 
     by_hand: list[ByHand] = []
     for section, key in (("develop", "script_dir"), ("install", "install_scripts")):
         file = IniFile.parse(source)
-        found = file.get(section, key, key.replace("_", "-"))
-        if addition.program is None or (found or "").strip().rstrip("/") == directory:
+        value = file.get(section, key, key.replace("_", "-"))
+        if addition.program is None or (value or "").strip().rstrip("/") == directory:
             continue
-        if found is not None:
-            reason = f"it is {found}, where ros2 run does not look"
+        if value is not None:
+            reason = f"it is {value}, where ros2 run does not look"
             by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
         elif has_others:
             reason = "ros2 run looks nowhere else, but it moves the other executables out of bin/"

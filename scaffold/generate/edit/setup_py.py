@@ -176,8 +176,8 @@ class _Editor:
         return f"{quote}{text}{quote}"
 
     def add_extra(self) -> None:
-        known = any(self.setup.keyword(name) for name in ("extras_require", "tests_require"))
-        if known or self.setup.has_unknown_keywords:
+        has_tests = any(self.setup.keyword(name) for name in ("extras_require", "tests_require"))
+        if has_tests or self.setup.has_unknown_keywords:
             return
         before = self.setup
         self._edit(lambda setup: setup_keywords.insert(setup, _EXTRA))

@@ -19,27 +19,27 @@ def of_action(text: str, interfaces: Definitions) -> ActionPayload:
         InputError: the type is not known or cannot be used.
     """
     types = lookup.find(text, "action", interfaces)
-    found = recipe.find_action(types.interface.full_name) or _alike(types.interface)
-    return _by_recipe(types, found) if found else _by_fields(types)
+    known_recipe = recipe.find_action(types.interface.full_name) or _alike(types.interface)
+    return _by_recipe(types, known_recipe) if known_recipe else _by_fields(types)
 
 
 def _alike(interface: Interface) -> ActionRecipe | None:
     """Return the recipe of Fibonacci for one of the many copies of it."""
     parts = (interface.goal, interface.result, interface.feedback)
     names = [[field.name for field in part.fields] for part in parts]
-    known = recipe.find_action(_FIBONACCI)
-    if known is None or interface.name != "Fibonacci" or names[:2] != [["order"], ["sequence"]]:
+    fibonacci = recipe.find_action(_FIBONACCI)
+    if fibonacci is None or interface.name != "Fibonacci" or names[:2] != [["order"], ["sequence"]]:
         return None
     if names[2] == ["sequence"]:
-        return known
+        return fibonacci
     if names[2] != ["partial_sequence"]:
         return None
     old, new = "feedback.sequence", "feedback.partial_sequence"
-    return known._replace(
-        start=known.start.replace(old, new),
-        feedback=known.feedback.replace(old, new),
-        feedback_log=known.feedback_log.replace(old, new),
-        result=known.result.replace(old, new),
+    return fibonacci._replace(
+        start=fibonacci.start.replace(old, new),
+        feedback=fibonacci.feedback.replace(old, new),
+        feedback_log=fibonacci.feedback_log.replace(old, new),
+        result=fibonacci.result.replace(old, new),
     )
 
 

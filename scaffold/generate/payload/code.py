@@ -81,10 +81,10 @@ class Block:
             if value is None:
                 continue
             definition = self._placed(value[1])
-            known = self.local(name)
-            if known == definition:
+            existing = self.local(name)
+            if existing == definition:
                 text = re.sub(rf"(?m)^{name} = .*\n", "", text, count=1)
-            elif known is not None:
+            elif existing is not None:
                 new = f"{target.rpartition('.')[2]}_{name}"
                 text = re.sub(rf"(?<![.\w'/]){name}\b(?!=)", new, text)
                 self._locals[new] = definition
@@ -104,10 +104,10 @@ class Block:
 
     def define(self, name: str, value: str) -> str:
         """Add a local name, changed if it is taken; return it."""
-        known = self.local(name)
-        while known not in {None, value}:
+        existing = self.local(name)
+        while existing not in {None, value}:
             name += "_"
-            known = self.local(name)
+            existing = self.local(name)
         self._locals[name] = value
         self._items.append(f"{name} = {value}")
         return name
@@ -192,8 +192,8 @@ def wrapped(line: str, width: int) -> Iterator[str]:
         yield from (margin + INDENT + part for part in parts)
     else:
         pieces = [piece + "," for piece in _split(inside, ",")]
-        one = pieces[0].removesuffix(",") if len(pieces) == 1 else ""
-        yield from _filled([one] if one else pieces, margin + INDENT, width)
+        single = pieces[0].removesuffix(",") if len(pieces) == 1 else ""
+        yield from _filled([single] if single else pieces, margin + INDENT, width)
     yield margin + code[-1]
 
 

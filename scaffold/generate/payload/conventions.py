@@ -34,9 +34,9 @@ class Convention(NamedTuple):
 
 def of_message(full_name: str) -> Convention:
     """Return what is usual for messages of a type, such as ``sensor_msgs/msg/LaserScan``."""
-    known = table().get((full_name, ""))
-    if known is not None:
-        return known
+    convention = table().get((full_name, ""))
+    if convention is not None:
+        return convention
     package, _, name = full_name.split("/")
     return Convention("example_topic" if package == _VALUES else header_name(name))
 

@@ -30,11 +30,11 @@ def of_statements(statements: Iterable[str], target: str) -> Effects:
     walk = _Walk(target)
     walk.body(ast.parse("\n".join(statements)).body)
     paths = dict.fromkeys(walk.order)
-    known = {*walk.constant, *walk.changing, *walk.frames}
+    others = {*walk.constant, *walk.changing, *walk.frames}
     return Effects(
         tuple((path, walk.constant[path]) for path in paths if path in walk.constant),
         tuple(path for path in paths if path in walk.changing),
-        tuple(path for path in paths if path in walk.filled - known),
+        tuple(path for path in paths if path in walk.filled - others),
         tuple(path for path in paths if path in walk.frames),
     )
 
@@ -101,7 +101,7 @@ class _Walk:
                 self.filled.add(path)
 
     def _path(self, node: ast.expr) -> str:
-        """Return which field of the target is meant; empty if it is something else."""
+        """Return the path of the field in the target; empty if it is something else."""
         names: list[str] = []
         while not isinstance(node, ast.Name):
             if isinstance(node, ast.Attribute):

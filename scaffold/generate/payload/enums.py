@@ -71,16 +71,16 @@ def _by_name(section: Section, field: Field) -> list[Constant]:
     stem = field.name.upper()
     if field.type.is_array or field.type.name not in INTEGER_RANGES:
         return []
-    found = [constant for constant in section.constants if constant.name.startswith(f"{stem}_")]
-    found = found or [
+    constants = [constant for constant in section.constants if constant.name.startswith(f"{stem}_")]
+    constants = constants or [
         constant for constant in section.constants if constant.name.endswith(f"_{stem}")
     ]
-    if len(found) == 1 and words.split(field.name)[-1] not in _ENUMS:
+    if len(constants) == 1 and words.split(field.name)[-1] not in _ENUMS:
         return []
     longer = [other.name.upper() for other in section.fields if len(other.name) > len(stem)]
     return [
         item
-        for item in found
+        for item in constants
         if not any(item.name.startswith(f"{name}_") for name in longer if name.startswith(stem))
         and item.type.name in INTEGER_RANGES
     ]

@@ -14,8 +14,11 @@ WORDS = {"msg": "message", "srv": "service", "action": "action"}
 HEADER = "std_msgs/msg/Header"
 TIME = "builtin_interfaces/msg/Time"
 DURATION = "builtin_interfaces/msg/Duration"
-_MEANT = {"GoalStatus": "action_msgs/msg/GoalStatus", "Transition": "lifecycle_msgs/msg/Transition"}
-"""Messages that generated code imports for its own sake."""
+_IMPORTED = {
+    "GoalStatus": "action_msgs/msg/GoalStatus",
+    "Transition": "lifecycle_msgs/msg/Transition",
+}
+"""Messages that generated code imports whatever its types are."""
 _TAKEN = {
     "msg": frozenset({"LifecycleNode", "Node", "Source", "Transition"}),
     "srv": frozenset({"Client", "Node", "Server"}),
@@ -67,10 +70,14 @@ class Types:
         """Return the code of a recipe with the names that messages have here."""
         package = full_name.partition("/")[0]
         for name in set(re.findall(r"(?<![.\w])[A-Z]\w+", code)):
-            meant = [message for message in sorted(self._messages) if message.endswith(f"/{name}")]
-            if meant:
+            candidates = [
+                message for message in sorted(self._messages) if message.endswith(f"/{name}")
+            ]
+            if candidates:
                 own = f"{package}/msg/{name}"
-                new = self.class_name(own if own in meant else min(meant, key=_is_uncommon))
+                new = self.class_name(
+                    own if own in candidates else min(candidates, key=_is_uncommon)
+                )
                 code = re.sub(rf"(?<![.\w]){name}\b", new, code)
         return code
 
@@ -82,8 +89,8 @@ class Types:
         """
         own = self.interface
         if class_name in _TAKEN[own.kind]:
-            meant = _MEANT.get(class_name, "")
-            return meant if meant in self._messages else None
+            full_name = _IMPORTED.get(class_name, "")
+            return full_name if full_name in self._messages else None
         if class_name == own.name:
             return own.full_name
         candidates = sorted(self._messages)
@@ -135,15 +142,15 @@ def _full_name(text: str, kind: str, definitions: Definitions) -> str:
     if wanted.kind not in {None, kind}:
         raise InputError(f"{text!r} is a type of {WORDS[str(wanted.kind)]}s, not of {word}s")
     package = f"{wanted.package}/" if wanted.package else ""
-    found = definitions.matches(f"{package}{kind}/{wanted.name}") if wanted.name else []
-    if not found and package and definitions.find(f"{package}{kind}/{wanted.name}"):
-        found = [f"{package}{kind}/{wanted.name}"]  # of a package that may have more
-    if len(found) > 1:
-        raise InputError(f"{text!r} may be {', '.join(found[:-1])} or {found[-1]}; write which")
-    if found:
-        return found[0]
-    near = _nearest(text, kind, definitions)
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    matches = definitions.matches(f"{package}{kind}/{wanted.name}") if wanted.name else []
+    if not matches and package and definitions.find(f"{package}{kind}/{wanted.name}"):
+        matches = [f"{package}{kind}/{wanted.name}"]  # of a package that may have more
+    if len(matches) > 1:
+        raise InputError(f"{text!r} may be {', '.join(matches[:-1])} or {matches[-1]}; write which")
+    if matches:
+        return matches[0]
+    closest = _nearest(text, kind, definitions)
+    hint = f"; did you mean {' or '.join(closest)}?" if closest else ""
     raise InputError(f"unknown {word} type {text!r}{hint}")
 
 
@@ -151,15 +158,15 @@ def _nearest(text: str, kind: str, definitions: Definitions) -> list[str]:
     """Return the types of this kind that look most like a misspelled one, best first."""
     if not text.strip():
         return []
-    found = definitions.nearest(text, 100)
-    return [name for name in found if f"/{kind}/" in name][:3]
+    names = definitions.nearest(text, 100)
+    return [name for name in names if f"/{kind}/" in name][:3]
 
 
 def _collect(
     field: Field,
     owner: Interface,
     trail: Sequence[str],
-    found: dict[str, Interface],
+    collected: dict[str, Interface],
     definitions: Definitions,
 ) -> None:
     """Add the message of a field, and those of its fields.
@@ -174,7 +181,7 @@ def _collect(
     if name in trail:
         circle = " -> ".join([*trail[trail.index(name) :], name])
         raise InputError(f"{at}: the field {field.name!r} makes a message contain itself: {circle}")
-    if name in found:
+    if name in collected:
         return
     interface = definitions.find(name)
     if interface is None:
@@ -182,6 +189,6 @@ def _collect(
             interface = definitions.resolve(name)
         except InputError as error:
             raise InputError(f"{at}: the field {field.name!r} cannot be filled: {error}") from error
-    found[name] = interface
+    collected[name] = interface
     for part in interface.fields:
-        _collect(part, interface, [*trail, name], found, definitions)
+        _collect(part, interface, [*trail, name], collected, definitions)

@@ -99,12 +99,14 @@ def _words_of_part(types: Types) -> Recipe | None:
     if len(parts) != 1 or parts[0].type.is_primitive or parts[0].type.is_array:
         return None
     part, name = parts[0].type.full_name, parts[0].name
-    found = recipe.find(part)
-    if found is None:
+    part_recipe = recipe.find(part)
+    if part_recipe is None:
         return None
-    return found._replace(
-        log=joined(re.sub(r"\bmsg\.", f"msg.{name}.", found.log).split(", ")),
-        checks=tuple(re.sub(r"\bmessage\.", f"message.{name}.", check) for check in found.checks),
+    return part_recipe._replace(
+        log=joined(re.sub(r"\bmsg\.", f"msg.{name}.", part_recipe.log).split(", ")),
+        checks=tuple(
+            re.sub(r"\bmessage\.", f"message.{name}.", check) for check in part_recipe.checks
+        ),
     )
 
 

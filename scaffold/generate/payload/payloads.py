@@ -32,7 +32,7 @@ class Payload(NamedTuple):
     """The inside of an f-string in single quotes, such as ``{msg.data}``; short for large
     messages, and without braces only for empty ones."""
     says: str
-    """What the message holds, without an article's capital and without a full stop."""
+    """What the message holds, without an article's capital and without a period."""
     checks: tuple[str, ...]
     """Python expressions that are true of every received ``message``."""
     is_stamped: bool
@@ -79,7 +79,7 @@ class Payload(NamedTuple):
         return effects.of_statements(self.statements, "msg")
 
     def processed(self, published: Payload) -> Process | None:
-        """Return how messages of another type are made of these; ``None`` if nobody knows."""
+        """Return how messages of another type are made of these; ``None`` if none is known."""
         return processing.of_pair(self, published)
 
     @property

@@ -58,9 +58,9 @@ class Process(NamedTuple):
 
 
 def of_pair(received: Payload, published: Payload) -> Process | None:
-    """Return how messages of one type are made of those of another; ``None`` if nobody knows."""
-    known = PROCESSES.get((_short(received.type), _short(published.type)))
-    return known or _of_values(received, published)
+    """Return how messages of one type are made of those of another; ``None`` if none is known."""
+    process = PROCESSES.get((_short(received.type), _short(published.type)))
+    return process or _of_values(received, published)
 
 
 def _short(full_name: str) -> str:

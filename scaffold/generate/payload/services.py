@@ -15,17 +15,23 @@ def of_service(text: str, interfaces: Definitions) -> ServicePayload:
     """
     types = lookup.find(text, "srv", interfaces)
     own = types.interface
-    found = recipe.find_service(own.full_name)
-    if found is None:
+    known_recipe = recipe.find_service(own.full_name)
+    if known_recipe is None:
         request = section.asked(types, own.request)
         response = section.answered(types, own.response, [own.request])
         says = f"answers {own.name} requests"
     else:
-        request = section.by_recipe(types, own.request, found.request, found.request_log)
-        response = section.by_recipe(
-            types, own.response, found.response, found.response_log, found.checks
+        request = section.by_recipe(
+            types, own.request, known_recipe.request, known_recipe.request_log
         )
-        says = found.says
+        response = section.by_recipe(
+            types,
+            own.response,
+            known_recipe.response,
+            known_recipe.response_log,
+            known_recipe.checks,
+        )
+        says = known_recipe.says
     return ServicePayload(
         own.package, types.own_name, says, request, response, service=types.own_alias
     )

@@ -92,40 +92,40 @@ class Walk:
     def message(self, block: Block, full_name: str, target: str) -> None:
         """Add statements that fill a message."""
         section = self._types.message(full_name)
-        found = recipe.find(full_name)
+        known_recipe = recipe.find(full_name)
         if full_name == TIME and target != self._root:
             block.add(f"{target} = {NOW}")
             self._show(f"{target}.sec", "", " s", last=True)
             self._expect(f"{target}.sec", "{} > 0")
         elif full_name == HEADER and target != self._root:
             self._header(block, target)
-        elif found is not None:
+        elif known_recipe is not None:
             header = section.field("header")
             if header is not None and header.type.full_name == HEADER:
-                self._header(block, f"{target}.header", has_frame=bool(found.frame))
-            code = self._types.renamed(self._with_constants(found, target), full_name)
-            block.embed(code, _near(block, target, code))
-            self._frames.append(found.frame)
-            checks = tuple(self._types.renamed(check, full_name) for check in found.checks)
-            self._judge(found._replace(checks=checks), target)
+                self._header(block, f"{target}.header", has_frame=bool(known_recipe.frame))
+            code = self._types.renamed(self._with_constants(known_recipe, target), full_name)
+            block.embed(code, _local_name(block, target, code))
+            self._frames.append(known_recipe.frame)
+            checks = tuple(self._types.renamed(check, full_name) for check in known_recipe.checks)
+            self._judge(known_recipe._replace(checks=checks), target)
         else:
             self.fill(block, section, self._types.class_name(full_name), target)
 
-    def _judge(self, found: Recipe, target: str) -> None:
+    def _judge(self, known_recipe: Recipe, target: str) -> None:
         """Take the words of a recipe over for the root."""
         if self._is_root(target):
-            if found.log:
-                self._spare.append(re.sub(r"\bmsg\.", f"{target}.", found.log))
-            for check in found.checks[:1]:
+            if known_recipe.log:
+                self._spare.append(re.sub(r"\bmsg\.", f"{target}.", known_recipe.log))
+            for check in known_recipe.checks[:1]:
                 self.checks.append(re.sub(r"\bmessage\.", f"{target}.", check))
 
-    def _with_constants(self, found: Recipe, target: str) -> str:
+    def _with_constants(self, known_recipe: Recipe, target: str) -> str:
         """Return the code of a recipe whose constants are defined.
 
         A constant of a name that means something else gets the name of the target before it.
         """
-        code = found.code
-        for line in dedent(found.constants).strip().splitlines():
+        code = known_recipe.code
+        for line in dedent(known_recipe.constants).strip().splitlines():
             name, _, value = line.partition(" = ")
             if self._constants.setdefault(name, value) != value:
                 new = f"{target.rpartition('.')[2].upper()}_{name}"
@@ -169,7 +169,7 @@ class Walk:
             self._nested(block, field, target)
         elif options := enums.constants_of(section, field):
             value = self._enum(block, field, options, owner)
-            block.add(f"{target} = {value}", said(field, ""))
+            block.add(f"{target} = {value}", comment_of(field, ""))
             if COUNT in value:
                 self._show(target, "")
             elif owner.partition(".")[0] == self._types.own_name:
@@ -181,7 +181,9 @@ class Walk:
         quantity = words.quantity(field.name)
         if field.type.full_name == VECTOR and quantity is not words.NUMBER:
             for axis in "xy":
-                block.add(f"{target}.{axis} = {quantity.expression}", said(field, quantity.unit))
+                block.add(
+                    f"{target}.{axis} = {quantity.expression}", comment_of(field, quantity.unit)
+                )
             self._expect(f"{target}.x", quantity.check("{}"))
             self._show(f"{target}.x", ":.2f")
         elif wrapped := self._wrapped(field):
@@ -209,7 +211,7 @@ class Walk:
         name, type_ = field.name, field.type
         if type_.name in FLOATS:
             quantity = words.quantity(name)
-            block.add(f"{target} = {quantity.expression}", said(field, quantity.unit))
+            block.add(f"{target} = {quantity.expression}", comment_of(field, quantity.unit))
             self._expect(target, quantity.check("{}"))
             self._show(target, ":.2f" if quantity.swing >= _COARSE else "")
             return
@@ -224,7 +226,7 @@ class Walk:
                 value += words.per_unit(name, field.comment)
         else:
             value = self._text(name, type_)
-        block.add(f"{target} = {value}", said(field, ""))
+        block.add(f"{target} = {value}", comment_of(field, ""))
         if COUNT in value:
             self._show(target, "")
             if type_.name in TEXTS:
@@ -272,7 +274,7 @@ class Walk:
             block.add(f"{target}[::{_DIAGONALS[size]}] = 0.01", "the diagonal")
         else:
             value, unit = self._elements(field, size)
-            block.add(f"{target} = {value}", said(field, unit))
+            block.add(f"{target} = {value}", comment_of(field, unit))
         if type_.array_size is None or type_.is_upper_bound or not type_.is_primitive:
             self._expect(target, f"len({{}}) == {size}")
         self._show(f"len({target})", "", f" {words.phrase(field.name)}", last=True)
@@ -323,7 +325,7 @@ class Walk:
         body.add(f"{target}.append({name})")
 
 
-def _near(block: Block, target: str, code: str) -> str:
+def _local_name(block: Block, target: str, code: str) -> str:
     """Return a local name for what lies deep in the root, if the code mentions it often."""
     owner, _, name = target.rpartition(".")
     lines = [line.strip() for line in code.splitlines()]
@@ -360,14 +362,14 @@ def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field
             return 2 if field.type.is_array else 1
         if field.type.is_array:
             return 1
-        known = words.quantity(field.name) is not words.NUMBER
-        return 0 if known or enums.constants_of(section, field) else 1
+        is_quantity = words.quantity(field.name) is not words.NUMBER
+        return 0 if is_quantity or enums.constants_of(section, field) else 1
 
     chosen = sorted(fields, key=rank)[:count]
     return [field for field in fields if field in chosen]
 
 
-def said(field: Field, unit: str) -> str:
+def comment_of(field: Field, unit: str) -> str:
     """Return the comment for a field: what its definition says in a few words, or the unit."""
     own = " ".join(field.comment.split())
     if own and len(own) <= _SHORT and own.isascii() and own.isprintable() and "noqa" not in own:

@@ -118,9 +118,9 @@ def quantity(name: str) -> Quantity:
     """Return what a number of this name probably is."""
     if name == "rate":
         return _HERTZ
-    found = next((_QUANTITIES[key] for key in _keys(name) if key in _QUANTITIES), NUMBER)
+    best = next((_QUANTITIES[key] for key in _keys(name) if key in _QUANTITIES), NUMBER)
     unit = _SUFFIXES.get(split(name)[-1]) if "_" in name else None
-    return found._replace(unit=unit) if unit else found
+    return best._replace(unit=unit) if unit else best
 
 
 def _keys(name: str) -> Iterator[str]:
@@ -231,9 +231,9 @@ _PER_UNIT = {"us|microsec[a-z]*": "1000", "ms|millisec[a-z]*": "1_000_000"}
 
 def per_unit(name: str, comment: str) -> str:
     """Return what divides nanoseconds, as the name or the comment of a timestamp tells."""
-    said = f"{name} {comment.lower()}".replace("_", " ")
+    words = f"{name} {comment.lower()}".replace("_", " ")
     for unit, nanoseconds in _PER_UNIT.items():
-        if re.search(rf"\b({unit})\b", said):
+        if re.search(rf"\b({unit})\b", words):
             return f" // {nanoseconds}"
     return ""
 

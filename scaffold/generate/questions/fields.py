@@ -75,10 +75,10 @@ def refuse_turning(text: str) -> None:
     Raises:
         InputError: with the character.
     """
-    found = next((item for item in text if item in _TURNING), None)
-    if found is not None:
+    character = next((item for item in text if item in _TURNING), None)
+    if character is not None:
         raise InputError(
-            f"contains the character U+{ord(found):04X}, which changes the direction of text"
+            f"contains the character U+{ord(character):04X}, which changes the direction of text"
         )
 
 
@@ -101,11 +101,11 @@ def _refuse_large(type_: FieldType, line: str) -> None:
             raise InputError(f"{line!r}: {number} is too large; the limit is {_MOST}")
 
 
-def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
+def refuse_missing(wanted: Fields, messages: Iterable[str]) -> None:
     """Raise if the package does not define a type that it uses.
 
     Args:
-        found: Fields of one of its interfaces.
+        wanted: Fields of one of its interfaces.
         messages: The names of its messages.
 
     Raises:
@@ -113,9 +113,9 @@ def refuse_missing(found: Fields, messages: Iterable[str]) -> None:
     """
     from scaffold.generate import payload
 
-    known = set(messages)
-    for name in found.own_types:
-        if name not in known:
+    defined = set(messages)
+    for name in wanted.own_types:
+        if name not in defined:
             others = [item for item in payload.definitions().matches(name) if "/msg/" in item]
             hint = f"; did you mean {' or '.join(others[:3])}?" if others else ""
             raise InputError(f"the package has no message {name!r} to use as a type{hint}")

@@ -185,10 +185,10 @@ def _is_depth(word: str) -> bool:
 
 
 def _unknown(text: str, word: str) -> str:
-    known = [*NAMES, *_KEY_OF, *_KEYS]
+    words = [*NAMES, *_KEY_OF, *_KEYS]
     wanted = word.partition("=")[0].strip().lower().replace("-", "_")
-    near = get_close_matches(wanted, known, n=2, cutoff=0.7)
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    closest = get_close_matches(wanted, words, n=2, cutoff=0.7)
+    hint = f"; did you mean {' or '.join(closest)}?" if closest else ""
     if "," in text or "=" in text:
         return (
             f"the quality of service {text!r} has the unknown setting {word!r}; the settings are "

@@ -1,4 +1,4 @@
-"""From flags, an answers file and the user's configuration to answers.
+"""Collects answers from flags, an answers file and the user's configuration.
 
 The flags are the questions of all templates. Of the sources of an answer the first that has one
 wins: flag, answers file, configuration, the default of the template, the user (git, login).
@@ -132,10 +132,10 @@ def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Se
     """Return the completer of ``--add``: kinds, and after a name questions and answers."""
 
     def offer(prefix: str, **_: object) -> list[str]:
-        before, blank, word = prefix.rpartition(" ")
+        before, space, word = prefix.rpartition(" ")
         asked = kinds.get(before.partition(":")[0], ())
         name, equals, answer = word.partition("=")
-        if not blank:
+        if not space:
             return [f"{kind}:" for kind in kinds]
         if not equals:
             return [f"{before} {item.name}=" for item in asked if not item.name.endswith("_name")]
@@ -186,13 +186,13 @@ def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> d
     Raises:
         InputError: a key is not a question.
     """
-    known = {question.name for question in questions}
+    names = {question.name for question in questions}
     result: dict[str, Given] = {}
     for key, given in entries.items():
         name = key.replace("-", "_")
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else "see `ros2-scaffold new --help`"
+        if name not in names:
+            closest = get_close_matches(name, names, n=1)
+            hint = f"did you mean {closest[0]}?" if closest else "see `ros2-scaffold new --help`"
             raise InputError(f"{given.origin}: {key!r} is not a question of the templates; {hint}")
         if given.value is not None:
             result[name] = Given(given.value, f"{given.origin}: {key}")
@@ -211,7 +211,7 @@ def resolve(
     questions: Sequence[Question],
     given: Mapping[str, Given],
     *,
-    known: Mapping[str, Any],
+    context: Mapping[str, Any],
     render: Callable[[str, Mapping[str, Any]], str],
     fallback: Callable[[str], Given | None],
     where: str = ".",
@@ -222,8 +222,8 @@ def resolve(
 
     Args:
         questions: Of the chosen templates.
-        given: What the user said, the winning source of each.
-        known: What defaults may use besides the answers.
+        given: What the user wrote, from the winning source of each.
+        context: What defaults may use besides the answers.
         render: Renders a Jinja text over answers.
         fallback: Finds an answer for a question without a default, by its name.
         where: The directory that the package is in.
@@ -233,11 +233,11 @@ def resolve(
     """
     answers = Answers({}, {})
 
-    def add(question: Question, found: Given) -> None:
-        value = answers.values[question.name] = parse(question, found, where)
+    def add(question: Question, answer: Given) -> None:
+        value = answers.values[question.name] = parse(question, answer, where)
         is_list = question.type == SEVERAL and question.choices
-        is_derived_rate = question.type == "rate" and found.origin == "default"
-        written = value if is_derived_rate else found.value
+        is_derived_rate = question.type == "rate" and answer.origin == "default"
+        written = value if is_derived_rate else answer.value
         answers.written[question.name] = [*value] if is_list else written
 
     later = [item for item in questions if item.name not in given and is_derived(item.default)]
@@ -247,7 +247,7 @@ def resolve(
     while later:
         question = _independent(later)
         later.remove(question)
-        text = render(question.default, {**known, **answers.values})
+        text = render(question.default, {**context, **answers.values})
         add(question, Given(text, "default"))
     names = [question.name for question in questions]
     return Answers(
@@ -317,10 +317,10 @@ def choose(given: object, choices: Sequence[str], origin: str) -> str:
 def _no_choice(word: str, choices: Sequence[str]) -> str:
     """Name the choices, and those that the word probably means."""
     by_lower = {choice.lower(): choice for choice in choices}
-    near = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
-    if not near and len(word) >= _TELLING:
-        near = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
-    hint = f"; did you mean {' or '.join(by_lower[item] for item in near)}?" if near else ""
+    closest = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
+    if not closest and len(word) >= _TELLING:
+        closest = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
+    hint = f"; did you mean {' or '.join(by_lower[item] for item in closest)}?" if closest else ""
     return f"{word!r} is not one of {', '.join(choices)}{hint}"
 
 

@@ -17,7 +17,7 @@ _MOST = 500
 class Compiled(BytecodeCache):
     """Keeps the code of templates; Jinja itself sees whether it belongs to their text.
 
-    A cache that cannot be read or written is as good as none.
+    A cache that cannot be read or written is ignored.
 
     Args:
         form: Templates of one text and different code need different forms.

@@ -99,7 +99,7 @@ class LocalEngine:
         """
         if "{" not in source:
             return source
-        with _Told(source):
+        with _TemplateErrors(source):
             return self._plain.get_template(self._loader.named(source)).render(context)
 
     def file(self, name: str, context: Mapping[str, Any]) -> str:
@@ -109,7 +109,7 @@ class LocalEngine:
             ContentError: it cannot be rendered.
         """
         jinja = self._xml if name.removesuffix(ENDING).endswith(".xml") else self._plain
-        with _Told(name):
+        with _TemplateErrors(name):
             return jinja.get_template(name).render(context)
 
     def _imports(self, lines: Iterable[str]) -> str:
@@ -119,7 +119,7 @@ class LocalEngine:
 
 
 class _Loader(BaseLoader):
-    """Finds ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners.
+    """Loads ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners.
 
     A short text is a template, too, so that it is kept compiled, as the files are.
     """
@@ -180,7 +180,7 @@ def _learner_line(match: re.Match[str]) -> str:
     return f"{indent}{mark} {words}" if words else ""
 
 
-class _Told:
+class _TemplateErrors:
     """Turns what Jinja raises into one line for the author of the template."""
 
     def __init__(self, where: str) -> None:

@@ -63,7 +63,7 @@ class ForeignEngine:
         return str(self._ask("file", name, context))
 
     def _ask(self, *request: object) -> object:
-        """Let the process do something, and return what it says.
+        """Send a request to the process, and return its answer.
 
         Raises:
             ContentError: the template is at fault, or the process has died of it.

@@ -173,15 +173,18 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
         for name, directory in _overrides(root, places):
             overrides[name].append(directory)
     manifests = _manifests([places[name][0] for name in sorted(places)])
-    found = {
+    templates = {
         name: _load_one(name, *places[name], manifest)._replace(overrides=overrides[name])
         for name, manifest in zip(sorted(places), manifests, strict=True)
     }
-    if found[BASE].role is not Role.PACKAGE if BASE in found else True:
+    if templates[BASE].role is not Role.PACKAGE if BASE in templates else True:
         raise ContentError(f"no template {BASE!r} for every package in {', '.join(roots)}")
-    _refuse_ambiguous_questions(found)
-    known = licenses.names(roots)
-    return {name: _with_choices(template, found, known) for name, template in found.items()}
+    _refuse_ambiguous_questions(templates)
+    license_names = licenses.names(roots)
+    return {
+        name: _with_choices(template, templates, license_names)
+        for name, template in templates.items()
+    }
 
 
 def of_role(templates: Mapping[str, Template], role: Role) -> tuple[str, ...]:
@@ -385,7 +388,7 @@ def _with_choices(
 
 
 def _refuse_ambiguous_questions(templates: Mapping[str, Template]) -> None:
-    """Two kinds of nodes may share a flag, but it means one type and looks the same."""
+    """Raise if templates that share a question do not give it the same type and choices."""
     seen: dict[str, tuple[Question, str]] = {}
     for template in templates.values():
         for question in template.questions:

@@ -289,8 +289,14 @@ def _depth(value: object) -> int:
         if any(isinstance(item, tuple) for item in level):
             return _MOST_DEEP + 1
         inner: list[object] = []
-        for one in level:
-            inner += one.values() if isinstance(one, dict) else one if isinstance(one, list) else ()
+        for element in level:
+            inner += (
+                element.values()
+                if isinstance(element, dict)
+                else element
+                if isinstance(element, list)
+                else ()
+            )
         depth, level = depth + 1, inner
     return depth
 

@@ -130,10 +130,10 @@ def recorded(
 ) -> dict[str, Given]:
     """Return the recorded answers that the templates of today still ask for."""
     origin = f"{where}/{NAME}"
-    known = {question.name for question in questions.unique(templates.values())}
+    names = {question.name for question in questions.unique(templates.values())}
     given: dict[str, Given] = {}
     for name, value in provenance.answers.items():
-        if name in known:
+        if name in names:
             given[name] = Given(value, f"{origin}: {name}")
         else:
             remarks.append(f"the templates no longer ask for {name}")
@@ -153,9 +153,9 @@ def _known_part(
             f"{origin}: made with the template {part.get(KIND)!r}, which does not exist here; "
             "--content names the directory of a team's templates"
         )
-    known = {KIND, *(question.name for question in template.questions)}
-    remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in known]
-    return {name: value for name, value in part.items() if name in known}
+    names = {KIND, *(question.name for question in template.questions)}
+    remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in names]
+    return {name: value for name, value in part.items() if name in names}
 
 
 def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict[str, bytes]:
@@ -207,11 +207,11 @@ def _merged(
                 remarks.append(f"{path} changed in the templates; you have removed it")
             continue
         yours = present[path]
-        found = merge(yours, (before or "").encode(), now) if yours != now else None
-        if found is not None and found.content != yours:
-            files[path] = found.content
-            if found.conflicts:
-                conflicts[path] = found.conflicts
+        merged = merge(yours, (before or "").encode(), now) if yours != now else None
+        if merged is not None and merged.content != yours:
+            files[path] = merged.content
+            if merged.conflicts:
+                conflicts[path] = merged.conflicts
     remarks += [
         f"{path} is no longer in the templates; remove it if you do not need it"
         for path in [*provenance.rendered, *provenance.lost]

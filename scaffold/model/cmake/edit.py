@@ -133,7 +133,7 @@ def append_arguments(
     added = [value if raw else quote(value) for value in values]
     if not indent.strip() and start > command.start:
         text = "".join(f"{source.newline}{indent}{value}" for value in added)
-        at = _behind_comment(lists, last.end)
+        at = _after_comment(lists, last.end)
     else:
         text = "".join(f" {value}" for value in added)
         at = last.end
@@ -329,8 +329,8 @@ def _block_above(lists: CMakeLists, command: Command, block: str) -> Edits:
     newline = lists.source.newline
     at = _above_comments(lists, command)
     before = lists.source.text[_line_start(lists, at - 1) : at] if at else ""
-    blank = newline if before.strip() else ""
-    return (Edit(lists.source.path, at, at, f"{blank}{block}{newline}{newline}"),)
+    separator = newline if before.strip() else ""
+    return (Edit(lists.source.path, at, at, f"{separator}{block}{newline}{newline}"),)
 
 
 def _above_comments(lists: CMakeLists, command: Command) -> int:
@@ -358,7 +358,7 @@ def _insert_line_after(lists: CMakeLists, command: Command, line: str) -> Edits:
     return (Edit(source.path, at, at, f"{source.newline}{line}"),)
 
 
-def _behind_comment(lists: CMakeLists, at: int) -> int:
+def _after_comment(lists: CMakeLists, at: int) -> int:
     """Return the end of the comment that follows on the same line, if one does."""
     text = lists.source.text
     end = text.find("\n", at)

@@ -1,6 +1,6 @@
 r"""CMakeLists.txt as tokens: the same ones that CMake's own lexer makes.
 
-The grammar, in words: an unquoted argument ends at a blank, a parenthesis, ``#`` or ``"``; inside
+The grammar, in words: an unquoted argument ends at a space, a parenthesis, ``#`` or ``"``; inside
 of one, ``$(X)`` and ``a"b c"`` are kept together (the legacy forms); ``\`` takes the next character
 along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` precedes it.
 """
@@ -216,9 +216,9 @@ def _legacy_end(text: str, at: int) -> int:
     """Return where one piece of an unquoted argument ends."""
     run = _RUN.match(text, at)
     if run is not None:
-        return _behind_make_variable(text, run.end())
+        return _after_make_variable(text, run.end())
     if text.startswith("\\", at):
-        return _behind_escape(text, at)
+        return _after_escape(text, at)
     return _legacy_quoted_end(text, at) if text.startswith('"', at) else at
 
 
@@ -228,18 +228,18 @@ def _legacy_quoted_end(text: str, start: int) -> int:
     while at < len(text):
         run = _QUOTED_RUN.match(text, at)
         if run is not None:
-            behind = _behind_make_variable(text, run.end())
+            behind = _after_make_variable(text, run.end())
         elif text[at] == '"':
             return at + 1
         else:
-            behind = _behind_escape(text, at) if text[at] == "\\" else at
+            behind = _after_escape(text, at) if text[at] == "\\" else at
         if behind == at:
             break
         at = behind
     return start
 
 
-def _behind_make_variable(text: str, at: int) -> int:
+def _after_make_variable(text: str, at: int) -> int:
     r"""Return the offset after ``$(X)`` when ``(`` at the offset belongs to one.
 
     The ``$`` is the last character of a run, so no ``\`` precedes it.
@@ -250,7 +250,7 @@ def _behind_make_variable(text: str, at: int) -> int:
     return match.end() if match else at
 
 
-def _behind_escape(text: str, at: int) -> int:
+def _after_escape(text: str, at: int) -> int:
     r"""Return the offset after ``\`` and its character; the offset itself at a line's end."""
     following = text[at + 1 : at + 2]
     if following in {"", "\n", "\0"} or text.startswith("\r\n", at + 1):

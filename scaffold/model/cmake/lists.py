@@ -153,8 +153,8 @@ class CMakeLists:
     @property
     def project(self) -> Command | None:
         """The first call of ``project``."""
-        found = self.find("project")
-        return found[0] if found else None
+        calls = self.find("project")
+        return calls[0] if calls else None
 
     @cached_property
     def project_name(self) -> str | None:
@@ -191,12 +191,12 @@ class CMakeLists:
             The value; the root of the package is ``.``. ``None`` when anything is not known.
         """
         if isinstance(value, str):
-            found = self._variables.evaluate(value, at, bindings)
+            expanded = self._variables.evaluate(value, at, bindings)
         elif value.bracket:
-            found = value.text
+            expanded = value.text
         else:
-            found = self._variables.evaluate(value.text, at, bindings)
-        return None if found is None else _shown(found)
+            expanded = self._variables.evaluate(value.text, at, bindings)
+        return None if expanded is None else _shown(expanded)
 
     def expand_list(
         self,

@@ -339,7 +339,7 @@ class _Parser:
                 if self.recovering and self._command_follows(at + 1):
                     break
             elif (joined == "bracket" and kind in _WORDS) or (joined and kind == "bracket"):
-                self._complain(at, "a blank expected before this argument")
+                self._complain(at, "a space expected before this argument")
             joined = _JOINED.get(kind, joined)
             at += 1
         self._unclosed(command, first, at)

@@ -18,7 +18,7 @@ _WITH_VALUES = frozenset({"DEPENDENCIES", "LIBRARY_NAME"})
 
 
 class Listed(NamedTuple):
-    """A file that is handed over."""
+    """A file that is passed to the call."""
 
     path: str
     """Relative to the package."""

@@ -1,4 +1,4 @@
-"""The values of variables of a CMakeLists.txt, as far as the file itself says them for sure."""
+"""The values of variables of a CMakeLists.txt, as far as the file itself determines them."""
 
 from __future__ import annotations
 
@@ -145,11 +145,11 @@ class Variables:
             longer: list[dict[str, str]] = []
             for bindings in combinations:
                 self._turns -= len(loop.arguments)
-                found = self._loop(loop, bindings) if self._turns > 0 else None
-                if found is None:
+                turns = self._loop(loop, bindings) if self._turns > 0 else None
+                if turns is None:
                     return None
-                self._turns -= len(found[1])
-                longer.extend({**bindings, found[0]: value} for value in found[1])
+                self._turns -= len(turns[1])
+                longer.extend({**bindings, turns[0]: value} for value in turns[1])
             combinations = longer
         return iter(combinations)
 
@@ -172,12 +172,12 @@ class Variables:
                 return None
             if mode == "LISTS":
                 value = self._value(argument.value, loop, bindings)
-                found = None if value is None else split_list(value)
+                parts = None if value is None else split_list(value)
             else:
-                found = self.argument(argument, loop, bindings)
-            if found is None:
+                parts = self.argument(argument, loop, bindings)
+            if parts is None:
                 return None
-            values.extend(found)
+            values.extend(parts)
         return variable, values
 
     def _value(self, name: str, at: Command | None, bindings: Mapping[str, str]) -> str | None:
@@ -256,8 +256,8 @@ class Variables:
             argument.text if argument.bracket else self.evaluate(argument.text, at, {})
             for argument in arguments
         ]
-        known = [value for value in values if value is not None]
-        return ";".join(known) if len(known) == len(values) else None
+        parts = [value for value in values if value is not None]
+        return ";".join(parts) if len(parts) == len(values) else None
 
     def _forget(self, command: Command, arguments: Iterable[Argument]) -> None:
         """Take a variable for unknown that a command may have written to."""

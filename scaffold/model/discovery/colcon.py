@@ -79,12 +79,12 @@ def sources_around(disk: Disk, directory: str) -> str | None:
         disk: Records what was accessed.
         directory: An absolute path without links.
     """
-    found = [upward for upward in _upwards(directory) if os.path.basename(upward) == SOURCES]
-    for sources in found if len(found) > 1 else ():
+    candidates = [upward for upward in _upwards(directory) if os.path.basename(upward) == SOURCES]
+    for sources in candidates if len(candidates) > 1 else ():
         top = os.path.dirname(sources)
         if any(disk.is_directory(os.path.join(top, result)) for result in _RESULTS):
             return sources
-    return found[0] if found else None
+    return candidates[0] if candidates else None
 
 
 def sources_at(disk: Disk, directory: str) -> str | None:
@@ -116,11 +116,11 @@ def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
         return package_directories(disk, sources)
     around = package_around(disk, directory)
     beside = os.path.dirname(around) if around is not None else directory
-    found = packages_in(disk, beside, most=most)
+    directories = packages_in(disk, beside, most=most)
     top = repository_around(disk, directory)
     if top is not None:
-        found += package_directories(disk, top, most=most)
-    return sorted({*found})
+        directories += package_directories(disk, top, most=most)
+    return sorted({*directories})
 
 
 def packages_in(disk: Disk, directory: str, *, most: int) -> list[str]:

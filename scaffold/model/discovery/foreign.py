@@ -52,7 +52,7 @@ class Foreign:
         self._around: dict[str, tuple[str, str]] = {}
         self.packages: list[str] = []
         """What makes each of the packages foreign that are skipped."""
-        self._known: dict[tuple[str, bool], str] = {}
+        self._kinds: dict[tuple[str, bool], str] = {}
         self._named: dict[tuple[str, bool], bool] = {}
         self._repositories: dict[str, str] = {}
         self._submodules: dict[str, frozenset[str]] = {}
@@ -77,8 +77,8 @@ class Foreign:
     def name(self, paths: Iterable[str]) -> None:
         """Learn which paths, without links, the user names: what is above them does not count."""
         self._given.update(paths)
-        for known in (self._around, self._known, self._named):
-            known.clear()
+        for cache in (self._around, self._kinds, self._named):
+            cache.clear()
 
     def _kind_around(self, disk: Disk, directory: str) -> tuple[str, str]:
         """Return what the user named at or above a directory, and what makes it foreign."""
@@ -98,9 +98,9 @@ class Foreign:
 
     def _own_kind(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
         key = path, is_directory
-        if key not in self._known:
-            self._known[key] = self._judge(disk, path, top, is_directory=is_directory)
-        return self._known[key]
+        if key not in self._kinds:
+            self._kinds[key] = self._judge(disk, path, top, is_directory=is_directory)
+        return self._kinds[key]
 
     def _judge(self, disk: Disk, path: str, top: str, *, is_directory: bool) -> str:
         name = os.path.basename(path)
@@ -175,8 +175,8 @@ class Foreign:
             if disk.exists(os.path.join(directory, ".git")):
                 self._repositories[directory] = directory
             else:
-                found = "" if parent == directory else self._repository_of(disk, parent)
-                self._repositories[directory] = found
+                repository = "" if parent == directory else self._repository_of(disk, parent)
+                self._repositories[directory] = repository
         return self._repositories[directory]
 
     def _is_untracked(self, disk: Disk, repository: str, path: str) -> bool:

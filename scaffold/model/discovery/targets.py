@@ -48,7 +48,7 @@ def find(
     are_saved: bool = True,
     whole_packages: bool = False,
     exclusion: Exclusion | None = None,
-    left_out: set[str] | None = None,
+    skipped: set[str] | None = None,
     foreign: Foreign | None = None,
     policy: Policy | None = None,
 ) -> list[Target]:
@@ -61,7 +61,7 @@ def find(
         whole_packages: A file selects its package, if colcon finds that around or below the
             current directory; other files are skipped.
         exclusion: Packages and files to skip; other packages still see these packages.
-        left_out: Gets the packages that are skipped, and the files of ``paths``.
+        skipped: Gets the packages that are skipped, and the files of ``paths``.
         foreign: Tells which packages are not the user's: they are skipped likewise, unless there
             are no others. It learns what the user names.
         policy: What the configuration says that rules have to know.
@@ -82,8 +82,8 @@ def find(
         _set_apart(disk, workspace, whole, excluded, foreign)
     files = [path for path in paths if path not in directories]
     excluded_files = {path for path in files if exclusion and exclusion.covers(disk, path)}
-    if left_out is not None:
-        left_out |= {*by_configuration, *excluded_files}
+    if skipped is not None:
+        skipped |= {*by_configuration, *excluded_files}
     partial, loose = _sort_files(
         disk, [path for path in files if path not in excluded_files], are_saved=are_saved
     )
@@ -228,8 +228,8 @@ def _package_directories(disk: Disk, path: str) -> list[str]:
 
 def _package_of(disk: Disk, path: str) -> str | None:
     """Return the package that a file lies in, as the user would write it."""
-    found = colcon.package_around(disk, os.path.dirname(os.path.abspath(path)))
-    return os.path.relpath(found) if found and not os.path.isabs(path) else found
+    package = colcon.package_around(disk, os.path.dirname(os.path.abspath(path)))
+    return os.path.relpath(package) if package and not os.path.isabs(path) else package
 
 
 def _relative(path: str, root: str) -> str:

@@ -88,6 +88,6 @@ class UncheckedPackages:
 
     def __iter__(self) -> Iterator[Package]:
         for name in self.directories:
-            found = self.get(name)
-            if found is not None:
-                yield found
+            package = self.get(name)
+            if package is not None:
+                yield package

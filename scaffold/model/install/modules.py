@@ -85,7 +85,7 @@ def modules_of(package: Package, root: str) -> list[str]:
     ]
 
 
-def meant_module(package: Package, path: str, name: str) -> str:
+def intended_module(package: Package, path: str, name: str) -> str:
     """Return the module of the package that a name in a file means and that is not on the path."""
     own = path.partition("/")[0]
     if path.count("/") != 1 or not package.has(f"{own}/__init__.py") or is_in_tests(path):
@@ -98,8 +98,8 @@ def meant_module(package: Package, path: str, name: str) -> str:
     if package.build_type == "ament_python":
         return f"{own}.{name}" if _lacks_package(package, path, own, name) else ""
     installed = {program.path: program.destination for program in programs(package)}
-    meant = file_of(package, f"{own}.{name}")
-    if path in installed and meant and meant not in installed:
+    intended = file_of(package, f"{own}.{name}")
+    if path in installed and intended and intended not in installed:
         others = [install for install in package.cmake.installs if install.kind == "FILES"]
         changes_path = b"sys.path" in package.data(path) or bool(others)
         return "" if changes_path else f"{own}.{name}"
@@ -122,8 +122,8 @@ def uninstalled_import(package: Package, where: str, name: str) -> str:
     directory = where.rpartition("/")[0]
     root = name.partition(".")[0]
     path = file_of(package, f"{directory}/{name}".strip("/")) or file_of(package, name)
-    known = {root, path.partition("/")[0]} & _python_packages(package)
-    if not path or known or root in sys.stdlib_module_names or keys_of_module(root):
+    own_names = {root, path.partition("/")[0]} & _python_packages(package)
+    if not path or own_names or root in sys.stdlib_module_names or keys_of_module(root):
         return ""
     return "" if _may_be_installed(package, path) else path
 

@@ -39,10 +39,10 @@ def share_of(package: Package) -> Share:
 def _share(package: Package) -> Share:
     read = {"ament_cmake": _by_cmake, "ament_python": _by_setup}.get(package.build_type)
     try:
-        found = read(package) if read else None
+        share = read(package) if read else None
     except ViewError:
-        found = None
-    return found or Share({}, complete=False)
+        share = None
+    return share or Share({}, complete=False)
 
 
 def _by_setup(package: Package) -> Share | None:

@@ -106,7 +106,7 @@ class Definitions:
     def __init__(self, sources: Sequence[DefinitionSource]) -> None:
         self._sources = sources
         self._packages: dict[str, KnownPackage | None] = {}
-        self._found: dict[str, Interface | None] = {}
+        self._interfaces: dict[str, Interface | None] = {}
 
     @classmethod
     def around(
@@ -132,9 +132,9 @@ class Definitions:
 
         ``None`` when nothing is known about it, its file has problems, or it is IDL.
         """
-        if full_name not in self._found:
-            self._found[full_name] = self._read(full_name)
-        return self._found[full_name]
+        if full_name not in self._interfaces:
+            self._interfaces[full_name] = self._read(full_name)
+        return self._interfaces[full_name]
 
     def _read(self, full_name: str) -> Interface | None:
         parsed = self._parsed(full_name)
@@ -145,8 +145,8 @@ class Definitions:
 
     def _parsed(self, full_name: str) -> tuple[Text, Definition] | None:
         package, kind, name = (*full_name.split("/"), "", "")[:3]
-        known = self._package(package)
-        text = known.text(kind, name) if known is not None and kind in SECTIONS else None
+        source = self._package(package)
+        text = source.text(kind, name) if source is not None and kind in SECTIONS else None
         if text is None or full_name.count("/") != 2:  # noqa: PLR2004  package, kind and name
             return None
         return text, parse(text.source, package, kind, name)
@@ -156,8 +156,8 @@ class Definitions:
 
         ``None`` when the package is not known, or may have more than can be seen.
         """
-        known = self._package(package)
-        return known.names(kind) if known is not None and kind in SECTIONS else None
+        source = self._package(package)
+        return source.names(kind) if source is not None and kind in SECTIONS else None
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of all packages that define interfaces."""
@@ -174,8 +174,8 @@ class Definitions:
 
     def _package(self, name: str) -> KnownPackage | None:
         if name not in self._packages:
-            known = (source.package(name) for source in self._sources)
-            self._packages[name] = next((item for item in known if item is not None), None)
+            packages = (source.package(name) for source in self._sources)
+            self._packages[name] = next((item for item in packages if item is not None), None)
         return self._packages[name]
 
     # -- what users write
@@ -206,9 +206,9 @@ class Definitions:
         """
         matches = self.matches(spelling)
         if not matches:
-            near = self.nearest(spelling)
-            known = "see `ros2-scaffold interfaces`"
-            hint = f"; did you mean {' or '.join(near)}?" if near else f"; {known}"
+            closest = self.nearest(spelling)
+            listing = "see `ros2-scaffold interfaces`"
+            hint = f"; did you mean {' or '.join(closest)}?" if closest else f"; {listing}"
             raise InputError(f"there is no interface {spelling!r}{hint}")
         if len(matches) > 1:
             raise InputError(
@@ -245,7 +245,7 @@ class Definitions:
 
 
 class WatchedDefinitions(Definitions):
-    """The same definitions for somebody of whom is to be known whether they look anything up."""
+    """Definitions that record whether anything was looked up in them."""
 
     def __init__(self, shared: Definitions, tell: Callable[[], None]) -> None:
         super().__init__(())
@@ -275,10 +275,10 @@ def _is_copy(full_name: str) -> bool:
 _ALIKE = 0.7
 _MOST_KNOWN = 300
 _LONGEST = 200
-"""More names, or characters of one, than people write take long to compare."""
+"""Longer words are not compared: it takes long, and people do not write them."""
 _SAME_KIND = 0.1
 _FAR = 0.5
-"""What looks less alike than the best by more than this is not worth naming."""
+"""Suggestions that are less similar than the best one by more than this are dropped."""
 
 
 def _likeness(text: str, other: str) -> float:
@@ -287,15 +287,15 @@ def _likeness(text: str, other: str) -> float:
     return SequenceMatcher(None, text.lower(), other.lower()).ratio()
 
 
-def closest_word(word: str, known: Sequence[str]) -> str:
+def closest_word(word: str, words: Sequence[str]) -> str:
     """Return the end of a message, ``; did you mean ...``; empty if nothing is similar."""
     from difflib import get_close_matches
 
-    if len(known) > _MOST_KNOWN or len(word) > _LONGEST:
+    if len(words) > _MOST_KNOWN or len(word) > _LONGEST:
         return ""
-    lowered = {name.lower(): name for name in reversed(known)}
-    near = get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
-    return f"; did you mean {lowered[near[0]]!r}?" if near else ""
+    lowered = {name.lower(): name for name in reversed(words)}
+    closest = get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
+    return f"; did you mean {lowered[closest[0]]!r}?" if closest else ""
 
 
 def spell(text: str) -> Spelling:

@@ -64,14 +64,14 @@ class WorkspaceSource:
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
-        self._known: dict[str, _WorkspacePackage | None] = {}
+        self._by_name: dict[str, _WorkspacePackage | None] = {}
 
     def package(self, name: str) -> KnownPackage | None:
         """Return a package that defines interfaces."""
-        if name not in self._known:
+        if name not in self._by_name:
             package = self._workspace.get(name)
-            self._known[name] = _WorkspacePackage.of(package) if package is not None else None
-        return self._known[name]
+            self._by_name[name] = _WorkspacePackage.of(package) if package is not None else None
+        return self._by_name[name]
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of the packages."""
@@ -142,13 +142,13 @@ class PrefixSource:
     def __init__(self, prefixes: Sequence[str], disk: Disk | None = None) -> None:
         self._prefixes = prefixes
         self._disk = disk or Disk()
-        self._known: dict[str, _InstalledPackage | None] = {}
+        self._by_name: dict[str, _InstalledPackage | None] = {}
 
     def package(self, name: str) -> KnownPackage | None:
         """Return an installed package that defines interfaces."""
-        if name not in self._known:
-            self._known[name] = next(self._installed(name), None)
-        return self._known[name]
+        if name not in self._by_name:
+            self._by_name[name] = next(self._installed(name), None)
+        return self._by_name[name]
 
     def _installed(self, name: str) -> Iterator[_InstalledPackage]:
         if not name or os.sep in name or name in {".", ".."}:
@@ -204,13 +204,13 @@ class BundleSource:
 
     def __init__(self, path: str = BUNDLE) -> None:
         self._path = path
-        self._known: dict[str, _BundledPackage] = {}
+        self._by_name: dict[str, _BundledPackage] = {}
 
     def package(self, name: str) -> KnownPackage | None:
         """Return a package of the bundle."""
-        if name not in self._known and name in self._chunks:
-            self._known[name] = _BundledPackage(name, self._chunks[name])
-        return self._known.get(name)
+        if name not in self._by_name and name in self._chunks:
+            self._by_name[name] = _BundledPackage(name, self._chunks[name])
+        return self._by_name.get(name)
 
     def packages(self) -> Sequence[str]:
         """Return the sorted names of the packages."""

@@ -95,10 +95,13 @@ def function_of(launch: LaunchFile, node: ast.expr | None) -> FunctionNode | Non
     """Return the function of the file that an expression names."""
     if not isinstance(node, ast.Name):
         return None
-    found = launch.module.functions.get(node.id)
-    if found is None or len(launch.module.index.bindings(launch.module.tree).get(node.id, ())) > 1:
+    function = launch.module.functions.get(node.id)
+    if (
+        function is None
+        or len(launch.module.index.bindings(launch.module.tree).get(node.id, ())) > 1
+    ):
         return None
-    return found.node
+    return function.node
 
 
 def describe(launch: LaunchFile, node: ast.expr) -> str:
@@ -115,8 +118,8 @@ def describe(launch: LaunchFile, node: ast.expr) -> str:
 
 
 def _value_of(launch: LaunchFile, node: ast.Name) -> ast.expr | None:
-    found = launch.module.index.lookup(node.id, node)
-    values = [binding.value for binding in found[1]] if found else []
+    lookup = launch.module.index.lookup(node.id, node)
+    values = [binding.value for binding in lookup[1]] if lookup else []
     return values[0] if len(values) == 1 else None
 
 

@@ -60,13 +60,13 @@ def _calls(launch: LaunchFile, nodes: list[ast.expr]) -> Iterator[LaunchCall]:
             return
 
 
-def later_declarations(launch: LaunchFile, known: list[Step]) -> dict[str, int]:
+def later_declarations(launch: LaunchFile, steps: list[Step]) -> dict[str, int]:
     """Return the positions of the declarations, by name, where all of them are understood."""
     result: dict[str, int] = {}
-    places = {step.action.call: index for index, step in enumerate(known)}
+    places = {step.action.call: index for index, step in enumerate(steps)}
     for name, call in launch.declared.items():
         if "condition" not in call.given:
-            result[name] = places.get(call.call, len(known))
+            result[name] = places.get(call.call, len(steps))
     return result
 
 
@@ -128,7 +128,7 @@ def _reads(launch: LaunchFile, node: ast.expr, depth: int) -> Iterator[LaunchCal
             if is_read and call is not None and "default" not in call.given and not call.is_open:
                 yield call
         elif isinstance(part, ast.Name) and depth < _DEEPEST:
-            found = launch.module.index.lookup(part.id, part)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = launch.module.index.lookup(part.id, part)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             if len(values) == 1 and values[0] is not None:
                 yield from _reads(launch, values[0], depth + 1)

@@ -119,7 +119,7 @@ def _node(path: str, element: _Element) -> MarkupNode:
     ]
     names = [parameter["name"].value for parameter in element.parameters if "name" in parameter]
     is_open = element.has_parameter_files or not _ARGUMENTS.isdisjoint(given)
-    known = None if is_open else frozenset(names)
+    parameter_names = None if is_open else frozenset(names)
     arguments = given.get("args")
     return MarkupNode(
         path,
@@ -129,7 +129,7 @@ def _node(path: str, element: _Element) -> MarkupNode:
         element.location,
         pairs,
         element.remappings,
-        known,
+        parameter_names,
         arguments,
     )
 

@@ -225,8 +225,8 @@ def parameters_given(
     for node in parameter_items(launch, call):
         literal: ast.expr | None = node
         if isinstance(node, ast.Name):
-            found = launch.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = launch.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             literal = values[0] if len(values) == 1 else None
         if isinstance(literal, ast.Dict):
             yield from _given_in(launch, literal, "")
@@ -275,8 +275,8 @@ def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
     """
     values: list[ast.expr] = [node]
     if isinstance(node, ast.Name):
-        found = launch.module.index.lookup(node.id, node)
-        values = [x.value for x in (found[1] if found else ()) if x.value is not None]
+        lookup = launch.module.index.lookup(node.id, node)
+        values = [x.value for x in (lookup[1] if lookup else ()) if x.value is not None]
     return bool(values) and all(
         isinstance(value, ast.Dict)
         and all(isinstance(launch.evaluator.text(key), str) for key in value.keys)

@@ -46,8 +46,8 @@ def _use_of(package: Package, path: str) -> FileUse:
             if installed.get(named, named) == path:
                 result.append(node)
                 passed = passed or is_handed_on
-    known = {node.launch for node in result}
-    return FileUse(result, not passed and not _is_mentioned(package, path, known))
+    launch_files = {node.launch for node in result}
+    return FileUse(result, not passed and not _is_mentioned(package, path, launch_files))
 
 
 def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
@@ -116,19 +116,19 @@ def names_alike(file: ParameterFile, names: set[str], name: str) -> list[str]:
 
 def _is_alike(name: str, other: str) -> bool:
     """Tell whether one name of a node may be meant to be the other."""
-    one, two = name.replace("_", "").lower(), other.replace("_", "").lower()
-    if one == two:
+    first, second = name.replace("_", "").lower(), other.replace("_", "").lower()
+    if first == second:
         return name != other
-    if one in {two + "node", "node" + two} or two in {one + "node", "node" + one}:
+    if first in {second + "node", "node" + second} or second in {first + "node", "node" + first}:
         return True
-    return SequenceMatcher(None, one, two).ratio() >= _ALIKE
+    return SequenceMatcher(None, first, second).ratio() >= _ALIKE
 
 
-def _is_mentioned(package: Package, path: str, known: set[str]) -> bool:
+def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:
     """Tell whether a launch file that is not known to use a parameter file names it."""
     name = path.rpartition("/")[2]
     for other in package.files:
-        if other.endswith(_LAUNCH_ENDINGS) and other not in known and other != "setup.py":
+        if other.endswith(_LAUNCH_ENDINGS) and other not in launch_files and other != "setup.py":
             try:
                 if name in package.source(other).text:
                     return True

@@ -85,20 +85,20 @@ class LaunchEvaluator(Evaluator):
 
     def call(self, node: ast.Call) -> object:
         """Return what a call of launch is worth: a substitution is the text that it gives."""
-        found = launch_call(self.module, node)
-        if found is None:
+        launch = launch_call(self.module, node)
+        if launch is None:
             return self._found_package(node)
         value: object = UNKNOWN
-        match found.kind:
+        match launch.kind:
             case "get_package_share_directory" | "FindPackageShare":
-                value = self._share(next(iter(found.given.values()), None))
+                value = self._share(next(iter(launch.given.values()), None))
             case "get_package_share_path":
-                share = self._share(next(iter(found.given.values()), None))
+                share = self._share(next(iter(launch.given.values()), None))
                 value = PathValue(share) if isinstance(share, str) else UNKNOWN
             case "PathJoinSubstitution":
-                value = self._join(found.given.get("substitutions"))
+                value = self._join(launch.given.get("substitutions"))
             case "TextSubstitution":
-                value = self.text(found.given.get("text"))
+                value = self.text(launch.given.get("text"))
             case "ThisLaunchFileDir":
                 directory = self.module.path.rpartition("/")[0]
                 value = f"{SHARE}{self._package_name}/{directory}".rstrip("/")
@@ -124,8 +124,8 @@ class LaunchEvaluator(Evaluator):
         """Return the value of ``FindPackageShare(...).find('name')``."""
         match node.func:
             case ast.Attribute(value=ast.Call() as holder, attr="find") if node.args:
-                found = launch_call(self.module, holder)
-                if found is not None and found.kind == "FindPackageShare":
+                finder = launch_call(self.module, holder)
+                if finder is not None and finder.kind == "FindPackageShare":
                     return self._share(node.args[0])
         return UNKNOWN
 
@@ -183,8 +183,8 @@ class LaunchFile:
     @cached_property
     def calls(self) -> Sequence[LaunchCall]:
         """All calls of launch, in the order of the text."""
-        found = (launch_call(self.module, call) for call in self.module.walk(ast.Call))
-        calls = [call for call in found if call is not None]
+        views = (launch_call(self.module, call) for call in self.module.walk(ast.Call))
+        calls = [call for call in views if call is not None]
         replaced = self._replaced
         if not replaced:
             return calls
@@ -218,8 +218,8 @@ class LaunchFile:
                 return launch_call(self.module, node)
             if not isinstance(node, ast.Name):
                 return None
-            found = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = self.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             node = values[0] if len(values) == 1 else None
         return None
 
@@ -373,8 +373,8 @@ def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
         return None
     kind = kinds.pop()
     words = {word.arg: word for word in node.keywords if word.arg}
-    known = signature(kind)
-    names = known.positional if known is not None else _POSITIONAL.get(kind, ())
+    parameters = signature(kind)
+    names = parameters.positional if parameters is not None else _POSITIONAL.get(kind, ())
     given: dict[str, ast.expr] = dict(zip(names, node.args, strict=False))
     given.update({name: word.value for name, word in words.items()})
     is_open = len(words) < len(node.keywords)

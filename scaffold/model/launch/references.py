@@ -117,5 +117,5 @@ def meant_package(package: Package, use: Reference) -> Suggestion | None:
     for other in sorted(package.manifest.declared_names):
         if is_near(use.name, other):
             return Suggestion(other, "which package.xml declares")
-    known = similar_package(use.name)
-    return Suggestion(known, "a package of ROS") if known else None
+    package_name = similar_package(use.name)
+    return Suggestion(package_name, "a package of ROS") if package_name else None

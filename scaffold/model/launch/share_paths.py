@@ -53,9 +53,11 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
     call = launch.module.parent(node)
     if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)):
         return False
-    found = launch.module.index.lookup(call.func.id, call.func)
+    lookup = launch.module.index.lookup(call.func.id, call.func)
     made = (
-        [item.value.func for item in found[1] if isinstance(item.value, ast.Call)] if found else []
+        [item.value.func for item in lookup[1] if isinstance(item.value, ast.Call)]
+        if lookup
+        else []
     )
     return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
 
@@ -111,8 +113,8 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         return None  # made from a template
     if is_untracked(owner, path):
         return None  # made on each machine
-    near = get_close_matches(path, files, 1, 0.6)
-    hint = f"; closest: {near[0]}" if near else ""
+    closest = get_close_matches(path, files, 1, 0.6)
+    hint = f"; closest: {closest[0]}" if closest else ""
     return f"{owner.name} has no such file{hint}"
 
 

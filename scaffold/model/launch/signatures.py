@@ -98,9 +98,11 @@ def signature(kind: str) -> Signature | None:
         return None
     first, _, _ = text.partition("/")
     names = [name for name in text.split() if name != "/"]
-    known = {name.rstrip("*") for name in names} | ({"condition"} if kind in _ACTIONS else set())
+    parameters = {name.rstrip("*") for name in names} | (
+        {"condition"} if kind in _ACTIONS else set()
+    )
     return Signature(
         tuple(name.rstrip("*") for name in first.split()),
-        frozenset(known),
+        frozenset(parameters),
         tuple(name[:-1] for name in names if name.endswith("*")),
     )

@@ -48,15 +48,15 @@ def text_uses(launch: LaunchFile) -> Iterator[TextUse]:
     for call in module.walk(ast.Call):
         yield from _in_call(launch, call)
     for part in module.walk(ast.FormattedValue):
-        yield from _one(launch, part.value, "in an f-string")
+        yield from _single(launch, part.value, "in an f-string")
     for comparison in module.walk(ast.Compare):
         yield from _in_comparison(launch, comparison)
     for item in module.walk(ast.Subscript):
         if isinstance(_value_of(launch, item.value), ast.Dict):
-            yield from _one(launch, item.slice, "as a key")
+            yield from _single(launch, item.slice, "as a key")
     for test in truth_tests(module):
         if not _is_reported_as_condition(launch, test):
-            yield from _one(launch, test, CONDITION)
+            yield from _single(launch, test, CONDITION)
 
 
 def truth_tests(module: PythonModule) -> Iterator[ast.expr]:
@@ -83,7 +83,7 @@ def _in_sum(launch: LaunchFile, sum_: ast.BinOp) -> Iterator[TextUse]:
         values = sum_.right.elts if isinstance(sum_.right, ast.Tuple) else [sum_.right]
         if isinstance(sum_.left, ast.JoinedStr) or isinstance(sum_.left.value, str):
             for value in values:
-                yield from _one(launch, value, "in a % format")
+                yield from _single(launch, value, "in a % format")
     for node, other in ((sum_.left, sum_.right), (sum_.right, sum_.left)):
         kind = _kind(launch, node) if isinstance(sum_.op, ast.Add) else ""
         if kind and isinstance(launch.evaluator.evaluate(other), str):
@@ -95,14 +95,14 @@ def _in_call(launch: LaunchFile, call: ast.Call) -> Iterator[TextUse]:
     name = launch.module.qualified_name(call.func)
     if name in _TEXT_FUNCTIONS or (name == "str" and len(call.args) == 1):
         for node in call.args:
-            yield from _one(launch, node, f"in {launch.module.text(call.func)}()")
+            yield from _single(launch, node, f"in {launch.module.text(call.func)}()")
     match call.func:
         case ast.Attribute(value=ast.Constant(value=str()), attr="format"):
             for node in [*call.args, *(word.value for word in call.keywords)]:
-                yield from _one(launch, node, "in format()")
+                yield from _single(launch, node, "in format()")
         case ast.Attribute(value=ast.Constant(value=str()), attr="join"):
             for node in _joined(call):
-                yield from _one(launch, node, "in join()")
+                yield from _single(launch, node, "in join()")
         case ast.Attribute(value=holder, attr=method):
             kind = _kind(launch, holder)
             if kind and method in _METHODS:
@@ -128,7 +128,7 @@ def _in_comparison(launch: LaunchFile, comparison: ast.Compare) -> Iterator[Text
     ):
         return
     for side in sides:
-        yield from _one(launch, side, "in a comparison")
+        yield from _single(launch, side, "in a comparison")
 
 
 def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
@@ -142,7 +142,7 @@ def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
     return False
 
 
-def _one(launch: LaunchFile, node: ast.expr, what: str) -> Iterator[TextUse]:
+def _single(launch: LaunchFile, node: ast.expr, what: str) -> Iterator[TextUse]:
     kind = _kind(launch, node)
     if kind:
         yield TextUse(node, kind, what)
@@ -151,8 +151,8 @@ def _one(launch: LaunchFile, node: ast.expr, what: str) -> Iterator[TextUse]:
 def _value_of(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
     if not isinstance(node, ast.Name):
         return node
-    found = launch.module.index.lookup(node.id, node)
-    values = [binding.value for binding in found[1]] if found else []
+    lookup = launch.module.index.lookup(node.id, node)
+    values = [binding.value for binding in lookup[1]] if lookup else []
     return values[0] if len(values) == 1 else None
 
 
@@ -180,9 +180,9 @@ def failure(launch: LaunchFile, node: ast.expr | None) -> str:
         return f"with the defaults this is {text!r}, which is not a Python expression"
     own = {item.id for item in ast.walk(tree) if isinstance(item, ast.Name) and _is_set(item)}
     own |= {item.arg for item in ast.walk(tree) if isinstance(item, ast.arg)}
-    for one in ast.walk(tree):
-        if isinstance(one, ast.Name) and one.id not in _NAMES | own:
-            return f"with the defaults this is {text!r}: the name {one.id!r} is not defined"
+    for part in ast.walk(tree):
+        if isinstance(part, ast.Name) and part.id not in _NAMES | own:
+            return f"with the defaults this is {text!r}: the name {part.id!r} is not defined"
     return ""
 
 

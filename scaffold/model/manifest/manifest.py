@@ -106,8 +106,8 @@ class Manifest:
 
     def one(self, tag: str) -> Element | None:
         """Return the first element with a tag directly below the root."""
-        found = self._by_tag.get(tag)
-        return found[0] if found else None
+        elements = self._by_tag.get(tag)
+        return elements[0] if elements else None
 
     @cached_property
     def _by_tag(self) -> Mapping[str, list[Element]]:
@@ -220,7 +220,7 @@ class Manifest:
 
     @cached_property
     def declared_names(self) -> set[str]:
-        """Every package that any dependency names, on Jazzy or not."""
+        """The names of all dependencies, whatever their conditions."""
         return {dependency.name for dependency in self.dependencies}
 
     @property

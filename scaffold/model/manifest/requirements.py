@@ -40,14 +40,14 @@ class Requirement(NamedTuple):
 
 
 class Declared(NamedTuple):
-    """What the manifest says is there, directly and along the way."""
+    """The packages that the manifest declares, directly and through dependencies."""
 
     direct: set[str]
     along: set[str]
 
 
 def required_packages(package: Package) -> list[Requirement]:
-    """Return what the package imports from others, once each; what is not known is skipped."""
+    """Return the imports from other packages, once each; unknown modules are skipped."""
     result: dict[str, Requirement] = {}
     local = _local_names(package).union(package.workspace.policy.implicit)
     for path, imports in imports_by_path(package):
@@ -57,15 +57,15 @@ def required_packages(package: Package) -> list[Requirement]:
             keys = _keys(package, item, local)
             if not keys:
                 continue
-            known = result.get(item.root)
+            requirement = result.get(item.root)
             for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
             for_launch = path.endswith("launch.py") or "launch" in path.split("/")[:-1]
-            if known is None or (known.for_tests and not for_tests):
+            if requirement is None or (requirement.for_tests and not for_tests):
                 result[item.root] = Requirement(
                     keys, item.root, item.location, for_tests, for_launch
                 )
-            elif not for_launch and for_tests <= known.for_tests:
-                result[item.root] = known._replace(for_launch=False)
+            elif not for_launch and for_tests <= requirement.for_tests:
+                result[item.root] = requirement._replace(for_launch=False)
     return sorted(result.values(), key=lambda need: need.location)
 
 
@@ -173,9 +173,9 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
         return ()
     if root in sys.stdlib_module_names or root in _OLD_STANDARD_LIBRARY:
         return ()
-    known = keys_of_module(root)
-    if known:
-        return known + _keys_for_pip(known)
+    keys = keys_of_module(root)
+    if keys:
+        return keys + _keys_for_pip(keys)
     names = node.module.split(".")
     if root in ROS1_PACKAGES:
         return ()

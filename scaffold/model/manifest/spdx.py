@@ -72,10 +72,10 @@ def similar_license(text: str) -> str:
     if len(text) < _SHORTEST or spdx_of(text) or text.upper().startswith("AGPL"):
         return ""
     plain = _letters(text)
-    known = sorted({name for names in _SPELLINGS.values() for name in names})
-    if plain in map(_letters, known):
+    identifiers = sorted({name for names in _SPELLINGS.values() for name in names})
+    if plain in map(_letters, identifiers):
         return ""
-    return next((name for name in known if is_one_slip(text, name, digits=False)), "")
+    return next((name for name in identifiers if is_one_slip(text, name, digits=False)), "")
 
 
 def _letters(text: str) -> str:

@@ -81,9 +81,9 @@ class Structure:
     @cached_property
     def unknown(self) -> list[Unknown]:
         """The elements that the format does not have."""
-        found = [] if self.is_manifest else [self.root]
-        found += [child for child in self.children if child.tag not in self.sections]
-        return [Unknown(element, self._since(element.tag)) for element in found[:_MOST_UNKNOWN]]
+        elements = [] if self.is_manifest else [self.root]
+        elements += [child for child in self.children if child.tag not in self.sections]
+        return [Unknown(element, self._since(element.tag)) for element in elements[:_MOST_UNKNOWN]]
 
     def _since(self, tag: str) -> int | None:
         return next((n for n in FORMATS if n > self.format and tag in _sections(n)), None)
@@ -208,8 +208,8 @@ def structure(package: Package) -> Structure:
 
 def collapse(text: str) -> str:
     """Join the spaces of XML, not those of Unicode, as schemas do for every value."""
-    for blank in "\t\r\n":
-        text = text.replace(blank, " ")
+    for character in "\t\r\n":
+        text = text.replace(character, " ")
     return " ".join(word for word in text.split(" ") if word)
 
 

@@ -164,8 +164,8 @@ class ValueTypes:
         return None
 
     def _of_name(self, node: ast.Name) -> str | None:
-        found = self._module.index.lookup(node.id, node)
-        bindings = [item for item in (found[1] if found else ()) if item.kind != "annotation"]
+        lookup = self._module.index.lookup(node.id, node)
+        bindings = [item for item in (lookup[1] if lookup else ()) if item.kind != "annotation"]
         if not bindings or any(b.kind != "assignment" or b.value is None for b in bindings):
             return None
         return self._agreed([b.value for b in bindings if b.value is not None])
@@ -254,7 +254,7 @@ class TypeMismatches:
         """Say what a value is that its field cannot hold; ``None`` if it may well fit."""
         type_, node = item.field.type, item.value
         if not type_.is_array:
-            return self._one(type_, node)
+            return self._single(type_, node)
         kind = self._kinds.of(node)
         if kind in {"int", "float", "bool", "none", "dict"}:
             return f"{self._shown(node)} is {_NAMES[kind]}, not a list"
@@ -307,12 +307,12 @@ class TypeMismatches:
             # rosidl converts the ints of a list of floats.
             if type_.name in FLOATS and self._kinds.of(part) in {"int", "bool"}:
                 continue
-            wrong = None if isinstance(part, ast.Starred) else self._one(type_, part)
+            wrong = None if isinstance(part, ast.Starred) else self._single(type_, part)
             if wrong:
                 return f"element {wrong}"
         return None
 
-    def _one(self, type_: FieldType, node: ast.expr) -> str | None:
+    def _single(self, type_: FieldType, node: ast.expr) -> str | None:
         given = self._types.type_of(node)
         if given is not None:
             fits = given.name == type_.full_name

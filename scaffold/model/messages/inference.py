@@ -77,8 +77,6 @@ class Assigned(NamedTuple):
     owner: MessageClass
     field: Field
     value: ast.expr
-    holder: ast.expr
-    """The message that the field is of: an expression, or the call that makes it."""
 
 
 def message_paths(package: Package) -> Sequence[str]:
@@ -112,7 +110,7 @@ class MessageTypes:
         self.facts = file
         self.module = file.module
         self.definitions = definitions
-        self._known: dict[ast.AST, FieldType | MessageClass | None] = {}
+        self._types: dict[ast.AST, FieldType | MessageClass | None] = {}
         self._classes: dict[ast.expr, MessageClass | None] = {}
         self._depth = 0
 
@@ -174,19 +172,19 @@ class MessageTypes:
 
     def field_type_of(self, node: ast.expr) -> FieldType | None:
         """Return the type of the field that an expression certainly reads."""
-        found = self._type(node)
-        return found if isinstance(found, FieldType) else None
+        type_ = self._type(node)
+        return type_ if isinstance(type_, FieldType) else None
 
     def _type(self, node: ast.expr) -> FieldType | MessageClass | None:
         """Return the message an expression is, or the type of the field it reads."""
-        if node not in self._known:
+        if node not in self._types:
             if self._depth > _DEPTH:
                 return None
-            self._known[node] = None  # ends the recursion of what is assigned to itself
+            self._types[node] = None  # ends the recursion of what is assigned to itself
             self._depth += 1
-            self._known[node] = self._infer(node)
+            self._types[node] = self._infer(node)
             self._depth -= 1
-        return self._known[node]
+        return self._types[node]
 
     def _infer(self, node: ast.expr) -> FieldType | MessageClass | None:
         match node:
@@ -229,15 +227,15 @@ class MessageTypes:
         field = owner.section.field(node.attr)
         return field.type if field else None
 
-    def _element(self, found: FieldType | MessageClass | None) -> FieldType | None:
-        is_array = isinstance(found, FieldType) and found.is_array
-        return found.element if is_array and isinstance(found, FieldType) else None
+    def _element(self, type_: FieldType | MessageClass | None) -> FieldType | None:
+        is_array = isinstance(type_, FieldType) and type_.is_array
+        return type_.element if is_array and isinstance(type_, FieldType) else None
 
     def _type_of_name(self, node: ast.Name) -> FieldType | MessageClass | None:
-        found = self.module.index.lookup(node.id, node)
-        if found is None:
+        lookup = self.module.index.lookup(node.id, node)
+        if lookup is None:
             return None
-        scope, all_bindings = found
+        scope, all_bindings = lookup
         bindings = [binding for binding in all_bindings if binding.kind != "annotation"]
         if len(bindings) > _MOST_BINDINGS or self._is_asked(scope, node.id):
             return None
@@ -273,8 +271,8 @@ class MessageTypes:
         """Return the goal for ``goal_handle.request`` in the callback of an action server."""
         if node.attr != "request" or not isinstance(node.value, ast.Name):
             return None
-        found = self.module.index.lookup(node.value.id, node.value)
-        bindings = found[1] if found else ()
+        lookup = self.module.index.lookup(node.value.id, node.value)
+        bindings = lookup[1] if lookup else ()
         return self._goal_handles.get(bindings[0].node) if len(bindings) == 1 else None
 
     @cached_property
@@ -286,10 +284,10 @@ class MessageTypes:
         """Return the part of an action for ``message.feedback`` and ``future.result().result``."""
         if node.attr not in {"feedback", "result"}:
             return None
-        found = self.action_messages.wrapped(node.value)
-        if found is None or found.field != node.attr:
+        wrapped = self.action_messages.wrapped(node.value)
+        if wrapped is None or wrapped.field != node.attr:
             return None
-        return self._class_of_endpoint(found.client, found.part)
+        return self._class_of_endpoint(wrapped.client, wrapped.part)
 
     # -- parameters of callbacks
 
@@ -403,7 +401,7 @@ class MessageTypes:
             owner = self.type_of(store.node.value)
             field = owner.section.field(store.node.attr) if owner else None
             if owner and field:
-                yield Assigned(owner, field, store.value, store.node.value)
+                yield Assigned(owner, field, store.value)
 
     def _stores(self) -> Iterator[Store]:
         for name in sorted({node.attr for node in self.module.walk(ast.Attribute)}):
@@ -417,7 +415,7 @@ class MessageTypes:
             for word in call.keywords if owner else ():
                 field = owner.section.field(word.arg) if owner and word.arg else None
                 if owner and field:
-                    yield Assigned(owner, field, word.value, call)
+                    yield Assigned(owner, field, word.value)
 
 
 def _names_kind(module: str, names: Sequence[str]) -> bool:

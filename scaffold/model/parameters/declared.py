@@ -146,7 +146,7 @@ def _declared(
 
     What `_passed_on` says of their files is kept, to be asked once.
     """
-    found: list[Parameter] = []
+    parameters: list[Parameter] = []
     owner: NodeClass | None = node
     while owner is not None:
         if owner.declares_automatically or owner.is_lifecycle or len(owner.node.bases) != 1:
@@ -157,9 +157,9 @@ def _declared(
             passed_on[owner.facts] = _passed_on(owner.facts)
         if owner.node in passed_on[owner.facts]:
             return None
-        found += owner.parameters
+        parameters += owner.parameters
         owner = owner.base
-    return None if _declares_on_others(node.facts) else found
+    return None if _declares_on_others(node.facts) else parameters
 
 
 def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
@@ -183,7 +183,7 @@ def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
     """
     if "has_parameter" in file.module.source.text:
         return frozenset(file.module.walk(ast.ClassDef))
-    found: set[ast.ClassDef] = set()
+    receivers: set[ast.ClassDef] = set()
     for call in file.module.walk(ast.Call):
         given = [*call.args, *(word.value for word in call.keywords)]
         classes = {class_ for item in given if (class_ := file.evaluator.self_class(item))}
@@ -191,8 +191,8 @@ def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
             name = file.module.qualified_name(call.func) or ""
             is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"
             if not name.startswith(_KNOWN) and not is_super and name != "super":
-                found |= classes
-    return frozenset(found)
+                receivers |= classes
+    return frozenset(receivers)
 
 
 def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter]:
@@ -247,7 +247,7 @@ def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
         if not isinstance(call, ast.Call) or use is call.func:
             continue
         names = module.qualified_names(call.func)
-        is_harmless = bool(names) and all(known.startswith(_HARMLESS) for known in names)
+        is_harmless = bool(names) and all(candidate.startswith(_HARMLESS) for candidate in names)
         if not is_harmless and not _is_base_init(call) and module.is_inside(call, scope):
             return True
     return False

@@ -79,7 +79,7 @@ class Misplaced(NamedTuple):
     """A value that is not under ``ros__parameters``."""
 
     key: Scalar
-    near: Scalar | None
+    node_key: Scalar | None
     """The key above it that is a misspelled ``ros__parameters``."""
     depth: int
     """How many keys are above that one."""
@@ -104,16 +104,16 @@ class ParameterFile:
             if isinstance(root, Mapping):
                 self._read(root, (), None)
 
-    def _read(self, mapping: Mapping, above: tuple[Scalar, ...], near: Scalar | None) -> None:
+    def _read(self, mapping: Mapping, above: tuple[Scalar, ...], node_key: Scalar | None) -> None:
         for key, value in mapping.pairs:
-            if key.text == KEY and near is None:
+            if key.text == KEY and node_key is None:
                 self._read_section(key, value, above)
             elif isinstance(value, Mapping):
-                is_near = near is None and re.fullmatch(_NEAR, key.text) and not _has_key(value)
-                self._read(value, (*above, key), key if is_near else near)
+                is_near = node_key is None and re.fullmatch(_NEAR, key.text) and not _has_key(value)
+                self._read(value, (*above, key), key if is_near else node_key)
             else:
-                depth = above.index(near) if near is not None else len(above)
-                self.misplaced.append(Misplaced(key, near, depth))
+                depth = above.index(node_key) if node_key is not None else len(above)
+                self.misplaced.append(Misplaced(key, node_key, depth))
 
     def _read_section(self, key: Scalar, value: YamlNode, above: tuple[Scalar, ...]) -> None:
         if not above:

@@ -11,17 +11,19 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 
-def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple[str | None, str]:
+def agreed_type(
+    package: Package, declared: Sequence[Declared], name: str
+) -> tuple[str | None, str]:
     """Return the type that all nodes agree on, and the name with where it is declared.
 
     Args:
         package: The package that is checked.
-        known: What the nodes declare that are given the parameter.
+        declared: The declarations of the nodes that are given the parameter.
         name: The name of the parameter.
     """
     if name in ALWAYS:
         return "bool", f"{name!r} (declared by rclpy)"
-    nodes = [item for item in known if name in item.types]
+    nodes = [item for item in declared if name in item.types]
     types = {node.types[name] for node in nodes}
     if len(types) != 1:
         return None, name
@@ -30,7 +32,7 @@ def agreed_type(package: Package, known: Sequence[Declared], name: str) -> tuple
 
 
 def narrow_default(
-    package: Package, known: Sequence[Declared], name: str, given: str
+    package: Package, declared: Sequence[Declared], name: str, given: str
 ) -> DeclaredParameter | None:
     """Return the parameter whose default, not the file, has an unintended type.
 
@@ -38,7 +40,7 @@ def narrow_default(
     """
     if name in ALWAYS:
         return None
-    for item in known:
+    for item in declared:
         parameter = item.places.get(name)
         if parameter is None or parameter.package != package.name:
             continue

@@ -124,14 +124,14 @@ def _functions(
 ) -> list[FunctionNode]:
     """Return the functions that run, from the entry on, in the same file."""
     if entry is not None:
-        found = file.module.functions.get(entry)
-        begin = [found.node] if found else []
+        function = file.module.functions.get(entry)
+        begin = [function.node] if function else []
     else:
         called = [file.callback(call.func).function for call in outside]
         begin = [item for item in called if item is not None and not isinstance(item, ast.Lambda)]
     reached: dict[FunctionNode | ast.Lambda, None] = {}
-    for one in begin:
-        reached.update(dict.fromkeys(file.reached(one, reached)))
+    for node in begin:
+        reached.update(dict.fromkeys(file.reached(node, reached)))
     return [item for item in reached if not isinstance(item, ast.Lambda)]
 
 

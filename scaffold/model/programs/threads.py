@@ -24,12 +24,12 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 
 def names_other_executor(file: RclpyFile) -> bool:
     """Tell whether a file names an executor that may run callbacks side by side."""
-    known = file.thread_facts
-    if "executor" not in known:
-        known["executor"] = any(
+    facts = file.thread_facts
+    if "executor" not in facts:
+        facts["executor"] = any(
             name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
         )
-    return known["executor"]
+    return facts["executor"]
 
 
 def spins_in_one_thread(file: RclpyFile) -> bool:
@@ -60,9 +60,9 @@ def spins_elsewhere(file: RclpyFile) -> bool:
 
 
 def _spins_elsewhere(file: RclpyFile) -> bool:
-    known = {call.call.func for call in file.spin_calls}
+    spins = {call.call.func for call in file.spin_calls}
     for name, node in _identifiers(file):
-        if "spin" in name.lower() and node not in known and _may_refer_to_spin(file, name, node):
+        if "spin" in name.lower() and node not in spins and _may_refer_to_spin(file, name, node):
             return True
     spinning = {file.function_of(call.call) for call in file.spin_calls}
     seen: set[ast.AST] = set()

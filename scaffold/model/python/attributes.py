@@ -1,4 +1,4 @@
-"""What attributes of ``self`` are worth, from where they are assigned."""
+"""Static evaluation of attributes of ``self``, from their assignments."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ class AttributeEvaluator(Evaluator):
         return self._classes[node]
 
     def _class_of(self, node: ast.Name) -> ast.ClassDef | None:
-        found = self.module.index.lookup(node.id, node)
-        if found is None or [binding.kind for binding in found[1]] != ["parameter"]:
+        lookup = self.module.index.lookup(node.id, node)
+        if lookup is None or [binding.kind for binding in lookup[1]] != ["parameter"]:
             return None
-        function, parameter = found[0], found[1][0].node
+        function, parameter = lookup[0], lookup[1][0].node
         class_ = self.module.parent(function)
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             return None
@@ -89,7 +89,7 @@ class AttributeEvaluator(Evaluator):
         return None
 
     def attribute_values(self, node: ast.Attribute) -> Sequence[ast.expr] | None:
-        """Return all expressions that ``self.name`` may be worth; ``None`` if more is possible."""
+        """Return all expressions that ``self.name`` may have as value; ``None`` if unknown."""
         class_ = self.self_class(node.value) or self.named_class(node.value)
         if class_ is None:
             return None
@@ -136,9 +136,9 @@ class AttributeEvaluator(Evaluator):
     def named_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class of the file that an expression names."""
         if isinstance(node, ast.Name):
-            found = self.module.index.lookup(node.id, node)
-            if found and len(found[1]) == 1 and isinstance(found[1][0].node, ast.ClassDef):
-                return found[1][0].node
+            lookup = self.module.index.lookup(node.id, node)
+            if lookup and len(lookup[1]) == 1 and isinstance(lookup[1][0].node, ast.ClassDef):
+                return lookup[1][0].node
         return None
 
     def single_value(self, node: ast.expr) -> ast.expr:
@@ -160,8 +160,8 @@ class AttributeEvaluator(Evaluator):
         if isinstance(node, ast.Attribute):
             stored: Sequence[ast.expr | None] = self.attribute_values(node) or ()
         else:
-            found = self.module.index.lookup(node.id, node)
-            bindings = [x for x in (found[1] if found else ()) if x.kind != "annotation"]
+            lookup = self.module.index.lookup(node.id, node)
+            bindings = [x for x in (lookup[1] if lookup else ()) if x.kind != "annotation"]
             is_open = any(x.kind != "assignment" for x in bindings)
             is_open = is_open or len(bindings) > MOST_ASSIGNMENTS
             stored = () if is_open else [binding.value for binding in bindings]
@@ -187,10 +187,10 @@ class AttributeEvaluator(Evaluator):
         for _ in range(10):
             values: Iterable[ast.expr | None] | None = None
             if isinstance(node, ast.Name):
-                found = self.module.index.lookup(node.id, node)
+                lookup = self.module.index.lookup(node.id, node)
                 values = (
                     binding.value
-                    for binding in (found[1] if found else ())
+                    for binding in (lookup[1] if lookup else ())
                     if binding.kind != "annotation"
                 )
             elif isinstance(node, ast.Attribute):

@@ -27,7 +27,7 @@ def why_unchecked(index: ScopeIndex) -> str:
 
 
 def _refusal(much: str, most: int) -> str:
-    return f"{much} of {most} that are read: it is not checked"
+    return f"{much}; the limit is {most}: the file is not checked"
 
 
 def _longest_block(index: ScopeIndex) -> int:

@@ -18,13 +18,13 @@ class CallSites:
 
     def __init__(self, evaluator: AttributeEvaluator) -> None:
         self._evaluator = evaluator
-        self._known: dict[FunctionNode, Sequence[ast.Call] | None] = {}
+        self._calls: dict[FunctionNode, Sequence[ast.Call] | None] = {}
 
     def of(self, function: FunctionNode) -> Sequence[ast.Call] | None:
         """Return all calls of a function; ``None`` if there may be others."""
-        if function not in self._known:
-            self._known[function] = self._find(function)
-        return self._known[function]
+        if function not in self._calls:
+            self._calls[function] = self._find(function)
+        return self._calls[function]
 
     def _find(self, function: FunctionNode) -> Sequence[ast.Call] | None:
         class_ = self._evaluator.module.parent(function)
@@ -40,11 +40,11 @@ class CallSites:
         for name in self._evaluator.module.index.names(node.name):
             if not isinstance(name.ctx, ast.Load):
                 continue
-            found = self._evaluator.module.index.lookup(name.id, name)
-            if found is None or all(binding.node is not node for binding in found[1]):
+            lookup = self._evaluator.module.index.lookup(name.id, name)
+            if lookup is None or all(binding.node is not node for binding in lookup[1]):
                 continue
             parent = self._evaluator.module.parent(name)
-            if isinstance(parent, ast.Call) and parent.func is name and len(found[1]) == 1:
+            if isinstance(parent, ast.Call) and parent.func is name and len(lookup[1]) == 1:
                 calls.append(parent)
             elif not isinstance(node, ast.ClassDef) or not self._is_mention(name, parent):
                 return None

@@ -1,4 +1,4 @@
-"""What an expression is worth, without running it: a value where that is sure, else UNKNOWN."""
+"""Static evaluation of expressions: the value where it is certain, else UNKNOWN."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ class Elements(NamedTuple):
 
 
 MAX_DEPTH = 60
-"""Expressions inside expressions, through names too."""
+"""The deepest nesting of expressions, through names too."""
 MOST_ASSIGNMENTS = 200
-"""Of one name; a name with more has no value that anybody knows."""
+"""The most assignments of a name; with more its value is unknown."""
 MAX_STEPS = 20_000
-"""Expressions visited for one value: names that refer to each other multiply."""
+"""The most expressions visited for one value: names that refer to each other multiply."""
 MOST_STEPS = 300_000
 """Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
 FEW_STEPS = 100
@@ -186,7 +186,7 @@ class Evaluator:
         self._notes |= {text}
 
     def cut(self) -> None:
-        """Say that the value being evaluated is not the last word, so it is not remembered."""
+        """Mark the value being evaluated as provisional, so that it is not remembered."""
         self._is_cut = True
 
     def argument(self, node: ast.arg) -> object:
@@ -233,10 +233,10 @@ class Evaluator:
 
     def _list_literal(self, node: ast.Name) -> ast.expr | None:
         """Return what a name is first assigned, if that looks like a list and nothing shadows."""
-        found = self.module.index.lookup(node.id, node)
-        if found is None:
+        lookup = self.module.index.lookup(node.id, node)
+        if lookup is None:
             return None
-        assigned = [binding for binding in found[1] if binding.kind != "annotation"]
+        assigned = [binding for binding in lookup[1] if binding.kind != "annotation"]
         if any(binding.kind not in {"assignment", "augmented"} for binding in assigned):
             return None
         values = [binding.value for binding in assigned if binding.kind == "assignment"]
@@ -281,7 +281,9 @@ class Evaluator:
         return [
             name
             for name in changes
-            if (found := self.module.index.lookup(name.id, name)) and scope and found[0] is scope[0]
+            if (lookup := self.module.index.lookup(name.id, name))
+            and scope
+            and lookup[0] is scope[0]
         ]
 
     def _is_change(self, name: ast.Name) -> bool:
@@ -315,10 +317,10 @@ class Evaluator:
     # -- expressions
 
     def _name(self, node: ast.Name) -> object:
-        found = self.module.index.lookup(node.id, node)
-        if found is None:
+        lookup = self.module.index.lookup(node.id, node)
+        if lookup is None:
             return UNKNOWN
-        scope, bindings = found
+        scope, bindings = lookup
         if (scope, node.id) in self._local:
             return self._local[scope, node.id]
         if self._list_literal(node) is not None:
@@ -433,10 +435,10 @@ class Evaluator:
                     return UNKNOWN
                 result.update(inner)
                 continue
-            known = self.evaluate(key)
-            if not isinstance(known, str | int | float):
+            constant = self.evaluate(key)
+            if not isinstance(constant, str | int | float):
                 return UNKNOWN
-            result[known] = self.evaluate(value)
+            result[constant] = self.evaluate(value)
         return result
 
     def _subscript(self, node: ast.Subscript) -> object:
@@ -512,8 +514,8 @@ class Evaluator:
             else:
                 parts.append(self.evaluate(arg))
         texts = [part.text if isinstance(part, PathValue) else part for part in parts]
-        known = [text for text in texts if isinstance(text, str)]
-        return join_paths(known) if known and len(known) == len(texts) else UNKNOWN
+        strings = [text for text in texts if isinstance(text, str)]
+        return join_paths(strings) if strings and len(strings) == len(texts) else UNKNOWN
 
     def _method(self, node: ast.Call, func: ast.Attribute) -> object:
         holder = self.evaluate(func.value)

@@ -236,11 +236,11 @@ class PythonModule:
 
     def mentions(self, *texts: str) -> bool:
         """Tell whether the file contains any of some texts; each is searched for once."""
-        known = self._mentions
+        mentions = self._mentions
         for text in texts:
-            if text not in known:
-                known[text] = text in self.source.text
-        return any(known[text] for text in texts)
+            if text not in mentions:
+                mentions[text] = text in self.source.text
+        return any(mentions[text] for text in texts)
 
     # -- the file
 
@@ -389,15 +389,15 @@ class PythonModule:
         return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)
 
     def _imported_as(self, node: ast.Name) -> frozenset[str]:
-        found = self.index.lookup(node.id, node)
-        if found is None:
+        lookup = self.index.lookup(node.id, node)
+        if lookup is None:
             # A star import may bring a function called open or sum, but no new KeyboardInterrupt.
             is_star = "*" in self.index.bindings(self.tree) and node.id.islower()
             is_builtin = hasattr(builtins, node.id) and not is_star
             return frozenset({node.id} if is_builtin else ())
-        if any(binding.kind != "import" for binding in found[1]):
+        if any(binding.kind != "import" for binding in lookup[1]):
             return frozenset()
-        return frozenset(binding.target for binding in found[1])
+        return frozenset(binding.target for binding in lookup[1])
 
     # -- import statements
 

@@ -47,7 +47,7 @@ class Binding(NamedTuple):
 
 
 class ScopeIndex:
-    """The nodes of a module: who holds whom, and all of a kind."""
+    """An index of the nodes of a module: by type, with parents and scopes."""
 
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
@@ -210,11 +210,11 @@ class ScopeIndex:
         if self._scopes is None:
             self._scopes = {}
             for owner, binding in self._all_bindings():
-                found = self._scopes.setdefault(owner, {}).setdefault(binding.name, [])
-                if len(found) < MOST_BINDINGS:
-                    found.append(binding)
-                elif len(found) == MOST_BINDINGS:
-                    found.append(Binding(binding.name, "other", binding.node))
+                bindings = self._scopes.setdefault(owner, {}).setdefault(binding.name, [])
+                if len(bindings) < MOST_BINDINGS:
+                    bindings.append(binding)
+                elif len(bindings) == MOST_BINDINGS:
+                    bindings.append(Binding(binding.name, "other", binding.node))
         return self._scopes.get(scope, {})
 
     def lookup(self, name: str, at: ast.AST) -> tuple[ast.AST, Sequence[Binding]] | None:
@@ -229,9 +229,9 @@ class ScopeIndex:
         while True:
             # A class body's names are seen by the body alone, not by the functions in it.
             if first or not isinstance(scope, ast.ClassDef):
-                found = self.bindings(scope).get(name)
-                if found:
-                    return scope, found
+                bindings = self.bindings(scope).get(name)
+                if bindings:
+                    return scope, bindings
             if isinstance(scope, ast.Module):
                 return None
             first = False

@@ -225,8 +225,8 @@ def text_method(
 ) -> object:
     """Return what a method of a string gives."""
     if method == "format":
-        found = format_text(text, args, keywords)
-        return UNKNOWN if found is None else found
+        formatted = format_text(text, args, keywords)
+        return UNKNOWN if formatted is None else formatted
     if method == "join" and len(args) == 1 and isinstance(args[0], list | tuple):
         parts = [part for part in args[0] if isinstance(part, str)]
         return text.join(parts) if len(parts) == len(args[0]) else UNKNOWN
@@ -271,10 +271,10 @@ def _glob(args: Sequence[object], keywords: Mapping[str, object]) -> object:
 
 def _path(args: Sequence[object], keywords: Mapping[str, object]) -> object:
     texts = [arg.text if isinstance(arg, PathValue) else arg for arg in args]
-    known = [text for text in texts if isinstance(text, str)]
-    if keywords or len(known) != len(texts):
+    strings = [text for text in texts if isinstance(text, str)]
+    if keywords or len(strings) != len(texts):
         return UNKNOWN
-    return PathValue(join_paths(known) if known else ".")
+    return PathValue(join_paths(strings) if strings else ".")
 
 
 def _converted(args: Sequence[object], keywords: Mapping[str, object], kind: type) -> object:

@@ -103,11 +103,11 @@ def _places() -> Mapping[str, str]:
 
 def class_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> str | None:
     """Return the class of rclpy, as the table calls it, that an expression is an object of."""
-    known = file.classes_of
-    if node not in known and depth <= _DEEPEST:
-        known[node] = None  # ends the recursion of what is assigned to itself
-        known[node] = _find_class(file, node, depth)
-    return known.get(node)
+    classes = file.classes_of
+    if node not in classes and depth <= _DEEPEST:
+        classes[node] = None  # ends the recursion of what is assigned to itself
+        classes[node] = _find_class(file, node, depth)
+    return classes.get(node)
 
 
 def _find_class(file: RclpyFile, node: ast.expr, depth: int) -> str | None:

@@ -35,8 +35,8 @@ def resolve(file: RclpyFile, node: ast.expr) -> Callback:
         is_bound = method is not None and not _is_static_method(method)
         return Callback(node, node.attr, method, module, is_called=False, is_bound=is_bound)
     if isinstance(node, ast.Name):
-        found = file.module.index.lookup(node.id, node)
-        nodes = [binding.node for binding in found[1]] if found else []
+        lookup = file.module.index.lookup(node.id, node)
+        nodes = [binding.node for binding in lookup[1]] if lookup else []
         function = nodes[0] if len(nodes) == 1 else None
         if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
             function = None
@@ -67,17 +67,17 @@ def function_of(file: RclpyFile, node: ast.AST) -> FunctionNode | ast.Lambda | N
 
 
 def reached(
-    file: RclpyFile, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+    file: RclpyFile, function: FunctionNode | ast.Lambda, skipped: Container[ast.AST] = ()
 ) -> Sequence[FunctionNode | ast.Lambda]:
     """Return a function and what it calls in the same file: methods of self, functions.
 
     Args:
         file: The file.
         function: The function.
-        known: Functions that are of no interest any more, nor is what they call.
+        skipped: Functions to leave out, with what only they call.
     """
     result: dict[FunctionNode | ast.Lambda, None] = {}
-    pending = [function] if function not in known else []
+    pending = [function] if function not in skipped else []
     while pending:
         result.update(dict.fromkeys(pending))
         called = [
@@ -88,7 +88,7 @@ def reached(
         pending = [
             item
             for item in dict.fromkeys(called)
-            if item and item not in result and item not in known
+            if item and item not in result and item not in skipped
         ]
     return [*result]
 

@@ -143,9 +143,9 @@ class RclpyFile:
     def classes(self) -> Sequence[NodeClass]:
         """The node classes, in the order of the text."""
         return [
-            found
+            node_class
             for node in self.module.walk(ast.ClassDef)
-            if (found := self.node_class(node)) is not None
+            if (node_class := self.node_class(node)) is not None
         ]
 
     @cached_property
@@ -173,13 +173,13 @@ class RclpyFile:
 
     def node_class(self, node: ast.ClassDef) -> NodeClass | None:
         """Return the view of a class if it inherits from rclpy's Node."""
-        known = self._classes_by_node
-        if node not in known:
-            known[node] = None  # ends the recursion of a class that inherits from itself
+        classes = self._classes_by_node
+        if node not in classes:
+            classes[node] = None  # ends the recursion of a class that inherits from itself
             self._base_depth += 1
-            known[node] = self._new_node_class(node) if self._base_depth <= MAX_BASES else None
+            classes[node] = self._new_node_class(node) if self._base_depth <= MAX_BASES else None
             self._base_depth -= 1
-        return known[node]
+        return classes[node]
 
     def is_node_class(self, node: ast.expr) -> bool:
         """Tell whether an expression is a class of rclpy's nodes, or what makes one."""
@@ -201,8 +201,8 @@ class RclpyFile:
 
     def _base_class(self, expression: ast.expr, names: frozenset[str]) -> NodeClass | None:
         if not names and isinstance(expression, ast.Name):
-            found = self.module.index.lookup(expression.id, expression)
-            nodes = [binding.node for binding in found[1]] if found else []
+            lookup = self.module.index.lookup(expression.id, expression)
+            nodes = [binding.node for binding in lookup[1]] if lookup else []
             if len(nodes) == 1 and isinstance(nodes[0], ast.ClassDef):
                 return self.node_class(nodes[0])
         for name in names:
@@ -313,23 +313,23 @@ class RclpyFile:
     def _classes_named(self, expression: ast.expr) -> Iterator[tuple[RclpyFile, ast.ClassDef]]:
         """Yield the classes of the package that an expression may name."""
         if isinstance(expression, ast.Name):
-            found = self.module.index.lookup(expression.id, expression)
-            for binding in found[1] if found else ():
+            lookup = self.module.index.lookup(expression.id, expression)
+            for binding in lookup[1] if lookup else ():
                 if isinstance(binding.node, ast.ClassDef):
                     yield self, binding.node
         for name in self.module.qualified_names(expression):
             module, _, class_name = name.rpartition(".")
             facts = self._facts_of(module)
-            known = facts.module.classes.get(class_name) if facts else None
-            if facts and known:
-                yield facts, known.node
+            class_ = facts.module.classes.get(class_name) if facts else None
+            if facts and class_:
+                yield facts, class_.node
 
     def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
         """Return the function parameter that an expression is the name of."""
         if isinstance(node, ast.Name):
-            found = self.module.index.lookup(node.id, node)
-            if found and len(found[1]) == 1 and isinstance(found[1][0].node, ast.arg):
-                return found[1][0].node
+            lookup = self.module.index.lookup(node.id, node)
+            if lookup and len(lookup[1]) == 1 and isinstance(lookup[1][0].node, ast.arg):
+                return lookup[1][0].node
         return None
 
     # -- what is created
@@ -433,8 +433,8 @@ class RclpyFile:
                     values += [statement.value] if name == node.attr else []
                 case ast.Attribute(value=ast.Name(id="self"), ctx=ast.Del()):
                     return False
-        known = [self.evaluator.evaluate(value) for value in values]
-        return bool(known) and all(type(value) in {int, float} for value in known)
+        evaluated = [self.evaluator.evaluate(value) for value in values]
+        return bool(evaluated) and all(type(value) in {int, float} for value in evaluated)
 
     def callback(self, node: ast.expr) -> Callback:
         """Return what an expression evaluates to as a callback."""
@@ -470,10 +470,10 @@ class RclpyFile:
         return node_callbacks.function_of(self, node)
 
     def reached(
-        self, function: FunctionNode | ast.Lambda, known: Container[ast.AST] = ()
+        self, function: FunctionNode | ast.Lambda, skipped: Container[ast.AST] = ()
     ) -> Sequence[FunctionNode | ast.Lambda]:
-        """Return a function and what it calls in the same file, without what is known already."""
-        return node_callbacks.reached(self, function, known)
+        """Return a function and what it calls in the same file, without the skipped ones."""
+        return node_callbacks.reached(self, function, skipped)
 
     # -- parameters
 

@@ -53,8 +53,8 @@ def _is_executor(file: RclpyFile, node: ast.expr) -> bool:
 
 def _entered(file: RclpyFile, node: ast.Name) -> ast.expr | None:
     """Return what ``with ... as name`` is entered with."""
-    found = file.module.index.lookup(node.id, node)
-    for binding in found[1] if found else ():
+    lookup = file.module.index.lookup(node.id, node)
+    for binding in lookup[1] if lookup else ():
         parent = file.module.parent(binding.node)
         if isinstance(parent, ast.withitem):
             return parent.context_expr
@@ -109,7 +109,7 @@ class _Outside:
 
     def __init__(self, file: RclpyFile) -> None:
         self._facts = file
-        self._known: dict[FunctionNode, frozenset[str]] = {}
+        self._catches: dict[FunctionNode, frozenset[str]] = {}
         self._depth = 0
         self._calls: dict[str, list[ast.Name]] = {}
         for call in file.module.walk(ast.Call):
@@ -121,8 +121,8 @@ class _Outside:
         function = self._facts.module.enclosing_function(node)
         if function is None or self._depth > _MAX_CALLS:
             return frozenset()
-        if function not in self._known:
-            self._known[function] = frozenset()  # what calls itself promises nothing
+        if function not in self._catches:
+            self._catches[function] = frozenset()  # what calls itself promises nothing
             self._depth += 1
             caught = [
                 self.around(name) | _handlers_around(self._facts, name)
@@ -130,12 +130,12 @@ class _Outside:
                 if self._is_name_of(name, function)
             ]
             self._depth -= 1
-            self._known[function] = frozenset.intersection(*caught) if caught else frozenset()
-        return self._known[function]
+            self._catches[function] = frozenset.intersection(*caught) if caught else frozenset()
+        return self._catches[function]
 
     def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
-        found = self._facts.module.index.lookup(name.id, name)
-        return found is not None and any(binding.node is function for binding in found[1])
+        lookup = self._facts.module.index.lookup(name.id, name)
+        return lookup is not None and any(binding.node is function for binding in lookup[1])
 
 
 def _caught(file: RclpyFile, node: ast.Try) -> Iterator[str]:

@@ -35,8 +35,8 @@ _QOS_PARAMETERS = ("history", "depth", "reliability", "durability")
 def qos_of(evaluator: AttributeEvaluator, node: ast.expr) -> Qos:
     """Return the quality of service that an expression evaluates to."""
     at = evaluator.module.location(node)
-    found = _plain(evaluator, evaluator.single_value(node), at)
-    return _with_later_changes(evaluator, found, node)
+    qos = _plain(evaluator, evaluator.single_value(node), at)
+    return _with_later_changes(evaluator, qos, node)
 
 
 def _plain(evaluator: AttributeEvaluator, node: ast.expr, at: Location) -> Qos:
@@ -125,7 +125,7 @@ def _changed(evaluator: AttributeEvaluator, qos: Qos, name: str, value: ast.expr
 def _is_same_object(evaluator: AttributeEvaluator, first: ast.expr, second: ast.expr) -> bool:
     if isinstance(first, ast.Name) and isinstance(second, ast.Name):
         lookup = evaluator.module.index.lookup
-        scopes = [found[0] for n in (first, second) if (found := lookup(n.id, n))]
+        scopes = [scope_bindings[0] for n in (first, second) if (scope_bindings := lookup(n.id, n))]
         return first.id == second.id and len({*scopes}) <= 1
     return evaluator.module.text(first) == evaluator.module.text(second)
 

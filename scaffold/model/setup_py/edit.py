@@ -149,11 +149,11 @@ def quote_of(setup: SetupPy) -> str:
 
 
 def _resolved(module: PythonModule, node: ast.expr) -> ast.expr:
-    """Return what a name is assigned once, else the expression itself."""
+    """Return the only value assigned to a name, else the expression itself."""
     if isinstance(node, ast.Name):
-        found = module.index.lookup(node.id, node)
-        if found and len(found[1]) == 1 and found[1][0].value is not None:
-            return found[1][0].value
+        lookup = module.index.lookup(node.id, node)
+        if lookup and len(lookup[1]) == 1 and lookup[1][0].value is not None:
+            return lookup[1][0].value
     return node
 
 
@@ -320,8 +320,8 @@ def literal_span(setup: SetupPy, keyword: Keyword) -> tuple[int, int]:
     """Return the offsets of the literal of a keyword: through ``name=package_name``, too."""
     node: ast.expr = keyword.node
     if isinstance(node, ast.Name):
-        found = setup.module.index.lookup(node.id, node)
-        bindings = found[1] if found else ()
+        lookup = setup.module.index.lookup(node.id, node)
+        bindings = lookup[1] if lookup else ()
         if len(bindings) == 1 and isinstance(bindings[0].value, ast.Constant):
             node = bindings[0].value
     return setup.module.span(node)

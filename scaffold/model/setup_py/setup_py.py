@@ -165,8 +165,8 @@ class SetupPy:
         if isinstance(node, ast.Name):
             if not isinstance(self.evaluator.evaluate(node), dict):
                 return None
-            found = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = self.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             node = values[0] if len(values) == 1 and values[0] else node
         return node if isinstance(node, ast.Dict) else None
 
@@ -248,10 +248,10 @@ class SetupPy:
         return texts if len(texts) == len(value) else UNKNOWN
 
     def _literal(self, node: ast.expr) -> ast.expr:
-        """Return what a name is assigned once, else the expression itself."""
+        """Return the only value assigned to a name, else the expression itself."""
         if isinstance(node, ast.Name):
-            found = self.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = self.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             if len(values) == 1 and values[0] is not None:
                 return values[0]
         return node
@@ -277,8 +277,10 @@ class SetupPy:
         if word is None:
             return not self.has_unknown_keywords
         elements = self.evaluator.elements(word.node)
-        known = elements.complete and all(item.value is not UNKNOWN for item in elements.items)
-        return known and all(
+        items_are_known = elements.complete and all(
+            item.value is not UNKNOWN for item in elements.items
+        )
+        return items_are_known and all(
             entry.complete and entry.destination is not UNKNOWN for entry in self.data_files
         )
 
@@ -290,11 +292,11 @@ class SetupPy:
             return self._written_data_file(node, at, conditional=element.conditional)
         match value:
             case (str() | Unknown() as destination, list() | tuple() as sources):
-                known = tuple(_source(source) for source in sources)
-                complete = UNKNOWN not in known
-                places = (at,) * len(known)
+                evaluated = tuple(_source(source) for source in sources)
+                complete = UNKNOWN not in evaluated
+                places = (at,) * len(evaluated)
                 return DataFile(
-                    destination, known, complete, at, node, at, places, element.conditional
+                    destination, evaluated, complete, at, node, at, places, element.conditional
                 )
             case Unknown():
                 problem = None
@@ -410,10 +412,10 @@ class SetupPy:
             text = line.strip()
             if not text or text.startswith("#"):
                 continue
-            found = self.module.source.text.find(text, at, end)
-            if found >= 0:
-                at = found + len(text)
-                yield text, self.module.source.location(found, at)
+            begin = self.module.source.text.find(text, at, end)
+            if begin >= 0:
+                at = begin + len(text)
+                yield text, self.module.source.location(begin, at)
             else:
                 yield text, self.module.location(node)
 

@@ -36,30 +36,30 @@ class RosdepKeys:
 
     def __init__(self, sources: Sequence[bytes]) -> None:
         self._sources = sources
-        self._known: dict[str, bool] = {}
+        self._results: dict[str, bool] = {}
         self._all: frozenset[str] | None = None
 
     def resolves(self, key: str) -> bool | None:
         """Tell whether a key has a rule for any system; ``None`` if a source is damaged."""
-        if key not in self._known:
+        if key not in self._results:
             if any(_has_key(source, key) for source in self._sources):
-                self._known[key] = True
+                self._results[key] = True
             else:
                 everything = self._everything()
                 if everything is None:
                     return None
-                self._known[key] = key in everything
-        return self._known[key]
+                self._results[key] = key in everything
+        return self._results[key]
 
     def _everything(self) -> frozenset[str] | None:
         if self._all is None:
-            found: set[str] = set()
+            all_keys: set[str] = set()
             for source in self._sources:
                 keys = _keys(source)
                 if not keys:
                     return None
-                found |= keys
-            self._all = frozenset(found)
+                all_keys |= keys
+            self._all = frozenset(all_keys)
         return self._all
 
 

@@ -58,8 +58,8 @@ class Workspace:
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        found = self.by_name.get(name)
-        return self.around.get(name) if found is None and self.around is not None else found
+        package = self.by_name.get(name)
+        return self.around.get(name) if package is None and self.around is not None else package
 
     @cached_property
     def interfaces(self) -> Definitions:

@@ -94,9 +94,9 @@ def short(trace: str) -> list[str]:
             ending.append(line)
     own = [frame for frame in frames if not _LIBRARY.search("".join(frame))] or frames
     shown = own[-_FRAMES:]
-    left_out = ["  ..."] if len(shown) < len(frames) else []
+    gap = ["  ..."] if len(shown) < len(frames) else []
     lines = [line for frame in shown for line in frame]
-    return _limited([TRACEBACK, *left_out, *lines, *ending])
+    return _limited([TRACEBACK, *gap, *lines, *ending])
 
 
 def relative(lines: Iterable[str], install: Path) -> list[str]:
@@ -123,14 +123,14 @@ def errors(text: str) -> list[str]:
 
 def warnings(text: str) -> list[str]:
     """Return the warnings of a build's output."""
-    found = [line for block in _cmake_blocks(text, _CMAKE_WARNING) for line in block]
-    in_blocks = set(found)
-    found += [
+    lines = [line for block in _cmake_blocks(text, _CMAKE_WARNING) for line in block]
+    in_blocks = set(lines)
+    lines += [
         line
         for line in text.splitlines()
         if _WARNING_LINE.search(line) and _OWN_DOING not in line and line not in in_blocks
     ]
-    return _limited(found)
+    return _limited(lines)
 
 
 def complaints(text: str, directory: str) -> list[str]:

@@ -39,7 +39,9 @@ class Meter:
     def measure(self) -> None:
         """Look once; what has ended keeps its last figure."""
         self._now = time.monotonic()
-        members = [one for one in table.snapshot().values() if one.session == self._session]
+        members = [
+            member for member in table.snapshot().values() if member.session == self._session
+        ]
         memory = 0
         for process in members[:_MOST_PROCESSES]:
             # Gone since they were listed.

@@ -315,7 +315,7 @@ def test_blocks() -> None:
         ),
         ("set(A [=[b]])", ['1:7 "]=]" expected: this bracket argument is not closed']),
         ("#[[ a\nset(B c)", ['1:1 "]]" expected: this bracket comment is not closed']),
-        ("set(A [[b]]c)", ["1:12 a blank expected before this argument"]),
+        ("set(A [[b]]c)", ["1:12 a space expected before this argument"]),
         ("set(A \\\n b)", [r'1:7 "\" at the end of a line is only allowed inside a string']),
         ("set(A \0\0b)", ["1:7 the character U+0000 is not allowed here"]),
         ("endif()", ["1:1 if() expected before endif()"]),

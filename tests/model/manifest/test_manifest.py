@@ -364,7 +364,7 @@ def test_broken_condition_equals_catkin(pieces: list[str]) -> None:
         ("<a>&#1;</a>", "1:4", '"&#1;" is not a character that XML allows'),
         ("<a b='1' b='2'/>", "1:10", "the attribute 'b' is a duplicate"),
         ("<a b=1/>", "1:6", "a value in quotes expected in the tag <a>"),
-        ("<a b='1'c='2'/>", "1:9", "a blank expected between attributes of <a>"),
+        ("<a b='1'c='2'/>", "1:9", "a space expected between attributes of <a>"),
         ("<a b/>", "1:5", "an attribute of <a> has no value"),
         ("<a b=\u201c1\u201d/>", "1:6", "write a plain quote for \u201c"),
         ("<a\n<b/></a>", "1:1", '">" expected: the tag <a is not closed'),

@@ -408,10 +408,10 @@ class _Walk:
         """Tell whether two nodes are on different branches of their innermost common statement."""
         path, other_path = self.path(node), self.path(other)
         common = None
-        for node_, two in zip(path, other_path, strict=False):
-            if node_ is not two:
+        for step, other_step in zip(path, other_path, strict=False):
+            if step is not other_step:
                 break
-            common = node_
+            common = step
         if common not in self.forks:
             self.forks[common] = [frozenset(part) for part in _branches(common)]
         return any(

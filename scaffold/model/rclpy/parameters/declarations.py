@@ -68,8 +68,8 @@ class Declarations:
             One iteration without variables if it is not a loop over a literal list.
         """
         index = self._facts.module.index
-        found = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-        target = found[1][0].node if found and len(found[1]) == 1 else None
+        lookup = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+        target = lookup[1][0].node if lookup and len(lookup[1]) == 1 else None
         loop = index.parent(target) if target is not None else None
         if isinstance(loop, ast.Tuple):
             target, loop = loop, index.parent(loop)

@@ -79,10 +79,10 @@ def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
     ranges: list[Range] = []
     for name in _RANGES:
         if name in fields:
-            found = _range(file, name, fields[name])
-            if found is None:
+            bounds = _range(file, name, fields[name])
+            if bounds is None:
                 return None
-            ranges.append(found)
+            ranges.append(bounds)
     return Descriptor(is_dynamic, is_read_only, ranges)
 
 
@@ -140,10 +140,10 @@ def _kept(file: RclpyFile, node: ast.expr) -> ast.expr:
 
 def _assigned_before(file: RclpyFile, node: ast.Name) -> Binding | None:
     """Return the assignment a name has its value from: all are in the same block as the use."""
-    found = file.module.index.lookup(node.id, node)
+    lookup = file.module.index.lookup(node.id, node)
     block = _block(file, node)
     last: Binding | None = None
-    for binding in found[1] if found else ():
+    for binding in lookup[1] if lookup else ():
         if binding.kind != "assignment" or _block(file, binding.node) != block:
             return None
         if _line(binding.node) < node.lineno:

@@ -95,8 +95,8 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
         return is_number and is_parameter_list(file, node.value)
     if not isinstance(node, ast.Name):
         return False
-    found = file.module.index.lookup(node.id, node)
-    loops = [file.module.parent(binding.node) for binding in found[1]] if found else []
+    lookup = file.module.index.lookup(node.id, node)
+    loops = [file.module.parent(binding.node) for binding in lookup[1]] if lookup else []
     return bool(loops) and all(
         isinstance(loop, ast.For | ast.comprehension)
         and isinstance(loop.target, ast.Name)
@@ -107,9 +107,9 @@ def is_listed_parameter(file: RclpyFile, node: ast.expr) -> bool:
 
 def callback_arguments(file: RclpyFile) -> dict[ast.arg, FunctionNode | ast.Lambda]:
     """Return what rclpy calls with a list of parameters: the argument, and its function."""
-    known = file.parameter_callbacks
-    if known is not None:
-        return known
+    remembered = file.parameter_callbacks
+    if remembered is not None:
+        return remembered
     result: dict[ast.arg, FunctionNode | ast.Lambda] = {}
     file.parameter_callbacks = result
     for method in CALLBACKS:
@@ -248,8 +248,8 @@ def _texts(
 
 def _looped(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
     """Return what a name refers to in a loop over a literal list."""
-    found = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
-    loops = [file.module.parent(item.node) for item in found[1]] if found else []
+    lookup = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+    loops = [file.module.parent(item.node) for item in lookup[1]] if lookup else []
     if len(loops) != 1 or not isinstance(loops[0], ast.For | ast.comprehension):
         return []
     loop = loops[0]
