@@ -19,6 +19,10 @@ FATAL = (
     "ament_lint_auto_find_test_dependencies",
     "ament_python_install_package",
     "ament_python_install_module",
+    "pluginlib_export_plugin_description_file",
+    "rclcpp_components_register_node",
+    "rclcpp_components_register_nodes",
+    "rosidl_generate_interfaces",
 )
 _INSTALL = "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
@@ -27,8 +31,8 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 class AmentPackageNotLast(Rule):
     """A call that has to come before ``ament_package()`` comes after it.
 
-    **Why.** CMake stops at an export or a linter after it; a Python package after it is never
-    installed, for ``ament_package()`` does that. ``install()`` works there.
+    **Why.** CMake stops at an export, a linter or interfaces after it; a Python package or a plugin
+    after it is never registered, for ``ament_package()`` does that. ``install()`` works there.
 
     **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
 
@@ -46,6 +50,14 @@ class AmentPackageNotLast(Rule):
             "an export after it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
             Report("4:1", "ament_export_libraries() comes after ament_package() in line 3"),
+        ),
+        Example(
+            "interfaces after it",
+            {
+                "CMakeLists.txt": f"{_LISTS}ament_package()\n"
+                "rosidl_generate_interfaces(talker msg/A.msg)\n"
+            },
+            Report("4:1", "rosidl_generate_interfaces() comes after ament_package() in line 3"),
         ),
         Example(
             "an installation before it",

@@ -157,6 +157,28 @@ class MessageUsedAsValue(MessageRule):
                 "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
             ),
         ),
+        Example(
+            "the length of an array, and one of its elements",
+            {
+                "listener.py": _NODE.format(
+                    "''", "[x for x in range(len(msg.data))], msg.data[0] > 1"
+                )
+            },
+        ),
+        Example(
+            "an array as a number",
+            {
+                "listener.py": _NODE.format(
+                    "''", "range(msg.data), float(msg.data), msg.data > 1.0, range(msg.data[0])"
+                )
+            },
+            Report("15:16", "msg.data is an array, not a number: TypeError; use len(msg.data)"),
+            Report(
+                "15:33", "msg.data is an array, not a number: TypeError; use one of its elements"
+            ),
+            Report("15:50", "msg.data is an array, not a number: TypeError; compare its elements"),
+            Report("15:66", "msg.data[0] is a float, not an integer: TypeError"),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -173,6 +195,7 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         owner = _message(types, value)
         if owner is not None:
             yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
+    yield from _arrays_as_numbers(types)
     for node in module.walk(ast.Compare):
         yield from _compared(types, node)
     for node in _truth_tests(types):
@@ -198,6 +221,31 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if kind and not hasattr(_KINDS[kind], node.attr):
             message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
             yield node, f"{message}: AttributeError"
+
+
+def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield uses of a field that is an array, and of a float, that only integers support."""
+    module = types.module
+    for call in module.walk(ast.Call):
+        match call:
+            case ast.Call(func=ast.Name(id="range" | "float" | "int" as name), args=[value]):
+                type_ = types.field_type_of(value)
+                if type_ is None or module.index.lookup(name, call) is not None:
+                    continue
+                text = module.text(value)
+                if type_.is_array and (name == "range" or type_.array_size is None):
+                    use = f"use len({text})" if name == "range" else "use one of its elements"
+                    yield call, f"{text} is an array, not a number: TypeError; {use}"
+                elif name == "range" and _kind(type_) in {"float", "str"}:
+                    yield call, f"{text} is a {_kind(type_)}, not an integer: TypeError"
+    for node in module.walk(ast.Compare):
+        type_ = types.field_type_of(node.left)
+        is_number = isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float)
+        is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
+        is_array = type_ is not None and type_.is_array and type_.array_size is None
+        if is_array and is_number and is_order and len(node.ops) == 1:
+            text = module.text(node.left)
+            yield node, f"{text} is an array, not a number: TypeError; compare its elements"
 
 
 def _message(types: MessageTypes, node: ast.expr) -> MessageClass | None:

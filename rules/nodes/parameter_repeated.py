@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api.rclpy import NodeDefinition, RclpyFile
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -18,7 +19,10 @@ _NODE = (
 
 
 class ParameterRepeated(RclpyRule):
-    """A node declares a parameter twice, or ``use_sim_time``, which every node has.
+    """A node declares a parameter twice, or one that rclpy declares itself.
+
+    That is ``use_sim_time``, and with ``automatically_declare_parameters_from_overrides`` each
+    parameter that a file, a launch file or the command line sets.
 
     **Why.** ``rclpy.exceptions.ParameterAlreadyDeclaredException`` at start.
 
@@ -29,6 +33,9 @@ class ParameterRepeated(RclpyRule):
 
     code = "ND016"
     name = "parameter-repeated"
+    other_severities = {
+        Severity.WARNING: "rclpy declares what is set, and no file of the package sets it"
+    }
     examples = (
         Example("two parameters", {"talker.py": _NODE.format("period")}),
         Example(
@@ -47,9 +54,43 @@ class ParameterRepeated(RclpyRule):
                 "'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
             ),
         ),
+        Example(
+            "declared automatically, and set",
+            {
+                "talker.py": _NODE.format("period").replace(
+                    "'talker'", "'talker', automatically_declare_parameters_from_overrides=True"
+                ),
+                "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
+            },
+            Report(
+                "talker.py:7:32",
+                "parameter 'rate' is declared automatically when config/a.yaml sets "
+                "it: ParameterAlreadyDeclaredException; ask has_parameter() first, "
+                "or declare by hand",
+            ),
+            Report(
+                "talker.py:8:32",
+                "parameter 'period' is declared automatically when something sets "
+                "it: ParameterAlreadyDeclaredException; ask has_parameter() first, "
+                "or declare by hand",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "asked for first",
+            {
+                "talker.py": _NODE.format("period")
+                .replace(
+                    "'talker'", "'talker', automatically_declare_parameters_from_overrides=True"
+                )
+                .replace(
+                    "        self.d", "        if not self.has_parameter('x'):\n            self.d"
+                )
+            },
+        ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for parameter in file.parameters:
             if parameter.name != "use_sim_time" or parameter.owner is None:
                 continue
@@ -58,6 +99,7 @@ class ParameterRepeated(RclpyRule):
                 message += "ParameterAlreadyDeclaredException"
                 yield self.report(parameter.name_location, message)
         for node in file.nodes:
+            yield from self._automatic(package, node)
             first: dict[str, int] = {}
             for parameter in node.parameters:
                 name = parameter.name
@@ -72,3 +114,30 @@ class ParameterRepeated(RclpyRule):
                     yield self.report(at, message)
                 else:
                     first[name] = at.line
+
+    def _automatic(self, package: Package, node: NodeDefinition) -> Iterator[Diagnostic]:
+        """Report what a node declares although rclpy has declared it, if it is set."""
+        if not node.declares_automatically or "has_parameter" in node.facts.module.source.text:
+            return
+        for parameter in node.parameters:
+            name = parameter.name
+            if not isinstance(name, str) or parameter.is_conditional:
+                continue
+            path = _set_in(package, name)
+            where = f"{path} sets it" if path else "something sets it"
+            message = (
+                f"parameter {name!r} is declared automatically when {where}: "
+                "ParameterAlreadyDeclaredException; ask has_parameter() first, or declare by hand"
+            )
+            severity = None if path else Severity.WARNING
+            yield self.report(parameter.name_location, message, severity=severity)
+
+
+def _set_in(package: Package, name: str) -> str:
+    """Return the parameter file of a package that sets a parameter; empty if there is none."""
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        for section in file.sections if file else ():
+            if any(entry.name == name for entry in section.entries):
+                return path
+    return ""

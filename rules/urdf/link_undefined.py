@@ -36,6 +36,14 @@ class LinkUndefined(Rule):
     examples = (
         Example("both there", {"robot.urdf": _ROBOT.format("base_link", "wheel")}),
         Example(
+            "a gripper, which hangs on the arm of a file that includes it",
+            {
+                "gripper.xacro": '<robot name="gripper">\n  <link name="finger"/>\n'
+                '  <joint name="grip" type="fixed">\n    <parent link="wrist"/>\n'
+                '    <child link="finger"/>\n  </joint>\n</robot>\n'
+            },
+        ),
+        Example(
             "a name that is not there",
             {"robot.urdf": _ROBOT.format("base", "wheel")},
             Report(
@@ -62,7 +70,8 @@ class LinkUndefined(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
-            if robot.file.is_robot and not robot.is_open and not robot.is_partial:
+            is_whole = not robot.is_open and not robot.is_partial and _has_root(robot)
+            if robot.file.is_robot and is_whole:
                 yield from self._check(package, robot)
 
     def _check(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
@@ -89,6 +98,13 @@ class LinkUndefined(Rule):
                 message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
                 if _is_here(package, mimic):
                     yield self.report(mimic.at("joint"), message)
+
+
+def _has_root(robot: Expansion) -> bool:
+    """Tell whether a link is no child of a joint; a part that others include hangs on theirs."""
+    links = {part.get("name") for part in robot.root.all("link")}
+    children = [joint.one("child") for joint in robot.root.all("joint")]
+    return not links or bool(links - {child.get("link") for child in children if child})
 
 
 def _is_here(package: Package, part: Part) -> bool:

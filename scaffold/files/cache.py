@@ -16,7 +16,7 @@ SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
 MAX_BYTES = 100_000_000
 """Of all files of a kind."""
-KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types")
+KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types", "pages")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
 _ABANDONED_AFTER = 3600
 """Seconds after which a temporary file is no longer being written."""
@@ -72,6 +72,21 @@ def _is_in_repository(path: str) -> bool:
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:
     """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
+    return _write(path, head + digest(data).encode() + data)
+
+
+def write_plain(path: str, data: bytes) -> bool:
+    """Write what other programs read, unless it is there; tell whether it is there then."""
+    try:
+        with open(path, "rb", buffering=0) as file:
+            if file.read(MAX_BYTES) == data:
+                return True
+    except OSError:
+        pass  # it is written
+    return _write(path, data)
+
+
+def _write(path: str, data: bytes) -> bool:
     from scaffold.files import temporary
 
     directory = os.path.dirname(path)
@@ -80,7 +95,7 @@ def write_sealed(path: str, head: bytes, data: bytes) -> bool:
         os.makedirs(directory, exist_ok=True)
         with open(temporary.create(aside), "wb") as file:
             try:
-                file.write(head + digest(data).encode() + data)
+                file.write(data)
                 file.flush()
                 os.replace(aside, path)
             except BaseException:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from functools import cache
 from inspect import cleandoc
+from urllib.parse import quote
 
 from scaffold.diagnostic import Severity
 from scaffold.record import NamedTuple
@@ -61,6 +63,33 @@ def of(codes: Iterable[str]) -> dict[str, RulePage]:
         url = f"{repository}/blob/HEAD/docs/rules/{code}.md" if repository else None
         pages[code] = RulePage(code, name, severity, summary.replace("`", ""), text, linters, url)
     return pages
+
+
+def links(codes: Iterable[str]) -> dict[str, str]:
+    """Return what a terminal can link codes to.
+
+    The address of the page, or a page in the user's cache where the project has no address; a code
+    without either is left out.
+    """
+    from scaffold.files import cache
+
+    result: dict[str, str] = {}
+    kept = cache.directory("pages")
+    for code, page in of(codes).items():
+        path = None if kept is None else os.path.join(kept, f"{code}.md")
+        if page.url is not None:
+            result[code] = page.url
+        elif path is not None and cache.write_plain(path, _full_page(code).encode()):
+            result[code] = f"file://{quote(os.path.abspath(path))}"
+    return result
+
+
+def _full_page(code: str) -> str:
+    from scaffold.ament.codes import STYLE
+    from scaffold.check import docs, registry
+
+    rule = registry.loaded().get(code)
+    return docs.style_page(STYLE[code]) if rule is None else docs.page(rule)
 
 
 @cache

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from textwrap import shorten
+from types import MappingProxyType
 from typing import TextIO
 
 from rich.console import Console
+from rich.style import Style
 from rich.text import Text
 
 from scaffold.check.adjustments import runs_linter
@@ -15,7 +17,7 @@ from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple
-from scaffold.reporters import ReportOptions
+from scaffold.reporters import ReportOptions, rule_pages
 from scaffold.reporters.entries import SEVERITIES, Entry, by_cause, in_order, is_style
 from scaffold.reporters.excerpt import excerpt
 from scaffold.reporters.summary import by_severity, count, fixable, summary
@@ -66,7 +68,8 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     room = len(blocks)
     if not options.everything:
         room = _room(blocks, max(_MIN_LINES, console.height - len(footer) - 6), console.width)
-    for block in blocks[:room]:
+    links = rule_pages.links({entry.first.code for entry in entries[:room]})
+    for block in _blocks(entries[:room], options, links):
         console.print(block)
     if room < len(blocks) and not options.quiet:
         footer = [*_hidden_lines(entries[room:]), *footer]
@@ -105,8 +108,18 @@ def _fold(results: Sequence[Result], options: ReportOptions) -> _Folded:
     return _Folded([result for result in styles if result.diagnostics])
 
 
-def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
-    """Return what is written for each entry: some lines, the name of the package above them."""
+def _blocks(
+    entries: Sequence[Entry],
+    options: ReportOptions,
+    links: Mapping[str, str] = MappingProxyType({}),
+) -> list[Text]:
+    """Return what is written for each entry: some lines, the name of the package above them.
+
+    Args:
+        entries: In the order to write them in.
+        options: What the user wants to see.
+        links: The pages of codes; terminals that know no links ignore them.
+    """
     blocks: list[Text] = []
     package = None
     for entry in entries:
@@ -114,14 +127,14 @@ def _blocks(entries: Sequence[Entry], options: ReportOptions) -> list[Text]:
         if entry.package is not package:
             package = entry.package
             lines += [Text(), Text(printable(package.name), style="bold underline")]
-        lines += _lines(entry, options)
+        lines += _lines(entry, options, links.get(entry.first.code))
         blocks.append(Text("\n").join(lines))
     if blocks:
         blocks[0] = blocks[0][1:]  # no empty line above the first package
     return blocks
 
 
-def _lines(entry: Entry, options: ReportOptions) -> list[Text]:
+def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]:
     first = entry.first
     message = printable(first.message)
     if not options.everything:
@@ -132,7 +145,7 @@ def _lines(entry: Entry, options: ReportOptions) -> list[Text]:
             ": ",
             (first.severity.value, _COLORS[first.severity]),
             " ",
-            (first.code, "bold"),
+            (first.code, Style(bold=True, link=link)),
             f" {message} ",
             (f"[{first.name}]", "dim"),
         )

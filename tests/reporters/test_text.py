@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -58,7 +59,16 @@ def check(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, lis
 
 def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int, list[str]]:
     """Return the exit code and the lines that a terminal shows."""
-    variables = {name: value for name, value in os.environ.items() if name not in SIZES}
+    code, shown = shown_on_terminal(directory, *arguments, lines=lines)
+    plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b\]8;[^\x1b]*\x1b\\", "", shown)
+    return code, [line.strip("\r") for line in plain.splitlines()]
+
+
+def shown_on_terminal(
+    directory: Path, *arguments: str, lines: int = 40, variables: Mapping[str, str] | None = None
+) -> tuple[int, str]:
+    """Return the exit code and all that is sent to a terminal."""
+    own = {name: value for name, value in os.environ.items() if name not in SIZES}
     command = os.path.join(os.path.dirname(sys.executable), "ros2-scaffold")
     child = pexpect.spawn(
         "/bin/sh",  # the progress bar, for which a slow machine has time, goes elsewhere
@@ -67,12 +77,11 @@ def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int,
         dimensions=(lines, 120),
         encoding="utf-8",
         timeout=300,
-        env={**variables, "TERM": "xterm-256color"},
+        env={**own, **(variables or {}), "TERM": "xterm-256color"},
     )
     shown = child.read()
     child.close()
-    plain = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-    return int(child.exitstatus or 0), [line.strip("\r") for line in plain.splitlines()]
+    return int(child.exitstatus or 0), shown
 
 
 def findings(lines: list[str]) -> list[str]:
@@ -101,6 +110,23 @@ def test_a_terminal_counts_style_while_there_are_errors(workspace: Path) -> None
     assert lines[-1].startswith("1 package, ")
     _, shown = on_terminal(workspace, "--style", "robot", lines=200)
     assert [line for line in findings(shown) if " Q000 " in line]
+
+
+def test_a_terminal_links_codes_to_their_pages(workspace: Path) -> None:
+    raw = shown_on_terminal(workspace, "robot")[1]
+    pages = dict(re.findall(r"\x1b\]8;[^;]*;file://([^\x1b]+)\x1b\\\x1b\[[0-9;]*m(\w+)", raw))
+    assert "TY003" in pages.values()
+    for path, code in pages.items():
+        assert Path(path).read_text().startswith(f"# {code} ")
+    without = shown_on_terminal(workspace, "robot", variables={"SCAFFOLD_NO_CACHE": "1"})[1]
+    assert "TY003" in without
+    assert "\x1b]8" not in without
+
+
+def test_a_file_has_no_links(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, lines = check(capsys, str(workspace / "robot"))
+    assert findings(lines)
+    assert not any("\x1b" in line for line in lines)
 
 
 def test_a_terminal_shows_the_source_line_with_a_mark(workspace: Path) -> None:

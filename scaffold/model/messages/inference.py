@@ -77,6 +77,8 @@ class Assigned(NamedTuple):
     owner: MessageClass
     field: Field
     value: ast.expr
+    holder: ast.expr
+    """The message that the field is of: an expression, or the call that makes it."""
 
 
 def message_paths(package: Package) -> Sequence[str]:
@@ -401,7 +403,7 @@ class MessageTypes:
             owner = self.type_of(store.node.value)
             field = owner.section.field(store.node.attr) if owner else None
             if owner and field:
-                yield Assigned(owner, field, store.value)
+                yield Assigned(owner, field, store.value, store.node.value)
 
     def _stores(self) -> Iterator[Store]:
         for name in sorted({node.attr for node in self.module.walk(ast.Attribute)}):
@@ -415,7 +417,7 @@ class MessageTypes:
             for word in call.keywords if owner else ():
                 field = owner.section.field(word.arg) if owner and word.arg else None
                 if owner and field:
-                    yield Assigned(owner, field, word.value)
+                    yield Assigned(owner, field, word.value, call)
 
 
 def _names_kind(module: str, names: Sequence[str]) -> bool:

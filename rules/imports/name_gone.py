@@ -1,0 +1,178 @@
+"""IM046: the names of other Python packages exist in the releases of Ubuntu 24.04."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, Package, PythonRule, Report, Severity
+from scaffold.api.python import PythonModule, is_handled
+
+_NODE = "import numpy as np\n\n\ndef area(values):\n    return {}\n"
+_GONE: Mapping[str, tuple[str, str]] = {
+    "numpy.float": ("since NumPy 1.24", "float or np.float64"),
+    "numpy.int": ("since NumPy 1.24", "int or np.int64"),
+    "numpy.bool": ("since NumPy 1.24", "bool or np.bool_"),
+    "numpy.object": ("since NumPy 1.24", "object"),
+    "numpy.str": ("since NumPy 1.24", "str"),
+    "numpy.complex": ("since NumPy 1.24", "complex"),
+    "numpy.long": ("since NumPy 1.24", "int"),
+    "numpy.unicode": ("since NumPy 1.24", "str"),
+    "numpy.typeDict": ("since NumPy 1.24", "np.sctypeDict"),
+    "numpy.asscalar": ("since NumPy 1.23", "the method .item()"),
+    "numpy.alen": ("since NumPy 1.23", "len()"),
+    "numpy.rank": ("since NumPy 1.18", "np.ndim()"),
+    "PIL.Image.ANTIALIAS": ("since Pillow 10", "Image.LANCZOS"),
+    "PIL.Image.LINEAR": ("since Pillow 10", "Image.BILINEAR"),
+    "PIL.Image.CUBIC": ("since Pillow 10", "Image.BICUBIC"),
+    "scipy.misc.imread": ("since SciPy 1.2", "imageio.imread()"),
+    "scipy.misc.imresize": ("since SciPy 1.3", "PIL.Image.resize()"),
+    "scipy.interp": ("since SciPy 1.4", "np.interp()"),
+    "cv2.cv": ("since OpenCV 3", "the names of cv2 itself"),
+    "cv2.SIFT": ("since OpenCV 3", "cv2.SIFT_create()"),
+}
+"""What Python raises ``AttributeError`` for, since when, and what to write instead."""
+_LATER: Mapping[str, str] = {
+    **dict.fromkeys(("trapezoid",), "np.trapz()"),
+    **{f"a{name}": f"np.arc{name}()" for name in ("cos", "sin", "tan", "cosh", "sinh", "tanh")},
+    "atan2": "np.arctan2()",
+    "concat": "np.concatenate()",
+    "permute_dims": "np.transpose()",
+    "pow": "np.power()",
+    "astype": "the method .astype()",
+    "matrix_transpose": "np.swapaxes()",
+    "vecdot": "np.einsum()",
+    "cumulative_sum": "np.cumsum()",
+    "unstack": "tuple(...)",
+    "bitwise_count": "bin().count()",
+    "unique_values": "np.unique()",
+    "isdtype": "np.issubdtype()",
+    "bitwise_left_shift": "np.left_shift()",
+}
+"""What NumPy has since 2.0; Ubuntu 24.04, which Jazzy is for, has 1.26."""
+
+
+class NameGone(PythonRule):
+    """Code uses a name that NumPy, Pillow, SciPy or OpenCV on Ubuntu 24.04 does not have.
+
+    **Why.** ``AttributeError: module 'numpy' has no attribute 'float'`` as soon as the line runs.
+    Names of NumPy 2 work on a machine with a newer NumPy from pip, and nowhere else.
+
+    **Fix.** Use the name that the message tells.
+
+    **Source.** Release notes of NumPy 1.24 and 2.0, Pillow 10 and SciPy; Ubuntu 24.04 has NumPy
+    1.26, Pillow 10.2 and SciPy 1.11.
+    """
+
+    code = "IM046"
+    name = "name-gone"
+    other_severities = {Severity.WARNING: "a name of NumPy 2 where NumPy comes from pip"}
+    examples = (
+        Example("a name that exists", {"area.py": _NODE.format("np.trapz(values)")}),
+        Example(
+            "asked for first, or put there",
+            {
+                "area.py": _NODE.format("np.trapezoid(values)").replace(
+                    "    return",
+                    "    if not hasattr(np, 'trapezoid'):\n        np.trapezoid = np.trapz\n"
+                    "    return",
+                ),
+                "b.py": "import numpy as np\n\ntry:\n    real = np.float\n"
+                "except AttributeError:\n    real = float\n",
+            },
+        ),
+        Example(
+            "a name that is gone",
+            {"area.py": _NODE.format("np.array(values, np.float)")},
+            Report(
+                "5:29",
+                "numpy.float is gone since NumPy 1.24: AttributeError; use float or np.float64",
+            ),
+        ),
+        Example(
+            "a name of NumPy 2",
+            {
+                "area.py": _NODE.format("np.trapezoid(values)"),
+                "package.xml": '<package format="3">\n  <name>area</name>\n'
+                "  <exec_depend>python3-numpy</exec_depend>\n</package>\n",
+            },
+            Report(
+                "area.py:5:12",
+                "numpy.trapezoid came with NumPy 2, Ubuntu 24.04 has 1.26: "
+                "AttributeError; use np.trapz()",
+            ),
+        ),
+        Example(
+            "a name of NumPy 2, and no package",
+            {"area.py": _NODE.format("np.concat(values)")},
+            Report(
+                "5:12",
+                "numpy.concat came with NumPy 2, Ubuntu 24.04 has 1.26: "
+                "AttributeError; use np.concatenate()",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "of the system, and without a loader",
+            {
+                "a.py": "import yaml\n\n\ndef read(path):\n    with open(path) as file:\n"
+                "        return yaml.load(file)\n"
+            },
+            Report("6:16", "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"),
+        ),
+        Example(
+            "with a loader",
+            {
+                "a.py": "import yaml\n\n\ndef read(path):\n    with open(path) as file:\n"
+                "        return yaml.load(file, Loader=yaml.SafeLoader)\n"
+            },
+        ),
+    )
+
+    def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+        if not module.imports_by_root.keys() & {"numpy", "PIL", "scipy", "cv2", "yaml"}:
+            return
+        for node in module.walk(ast.Attribute):
+            name = module.qualified_name(node) or ""
+            if name not in _GONE and not name.startswith("numpy."):
+                continue
+            short = name.removeprefix("numpy.")
+            if is_handled(module, node, "AttributeError") or _is_replaced(module, node):
+                continue
+            if name in _GONE:
+                since, instead = _GONE[name]
+                message = f"{name} is gone {since}: AttributeError; use {instead}"
+                yield self.report(module.location(node), message)
+            elif short in _LATER:
+                message = (
+                    f"{name} came with NumPy 2, Ubuntu 24.04 has 1.26: AttributeError; use "
+                    f"{_LATER[short]}"
+                )
+                severity = None if _has_numpy_of_system(package) else Severity.WARNING
+                yield self.report(module.location(node), message, severity=severity)
+        for call in module.walk(ast.Call):
+            if module.qualified_name(call.func) in {"yaml.load", "yaml.load_all"}:
+                loads = len(call.args) == 1 and not call.keywords
+                if loads and not is_handled(module, call, "TypeError"):
+                    message = (
+                        "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"
+                    )
+                    yield self.report(module.location(call), message)
+
+
+def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:
+    """Tell whether the module asks for a name, or puts it there."""
+    stores = [other for other in module.walk(ast.Attribute) if other.attr == node.attr]
+    if any(isinstance(other.ctx, ast.Store) for other in stores):
+        return True
+    return any(
+        isinstance(call.func, ast.Name)
+        and call.func.id in {"hasattr", "getattr"}
+        and any(isinstance(item, ast.Constant) and item.value == node.attr for item in call.args)
+        for call in module.walk(ast.Call)
+    )
+
+
+def _has_numpy_of_system(package: Package) -> bool:
+    """Tell whether a package declares the NumPy of the system."""
+    return package.has("package.xml") and "python3-numpy" in package.manifest.declared_names
