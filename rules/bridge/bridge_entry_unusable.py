@@ -107,14 +107,14 @@ class BridgeEntryUnusable(Rule):
     def _check(self, package: Package, entry: BridgeEntry) -> Iterator[Diagnostic]:
         misspelt = [key for key in entry.keys if key not in _KEYS]
         for key in misspelt:
-            near = _OLD.get(key) or closest_name(package, key, _KEYS, 0.75)
-            if near and near not in entry.keys:
-                message = f"the bridge ignores the key {key!r}: write {near!r}"
+            closest = _OLD.get(key) or closest_name(package, key, _KEYS, 0.75)
+            if closest and closest not in entry.keys:
+                message = f"the bridge ignores the key {key!r}: write {closest!r}"
                 yield self.report(entry.keys[key], message)
         direction = entry.values.get("direction")
         if direction is not None and direction.text not in _DIRECTIONS:
-            near = closest_name(package, direction.text.upper(), _DIRECTIONS, 0.6)
-            hint = f"closest: {near}" if near else f"known: {', '.join(_DIRECTIONS)}"
+            closest = closest_name(package, direction.text.upper(), _DIRECTIONS, 0.6)
+            hint = f"closest: {closest}" if closest else f"known: {', '.join(_DIRECTIONS)}"
             message = f"invalid direction {direction.text!r}: the bridge drops the entry; {hint}"
             yield self.report(direction, message)
         if "service_name" in entry.keys:

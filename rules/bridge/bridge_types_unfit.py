@@ -163,8 +163,8 @@ class BridgeTypesUnfit(Rule):
             message = f"no conversion between {ros!r} and {gz!r}: nothing is bridged"
             yield self.report(gz_at, f"{message}; {ros!r} goes with {' or '.join(of_ros)}")
         elif of_gz and package.workspace.interfaces.find(ros) is None:
-            near = closest_name(package, ros, {name for name, _ in BRIDGED_TYPES}, 0.7)
-            hint = f"; closest: {near!r}" if near else ""
+            closest = closest_name(package, ros, {name for name, _ in BRIDGED_TYPES}, 0.7)
+            hint = f"; closest: {closest!r}" if closest else ""
             message = f"the bridge does not know the type {ros!r}: nothing is bridged{hint}"
             yield self.report(ros_at, message)
 

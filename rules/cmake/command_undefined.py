@@ -123,15 +123,15 @@ class CommandUndefined(Rule):
 
     def _check_providers(self, cmake: CMakeLists, own: set[str]) -> Iterator[Diagnostic]:
         """Report the commands of packages that are not found."""
-        found = {package.name for package in cmake.found_packages}
+        packages = {package.name for package in cmake.found_packages}
         if cmake.finds_automatically or cmake.finds_tests_automatically:
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
             return
-        if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in found):
+        if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in packages):
             return
         for name, providers in PROVIDERS.items():
-            if name in own or not found.isdisjoint(providers):
+            if name in own or not packages.isdisjoint(providers):
                 continue
             for command in cmake.find(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"
@@ -158,8 +158,8 @@ def _closest(name: str) -> list[str]:
     if any(character.isdigit() for character in name):
         return []
     words = sorted(name.split("_"))
-    swapped = [known for known in OF_AMENT if sorted(known.split("_")) == words]
+    swapped = [command for command in OF_AMENT if sorted(command.split("_")) == words]
     similar = get_close_matches(name, BUILT_IN | OF_AMENT, 1, 0.9)
     return swapped[:1] or [
-        known for known in similar if abs(len(known) - len(name)) <= _MAX_LENGTH_DIFFERENCE
+        command for command in similar if abs(len(command) - len(name)) <= _MAX_LENGTH_DIFFERENCE
     ]

@@ -63,16 +63,16 @@ class FindMisspelled(Rule):
     def _judge(
         self, package: Package, name: str, argument: Argument, at: Location
     ) -> Iterator[Diagnostic]:
-        meant = similar_package(name)
-        if meant is None or (meant == name.lower() and not _is_of_ros(meant)):
+        closest = similar_package(name)
+        if closest is None or (closest == name.lower() and not _is_of_ros(closest)):
             return
         if package.workspace.get(name) is not None:
             return
         fix = None
         if argument.value == name:
-            edit = Edit("CMakeLists.txt", argument.start, argument.end, meant)
-            fix = Fix(f"write {meant}", (edit,))
-        yield self.report(at, f"no package {name!r} is known; closest: {meant!r}", fix)
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
+            fix = Fix(f"write {closest}", (edit,))
+        yield self.report(at, f"no package {name!r} is known; closest: {closest!r}", fix)
 
 
 def _is_of_ros(name: str) -> bool:

@@ -67,8 +67,8 @@ class FoundWhenRunOnly(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         kinds: dict[str, set[str]] = {}
-        for one in manifest.dependencies:
-            kinds.setdefault(one.name, set()).add(one.kind)
+        for declared in manifest.dependencies:
+            kinds.setdefault(declared.name, set()).add(declared.kind)
         only = {name for name, item in kinds.items() if item == {"exec_depend"}}
         along = _there(package) if only else set()
         for found_package in package.cmake.found_packages:

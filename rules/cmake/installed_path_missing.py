@@ -95,8 +95,8 @@ class InstalledPathMissing(Rule):
             return self._directory_problem(package, path)
         if package.has(path):
             return None
-        near = closest_name(package, path, package.files, 0.8)
-        hint = f"; closest: {near}" if near else ""
+        closest = closest_name(package, path, package.files, 0.8)
+        hint = f"; closest: {closest}" if closest else ""
         return f"installs {path}, which does not exist: the build stops{hint}"
 
     def _directory_problem(self, package: Package, path: str) -> str | None:

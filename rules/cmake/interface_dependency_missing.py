@@ -87,10 +87,10 @@ def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
         package = pending.pop()
         result.add(package)
         for kind in KINDS:
-            known = definitions.names(package, kind)
-            if known is None and package in names:
+            interfaces = definitions.names(package, kind)
+            if interfaces is None and package in names:
                 return None
-            for name in known or ():
+            for name in interfaces or ():
                 interface = definitions.find(f"{package}/{kind}/{name}")
                 for section in interface.sections if interface else ():
                     uses = {field.type.package for field in section.fields if field.type.package}

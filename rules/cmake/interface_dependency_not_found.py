@@ -59,7 +59,7 @@ class InterfaceDependencyNotFound(Rule):
         calls = [call for call in generations(package) if call.dependencies]
         if not calls or cmake.finds_automatically or has_unknown_commands(package):
             return
-        there = _there(package, _found(cmake))
+        there = _available(package, _names_found(cmake))
         for call in calls if there is not None else ():
             for name in call.dependencies or ():
                 if name not in {*(there or ()), *_ALWAYS, package.name}:
@@ -70,24 +70,24 @@ class InterfaceDependencyNotFound(Rule):
                     yield self.report(call.command.name_location, message)
 
 
-def _found(cmake: CMakeLists) -> set[str] | None:
+def _names_found(cmake: CMakeLists) -> set[str] | None:
     """Return what is found; ``None`` if a name is not known."""
     names: set[str] = set()
     for command in cmake.find("find_package"):
-        found = cmake.expand_list(command.arguments[:1], command)
-        if not found and not any(package.command is command for package in cmake.found_packages):
+        expanded = cmake.expand_list(command.arguments[:1], command)
+        if not expanded and not any(package.command is command for package in cmake.found_packages):
             return None
     names.update(package.name for package in cmake.found_packages)
     return names
 
 
-def _there(package: Package, found: set[str] | None) -> set[str] | None:
+def _available(package: Package, required: set[str] | None) -> set[str] | None:
     """Return what is found, with what comes along; ``None`` if more may come along."""
-    if found is None:
+    if required is None:
         return None
     definitions = package.workspace.interfaces
     there: set[str] = set()
-    pending = sorted(found)
+    pending = sorted(required)
     while pending:
         name = pending.pop()
         if name in there:
@@ -96,11 +96,11 @@ def _there(package: Package, found: set[str] | None) -> set[str] | None:
         if name.startswith(_TOOLS):
             continue
         pending += sorted(transitive_dependencies({name}))
-        known = [(kind, definitions.names(name, kind)) for kind in KINDS]
-        if name in found and not any(names for _, names in known):
+        interfaces = [(kind, definitions.names(name, kind)) for kind in KINDS]
+        if name in required and not any(names for _, names in interfaces):
             return None
         pending += _declared(package, name)
-        for kind, names in known:
+        for kind, names in interfaces:
             for item in names or ():
                 interface = definitions.find(f"{name}/{kind}/{item}")
                 for section in interface.sections if interface else ():

@@ -120,11 +120,11 @@ class ProgramNotInstalled(Rule):
         ]
         if any(item.path is None for install in installs for item in install.items):
             return
-        known = {program.path for program in programs(package)}
+        installed = {program.path for program in programs(package)}
         at = next((install.command for install in installs if install.kind == "PROGRAMS"), None)
-        used = tuple(f"/{path}" for path in paths_imported_by(package, known))
+        used = tuple(f"/{path}" for path in paths_imported_by(package, installed))
         for path in package.python_files:
-            if path in known or not is_started(package, path):
+            if path in installed or not is_started(package, path):
                 continue
             if f"/{path}".endswith(used):
                 continue
@@ -136,7 +136,7 @@ class ProgramNotInstalled(Rule):
                 "run` does not find it"
             )
             directory = path.rpartition("/")[0]
-            has_neighbor = any(other.rpartition("/")[0] == directory for other in known)
+            has_neighbor = any(other.rpartition("/")[0] == directory for other in installed)
             is_trial = path.rpartition("/")[2].startswith(_TRIALS)
             severity = Severity.ERROR if has_neighbor and not is_trial else Severity.WARNING
             yield self.report(place, message, severity=severity)

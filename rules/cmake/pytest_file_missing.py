@@ -49,6 +49,6 @@ class PytestFileMissing(Rule):
             path = cmake.path_of(value)
             if package.has(path) or package.has_directory(path):
                 continue
-            near = closest_name(package, path, package.python_files, 0.7)
-            hint = f"; closest: {near}" if near else ""
+            closest = closest_name(package, path, package.python_files, 0.7)
+            hint = f"; closest: {closest}" if closest else ""
             yield self.report(argument, f"there is no test file {path}{hint}")

@@ -63,7 +63,7 @@ class SourceFileMissing(Rule):
                 path = cmake.path_of(value)
                 if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
                     continue
-                near = closest_name(package, path, package.files, 0.8)
-                hint = f"; closest: {near}" if near else ""
+                closest = closest_name(package, path, package.files, 0.8)
+                hint = f"; closest: {closest}" if closest else ""
                 message = f"there is no file {path}: CMake stops{hint}"
                 yield self.report(argument, message)

@@ -67,18 +67,18 @@ class TargetUndefined(Rule):
         defined = defined_targets(cmake)
         if defined is None:
             return
-        known = sorted(defined)
+        targets = sorted(defined)
         never_named = targets_named_once(cmake)
         for target, argument in never_named:
-            near = closest_name(package, target, known, 0.75)
-            hint = f"; closest: {near!r}" if near else ": CMake stops"
+            closest = closest_name(package, target, targets, 0.75)
+            hint = f"; closest: {closest!r}" if closest else ": CMake stops"
             yield self.report(argument, f"nothing defines the target {target!r}{hint}")
         reported = {target for target, _ in never_named}
         for command in cmake.find(*TAKING_TARGETS):
             name = cmake.expand(command.arguments[0], command) if command.arguments else None
             if name is None or name in defined | reported or "::" in name or command.blocks:
                 continue
-            near = closest_name(package, name, known, 0.75)
-            if near:
-                message = f"nothing defines the target {name!r}; closest: {near!r}"
+            closest = closest_name(package, name, targets, 0.75)
+            if closest:
+                message = f"nothing defines the target {name!r}; closest: {closest!r}"
                 yield self.report(command.arguments[0], message)

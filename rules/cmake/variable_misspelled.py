@@ -56,9 +56,9 @@ class VariableMisspelled(Rule):
             for argument in command.arguments:
                 for name in _variables(argument):
                     if name not in named and _is_meant(name) and not _is_made(cmake, name):
-                        yield self._found(argument, name)
+                        yield self._report(argument, name)
 
-    def _found(self, argument: Argument, name: str) -> Diagnostic:
+    def _report(self, argument: Argument, name: str) -> Diagnostic:
         fix = None
         at = argument.raw.find(f"${{{name}}}")
         if at >= 0:

@@ -49,21 +49,21 @@ class CircularImport(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         edges: dict[tuple[str, str], Import] = {}
         for where, imports in imports_by_path(package):
-            for one in imports:
-                if one.top_level and one.names and not one.guarded:
-                    path = _file_of(package, where, one)
+            for item in imports:
+                if item.top_level and item.names and not item.guarded:
+                    path = _file_of(package, where, item)
                     if path and path != where:
-                        edges.setdefault((where, path), one)
-        for (path, other), one in edges.items():
+                        edges.setdefault((where, path), item)
+        for (path, other), item in edges.items():
             back = edges.get((other, path))
-            if back is None or not _takes_names(package, one, other):
+            if back is None or not _takes_names(package, item, other):
                 continue
             if _takes_names(package, back, path):
                 message = (
                     f"circular import: {other}:{back.location.line} imports from this module as "
                     "well, so one of them fails with ImportError"
                 )
-                yield self.report(one, message)
+                yield self.report(item, message)
 
 
 def _takes_names(package: Package, node: Import, path: str) -> bool:

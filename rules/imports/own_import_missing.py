@@ -149,8 +149,8 @@ class OwnImportMissing(Rule):
         elif root in roots:
             if not may_be_made(package, name):
                 modules = [item for item in modules_of(package, root) if "__init__" not in item]
-                near = closest_name(package, name, modules, 0.6)
-                hint = f"; closest: {near!r}" if near else ""
+                closest = closest_name(package, name, modules, 0.6)
+                hint = f"; closest: {closest!r}" if closest else ""
                 yield self.report(node, f"the package has no module {name!r}{hint}")
         elif not node.level:
             intended = intended_module(package, where, name)
@@ -171,6 +171,8 @@ class OwnImportMissing(Rule):
             below = f"{name}.{imported.name}"
             if file_of(package, below) or may_be_made(package, below):
                 continue
-            near = closest_name(package, imported.name, [*exports.functions, *exports.classes], 0.6)
-            hint = f"; closest: {near!r}" if near else ""
+            closest = closest_name(
+                package, imported.name, [*exports.functions, *exports.classes], 0.6
+            )
+            hint = f"; closest: {closest!r}" if closest else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")

@@ -100,10 +100,10 @@ class ActionMadeWrongly(LaunchRule):
         if call.kind in {"GroupAction", "TimerAction"}:
             name = "GroupAction" if call.call.args and call.kind == "GroupAction" else ""
             actions = call.call.args[0] if name else call.given.get("actions")
-            found = launch.call_of(actions)
-            if actions is not None and found is not None and found.kind in _ACTIONS:
+            view = launch.call_of(actions)
+            if actions is not None and view is not None and view.kind in _ACTIONS:
                 yield self.report(
-                    launch.location(actions), f"expected a list of actions, not one {found.kind}"
+                    launch.location(actions), f"expected a list of actions, not one {view.kind}"
                 )
             if call.kind == "GroupAction" and "scoped" not in call.given:
                 last = _setting_nothing(launch, actions)

@@ -60,10 +60,10 @@ class ActionNotLaunchedOnce(LaunchRule):
             places = [items[load] for load in loads if load in items]
             listed = [place for place in places if place.holder == "LaunchDescription"]
             again = [*(place for place in places if place.holder in HANDLERS), *listed[1:]]
-            for one in again if listed else ():
-                if not _repeats(launch, one.node):
+            for use in again if listed else ():
+                if not _repeats(launch, use.node):
                     message = f"{name} is launched twice: here, and in the LaunchDescription"
-                    yield self.report(launch.location(one.node), message)
+                    yield self.report(launch.location(use.node), message)
             if loads and all(_is_target(launch, load) for load in loads):
                 message = (
                     f"a handler watches {name}, which is not in the LaunchDescription: it "
@@ -81,11 +81,11 @@ def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]
         target = holder.targets[0]
         if not isinstance(target, ast.Name):
             continue
-        found = launch.module.index.lookup(target.id, target)
+        lookup = launch.module.index.lookup(target.id, target)
         uses = [use for use in launch.module.index.names(target.id) if use is not target]
-        if found is None or len(found[1]) != 1 or _repeats(launch, call.call):
+        if lookup is None or len(lookup[1]) != 1 or _repeats(launch, call.call):
             continue
-        if all(launch.module.index.lookup(use.id, use) == found for use in uses):
+        if all(launch.module.index.lookup(use.id, use) == lookup for use in uses):
             yield target.id, call.call, uses
 
 

@@ -63,15 +63,15 @@ class ArgumentsDoNotFit(LaunchRule):
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
-            known = signature(call.kind)
-            if known is None or call.is_open:
+            parameters = signature(call.kind)
+            if parameters is None or call.is_open:
                 continue
-            count, most = len(call.call.args), len(known.positional)
+            count, most = len(call.call.args), len(parameters.positional)
             if count > most and call.kind != "LaunchDescription":
-                yield self.report(call, _too_many(call.kind, known.positional))
+                yield self.report(call, _too_many(call.kind, parameters.positional))
                 continue
-            missing = [name for name in known.required if name not in call.given]
-            if missing and known.names.issuperset(call.words):
+            missing = [name for name in parameters.required if name not in call.given]
+            if missing and parameters.names.issuperset(call.words):
                 names = " and ".join(f"{name}=..." for name in missing)
                 yield self.report(call, f"{call.kind} needs {names}: TypeError")
 

@@ -118,8 +118,8 @@ class ConditionUnusable(LaunchRule):
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
-    found = launch.call_of(node)
-    kind = found.kind if found is not None else ""
+    view = launch.call_of(node)
+    kind = view.kind if view is not None else ""
     if call.kind in _BY_NAME:
         is_value = kind == "LaunchConfiguration"
         return f"{call.kind} takes the name of the launch argument, a string" if is_value else ""

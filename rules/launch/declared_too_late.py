@@ -72,12 +72,12 @@ class DeclaredTooLate(LaunchRule):
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
-        known = steps(launch)
-        if known is None:
+        actions = steps(launch)
+        if actions is None:
             return
-        declared = later_declarations(launch, known)
+        declared = later_declarations(launch, actions)
         reported: set[str] = set()
-        for index, step in enumerate(known):
+        for index, step in enumerate(actions):
             for call in step.reads:
                 name = str(launch.text(call, "variable_name"))
                 if declared.get(name, -1) <= index or name in reported:

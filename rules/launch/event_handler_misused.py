@@ -93,8 +93,8 @@ class EventHandlerMisused(LaunchRule):
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:
-    found = launch.call_of(node)
-    kind = found.kind if found is not None else ""
+    view = launch.call_of(node)
+    kind = view.kind if view is not None else ""
     problem = ""
     if name == "target_action" and call.kind in _OF_PROCESSES:
         value = launch.evaluator.evaluate(node)

@@ -94,8 +94,8 @@ class ExecutableMissing(Rule):
             if other is package and self._is_script(package, name):
                 continue
             have = listed_names(programs.sources, name)
-            near = get_close_matches(name, programs.sources, 1, 0.7)
-            hint = f"; closest: {near[0]!r}" if near else ""
+            closest = get_close_matches(name, programs.sources, 1, 0.7)
+            hint = f"; closest: {closest[0]!r}" if closest else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
             yield self.report(use.executable_location, message)
 

@@ -83,25 +83,25 @@ class ImportFromWrongModule(PythonRule):
         return () if package.name in roots else super().paths(package)
 
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
-        known = {module: frozenset(names.split()) for module, names in _NAMES.items()}
-        places = {name: module for module, names in known.items() for name in names}
-        roots = {module.partition(".")[0] for module in known}
+        names_of = {module: frozenset(names.split()) for module, names in _NAMES.items()}
+        places = {name: module for module, names in names_of.items() for name in names}
+        roots = {module.partition(".")[0] for module in names_of}
         for root in roots:
             for item in module.imports_by_root.get(root, ()):
                 if not item.guarded and not item.conditional:
-                    yield from self._check(item, known, places)
+                    yield from self._check(item, names_of, places)
 
     def _check(
-        self, node: Import, known: Mapping[str, frozenset[str]], places: Mapping[str, str]
+        self, node: Import, names_of: Mapping[str, frozenset[str]], places: Mapping[str, str]
     ) -> Iterator[Diagnostic]:
-        near = f"{node.module}s"
-        if node.module not in known and near in known and node.root != "launch":
-            yield self.report(node, f"no module {node.module!r}; closest: {near!r}")
-        for name in node.names if node.module in known else ():
-            if name.name in known[node.module] or name.name == "*":
+        plural = f"{node.module}s"
+        if node.module not in names_of and plural in names_of and node.root != "launch":
+            yield self.report(node, f"no module {node.module!r}; closest: {plural!r}")
+        for name in node.names if node.module in names_of else ():
+            if name.name in names_of[node.module] or name.name == "*":
                 continue
             place = places.get(name.name)
-            alike = get_close_matches(name.name, known[node.module], 1, 0.85)
+            alike = get_close_matches(name.name, names_of[node.module], 1, 0.85)
             if place is None and alike and alike[0].lower() != name.name.lower():
                 hint = f"closest: {alike[0]!r}"
             elif place is not None and place.count(".") >= node.module.count("."):

@@ -94,10 +94,10 @@ class IncludeDoesNotFit(LaunchRule):
         names = {name for name, _, _ in given}
         misspelled = False
         for name, node, _ in given:
-            near = get_close_matches(name, sorted(other.names - names), 1, 0.75)
-            if name not in other.names and near and not other.is_open:
+            closest = get_close_matches(name, sorted(other.names - names), 1, 0.75)
+            if name not in other.names and closest and not other.is_open:
                 misspelled = True
-                message = f"{other.path} has no argument {name!r}; closest: {near[0]!r}"
+                message = f"{other.path} has no argument {name!r}; closest: {closest[0]!r}"
                 yield self.report(launch.location(node), message)
         missing = sorted(other.required - names)
         if missing and not misspelled and _is_understood(call):
@@ -106,5 +106,5 @@ class IncludeDoesNotFit(LaunchRule):
 
 
 def _is_understood(call: LaunchCall) -> bool:
-    known = {"launch_description_source", "launch_arguments", "condition"}
-    return known.issuperset(call.words)
+    arguments = {"launch_description_source", "launch_arguments", "condition"}
+    return arguments.issuperset(call.words)

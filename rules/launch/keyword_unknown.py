@@ -44,12 +44,12 @@ class KeywordUnknown(LaunchRule):
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
-            known = signature(call.kind)
-            for name, word in call.words.items() if known is not None else ():
-                if known is None or name in known.names or name in _OLD:
+            parameters = signature(call.kind)
+            for name, word in call.words.items() if parameters is not None else ():
+                if parameters is None or name in parameters.names or name in _OLD:
                     continue
-                near = get_close_matches(name, sorted(known.names), 1, 0.6)
-                hint = f"; closest: {near[0]!r}" if near else ""
+                closest = get_close_matches(name, sorted(parameters.names), 1, 0.6)
+                hint = f"; closest: {closest[0]!r}" if closest else ""
                 start, _ = launch.module.span(word)
                 at = launch.module.source.location(start, start + len(name))
                 yield self.report(at, f"{call.kind} has no argument {name!r}{hint}")

@@ -55,8 +55,8 @@ class LaunchArgumentsNotPairs(LaunchRule):
 
     def _is_dictionary(self, launch: LaunchFile, node: ast.expr) -> bool:
         if isinstance(node, ast.Name):
-            found = launch.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else [None]
+            lookup = launch.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else [None]
             return all(_makes_dictionary(value) for value in values)
         return _makes_dictionary(node)
 

@@ -72,8 +72,8 @@ class LaunchDescriptionNotReturned(LaunchRule):
     def _check(
         self, launch: LaunchFile, node: ast.FunctionDef, at: Location
     ) -> Iterator[Diagnostic]:
-        found, reaches_end = returns(node)
-        for item in found:
+        statements, reaches_end = returns(node)
+        for item in statements:
             what = _wrong(launch, item.value)
             if what:
                 message = f"generate_launch_description returns {what}, not a LaunchDescription"
@@ -82,7 +82,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
             return
         last = node.body[-1]
         made = launch.call_of(last.value) if isinstance(last, ast.Expr) else None
-        if made is not None and made.kind == "LaunchDescription" and not found:
+        if made is not None and made.kind == "LaunchDescription" and not statements:
             start, _ = launch.module.span(last)
             fix = Fix("return it", (Edit(launch.path, start, start, "return "),))
             message = (
@@ -90,7 +90,7 @@ class LaunchDescriptionNotReturned(LaunchRule):
             )
             yield self.report(launch.location(last), message, fix)
         else:
-            some = " on some paths" if found else ""
+            some = " on some paths" if statements else ""
             message = f"generate_launch_description returns None{some}, not a LaunchDescription"
             yield self.report(at, message)
 

@@ -54,12 +54,12 @@ class LaunchFunctionMissing(LaunchRule):
         is_test = "generate_test_description" in module.functions
         if "/launch/" not in f"/{launch.path}" or is_test:
             return
-        near = get_close_matches(FUNCTION, module.functions, 1, 0.85)
-        if near:
-            at = module.functions[near[0]].location
+        closest = get_close_matches(FUNCTION, module.functions, 1, 0.85)
+        if closest:
+            at = module.functions[closest[0]].location
             start = module.source.offset(at.line, at.column)
-            edit = Edit(launch.path, start, start + len(near[0]), FUNCTION)
-            message = f"`ros2 launch` calls {FUNCTION}, not {near[0]}"
+            edit = Edit(launch.path, start, start + len(closest[0]), FUNCTION)
+            message = f"`ros2 launch` calls {FUNCTION}, not {closest[0]}"
             yield self.report(at, message, Fix(f"write {FUNCTION}", (edit,)))
         else:
             message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"

@@ -100,9 +100,9 @@ class NotAnAction(LaunchRule):
         for call in launch.calls:
             listed = call.given.get("composable_node_descriptions")
             for node in listed.elts if isinstance(listed, ast.List) else ():
-                found = launch.call_of(node)
-                if found is not None and found.kind in NODES:
-                    message = f"this is a {found.kind}, but a container takes ComposableNode"
+                view = launch.call_of(node)
+                if view is not None and view.kind in NODES:
+                    message = f"this is a {view.kind}, but a container takes ComposableNode"
                     yield self.report(launch.location(node), message)
 
 

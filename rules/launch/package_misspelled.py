@@ -79,11 +79,13 @@ class PackageMisspelled(Rule):
         for use in package_uses(package):
             if use.name == name_used_elsewhere(package):
                 continue
-            meant = meant_package(package, use)
-            if meant is None:
+            closest = meant_package(package, use)
+            if closest is None:
                 continue
-            fix = self._fix(package, use, meant.name)
-            message = f"unknown package {use.name!r}; did you mean {meant.name!r} ({meant.reason})?"
+            fix = self._fix(package, use, closest.name)
+            message = (
+                f"unknown package {use.name!r}; did you mean {closest.name!r} ({closest.reason})?"
+            )
             yield self.report(use.location, message, fix)
 
     def _fix(self, package: Package, use: Reference, name: str) -> Fix | None:
@@ -91,8 +93,8 @@ class PackageMisspelled(Rule):
         at = use.location
         start = source.offset(at.line, at.column)
         end = source.offset(at.end_line, at.end_column)
-        found = source.text.find(use.name, start, end)
-        if found < 0:
+        offset = source.text.find(use.name, start, end)
+        if offset < 0:
             return None
-        edit = Edit(at.path, found, found + len(use.name), name)
+        edit = Edit(at.path, offset, offset + len(use.name), name)
         return Fix(f"write {name}", (edit,), Safety.UNSAFE)

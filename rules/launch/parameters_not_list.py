@@ -80,8 +80,8 @@ class ParametersNotList(LaunchRule):
 
     def _what(self, launch: LaunchFile, node: ast.expr) -> str | None:
         if isinstance(node, ast.Name):
-            found = launch.module.index.lookup(node.id, node)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = launch.module.index.lookup(node.id, node)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             node = values[0] if len(values) == 1 and values[0] is not None else node
         if isinstance(node, ast.Dict | ast.DictComp):
             return "a dictionary"

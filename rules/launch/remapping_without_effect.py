@@ -131,7 +131,7 @@ class RemappingWithoutEffect(Rule):
 
 
 def _hint(package: Package, source: str, names: set[str]) -> str:
-    near = closest_name(package, source, names, 0.6)
-    if near:
-        return f"did you mean {near!r}?"
+    closest = closest_name(package, source, names, 0.6)
+    if closest:
+        return f"did you mean {closest!r}?"
     return f"it has {listed_names(names, source)}"

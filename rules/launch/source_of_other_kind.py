@@ -56,5 +56,5 @@ class SourceOfOtherKind(LaunchRule):
                 path = launch.text(source, "launch_file_path")
                 if isinstance(path, str) and path.endswith(endings):
                     name = path.rpartition("/")[2]
-                    meant = "write AnyLaunchDescriptionSource"
-                    yield self.report(source, f"{kind} cannot read {name}: {meant}")
+                    advice = "write AnyLaunchDescriptionSource"
+                    yield self.report(source, f"{kind} cannot read {name}: {advice}")

@@ -129,8 +129,8 @@ class StaticTransformMisused(Rule):
             return
         unknown = [index for index in options if words[index] not in (*_VALUES, *_FRAMES, "--help")]
         for index in unknown:
-            near = closest_name(package, words[index], (*_VALUES, *_FRAMES), 0.6)
-            hint = f"; closest: {near!r}" if near else ""
+            closest = closest_name(package, words[index], (*_VALUES, *_FRAMES), 0.6)
+            hint = f"; closest: {closest!r}" if closest else ""
             message = f"{_PROGRAM} has no option {words[index]!r}: it ends at once{hint}"
             yield self.report(places[index], message)
         for frame in _FRAMES:

@@ -189,9 +189,7 @@ def _with_colon(package: Package) -> str | None:
             continue
         kept = re.sub(r"(?:<!--(?:(?!-->).)*-->\s*)+(?=<xacro:)", "", text, flags=re.DOTALL)
         if ": " in kept and is_launched(package, path):
-            found = next(line for line in kept.splitlines() if ": " in line).strip()
-            number = next(
-                number for number, line in enumerate(text.splitlines(), 1) if found in line
-            )
+            row = next(line for line in kept.splitlines() if ": " in line).strip()
+            number = next(number for number, line in enumerate(text.splitlines(), 1) if row in line)
             return f"{path}:{number}"
     return None

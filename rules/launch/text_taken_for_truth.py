@@ -90,8 +90,8 @@ def _default(launch: LaunchFile, node: ast.expr) -> str | None:
 def _performed(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
     """Return the launch configuration of ``configuration.perform(context)``."""
     if isinstance(node, ast.Name):
-        found = launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in found[1]] if found else []
+        lookup = launch.module.index.lookup(node.id, node)
+        values = [binding.value for binding in lookup[1]] if lookup else []
         if len(values) != 1 or values[0] is None:
             return None
         node = values[0]

@@ -108,9 +108,9 @@ def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
         return (
             "" if call.kind in _CONDITIONS else f"this is not a string: write {str(node.value)!r}"
         )
-    found = launch.call_of(node)
-    if found is not None and found.kind in ACTIONS:
-        name = launch.text(found, "name") if found.kind == "DeclareLaunchArgument" else None
+    view = launch.call_of(node)
+    if view is not None and view.kind in ACTIONS:
+        name = launch.text(view, "name") if view.kind == "DeclareLaunchArgument" else None
         hint = f": write LaunchConfiguration({name!r})" if isinstance(name, str) else ""
-        return f"this is the action {found.kind}, not a value{hint}"
+        return f"this is the action {view.kind}, not a value{hint}"
     return ""

@@ -139,14 +139,14 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
     if not isinstance(node, ast.List) or len(node.elts) < 2:  # noqa: PLR2004  word and argument
         return ""
     first, second = node.elts[0], node.elts[1]
-    found = launch.call_of(first)
-    if found is not None and found.kind == "PathJoinSubstitution":
-        parts = found.given.get("substitutions")
+    view = launch.call_of(first)
+    if view is not None and view.kind == "PathJoinSubstitution":
+        parts = view.given.get("substitutions")
         if isinstance(parts, ast.List) and len(parts.elts) == 1:
-            found = launch.call_of(parts.elts[0])
+            view = launch.call_of(parts.elts[0])
     word = first.value if isinstance(first, ast.Constant) else ""
-    if found is not None and found.kind == "FindExecutable":
-        word = str(launch.text(found, "name"))
+    if view is not None and view.kind == "FindExecutable":
+        word = str(launch.text(view, "name"))
     if word not in _PROGRAMS or _begins_with_space(launch, second):
         return ""
     what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"

@@ -120,7 +120,7 @@ def _parent_frame(file: RclpyFile, child: ast.Attribute) -> ast.expr | None:
 
 def _last_stored(file: RclpyFile, at: ast.AST, path: str) -> ast.expr | None:
     """Return what is assigned to an attribute in the same block, if that is done once."""
-    found: list[ast.expr] = []
+    values: list[ast.expr] = []
     block = file.module.parent(file.module.parent(at) or at)
     for store in file.evaluator.stores(path.rpartition(".")[2]):
         if file.function_of(store.node) is not file.function_of(at):
@@ -129,8 +129,8 @@ def _last_stored(file: RclpyFile, at: ast.AST, path: str) -> ast.expr | None:
             continue
         if store.value is None or file.module.parent(file.module.parent(store.node) or at) != block:
             return None
-        found.append(store.value)
-    return found[0] if len(found) == 1 else None
+        values.append(store.value)
+    return values[0] if len(values) == 1 else None
 
 
 def _are_same(file: RclpyFile, child: ast.expr, parent: ast.expr) -> bool:

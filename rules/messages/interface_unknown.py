@@ -99,16 +99,16 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
     if not kind:
         return _without_kind(definitions, owner, name)
     module = _MISSPELLED.get(kind.lower(), kind)
-    known = definitions.names(owner, module)
-    if known is None or name.startswith("_") or name == "*":
+    names = definitions.names(owner, module)
+    if names is None or name.startswith("_") or name == "*":
         return None
     if module != kind:
         return f"{owner} has no module {kind!r}; did you mean '{owner}.{module}'?"
-    if kind not in KINDS or name in known or any(name.startswith(f"{x}_") for x in known):
+    if kind not in KINDS or name in names or any(name.startswith(f"{x}_") for x in names):
         return None
-    hint = closest_word(name, known)
+    hint = closest_word(name, names)
     elsewhere = [match for match in definitions.matches(name) if match.endswith(f"/{name}")]
-    if elsewhere and (not hint or not known):
+    if elsewhere and (not hint or not names):
         hint = f"; did you mean {' or '.join(map(repr, elsewhere[:3]))}?"
     return f"{owner}.{kind} has no {name!r}{hint}"
 
@@ -116,7 +116,7 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
 def _without_kind(definitions: Definitions, owner: str, name: str) -> str | None:
     """Return the message for ``from std_msgs import String``."""
     for kind in KINDS:
-        known = definitions.names(owner, kind) or ()
-        if name in known:
+        names = definitions.names(owner, kind) or ()
+        if name in names:
             return f"{name!r} is not in {owner}: ImportError; it is in {owner}.{kind}"
     return None

@@ -128,8 +128,8 @@ def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
         return None
     class_ = types.class_of(node.value)
     if class_ is not None:
-        known = class_.allows(node.attr) or node.attr in _CLASS_PARTS
-        return None if known or hasattr(type, node.attr) else _message(class_, node.attr)
+        is_known = class_.allows(node.attr) or node.attr in _CLASS_PARTS
+        return None if is_known or hasattr(type, node.attr) else _message(class_, node.attr)
     return _unknown_part(types, node)
 
 

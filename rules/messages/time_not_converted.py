@@ -73,13 +73,13 @@ class TimeNotConverted(MessageRule):
 
 def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     """Yield the values assigned to time fields, and the names of the fields."""
-    known: set[ast.expr] = set()
+    headers: set[ast.expr] = set()
     for item in types.assigned:
-        known.add(item.value)
+        headers.add(item.value)
         if item.field.type.package == "builtin_interfaces":
             yield item.value, item.field.name
     for store in types.facts.evaluator.stores("stamp"):
         holder = store.node.value
         in_header = isinstance(holder, ast.Attribute) and holder.attr == "header"
-        if in_header and store.value is not None and store.value not in known:
+        if in_header and store.value is not None and store.value not in headers:
             yield store.value, "header.stamp"

@@ -96,9 +96,9 @@ class ArgumentUnknown(RclpyRule):
 def _message(excess: Excess) -> str:
     signature = excess.signature
     if excess.keyword:
-        known = sorted({*signature.positional, *signature.keywords})
-        near = get_close_matches(excess.keyword, known, n=1)
-        hint = f"; did you mean {near[0]!r}?" if near else ""
+        names = sorted({*signature.positional, *signature.keywords})
+        closest = get_close_matches(excess.keyword, names, n=1)
+        hint = f"; did you mean {closest[0]!r}?" if closest else ""
         return f"{excess.function}() has no argument {excess.keyword!r}: TypeError{hint}"
     count = len(signature.positional)
     most = f"at most {count}" if count else "no"

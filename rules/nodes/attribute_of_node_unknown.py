@@ -94,8 +94,8 @@ class AttributeOfNodeUnknown(RclpyRule):
             if name in defined or name in given or _may_fail(node.facts, attribute):
                 continue
             names = names or {*defined, *given, *_names_of_rclpy()}
-            near = _ELSEWHERE.get(name) or _near(package, name, names)
-            hint = f"; did you mean {near!r}?" if near else ""
+            closest = _ELSEWHERE.get(name) or _closest(package, name, names)
+            hint = f"; did you mean {closest!r}?" if closest else ""
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
             yield self.report(node.facts.module.location(attribute), message)
 
@@ -104,7 +104,7 @@ def _names_of_rclpy() -> Iterator[str]:
     return (name.removesuffix("()") for name in known_names()[NODE])
 
 
-def _near(package: Package, name: str, names: set[str]) -> str:
+def _closest(package: Package, name: str, names: set[str]) -> str:
     # Private attributes of rclpy, with an underscore, are never the intended ones.
     hidden = "__" if name.startswith("_") else "_"
     return closest_name(package, name, [x for x in names if not x.startswith(hidden)], 0.7)

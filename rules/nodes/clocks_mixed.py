@@ -112,14 +112,14 @@ def _mixed(
     """Return the different clocks of two times, if they are sure to meet."""
     sides = clocks_of(file, left), clocks_of(file, right)
     pairs = [(x, y) for x in sides[0].values() for y in sides[1].values()]
-    known = [(x, y) for x, y in pairs if x and y and x != y]
-    if not known or is_handled(file.module, node, "TypeError"):
+    differing = [(x, y) for x, y in pairs if x and y and x != y]
+    if not differing or is_handled(file.module, node, "TypeError"):
         return None
-    if len(known) < len(pairs):
+    if len(differing) < len(pairs):
         for side, clocks in zip((left, right), sides, strict=True):
             if len({*clocks.values()}) > 1 and not _begins_wrong(file, node, side, clocks):
                 return None
-    return known[0]
+    return differing[0]
 
 
 def _begins_wrong(

@@ -82,10 +82,10 @@ class LatchedTopicVolatile(RclpyRule):
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if file.module.in_tests:
             return
-        known = latched_topics()
+        latched = latched_topics()
         for endpoint in (*file.publishers, *file.subscriptions):
             topic = endpoint.name.lstrip("/") if isinstance(endpoint.name, str) else ""
-            if known.get(topic) != endpoint.interface or topic not in known:
+            if latched.get(topic) != endpoint.interface or topic not in latched:
                 continue
             if endpoint.qos is None or endpoint.qos.durability != "VOLATILE":
                 continue

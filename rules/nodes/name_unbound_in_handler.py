@@ -93,18 +93,18 @@ def _is_assigned_there_alone(module: PythonModule, try_: ast.Try, name: str) -> 
 
     In a loop an earlier turn may have done so.
     """
-    found = module.index.lookup(name, try_.body[0])
-    if found is None or module.mentions("locals()") or not _is_function(found[0]):
+    lookup = module.index.lookup(name, try_.body[0])
+    if lookup is None or module.mentions("locals()") or not _is_function(lookup[0]):
         return False
     for parent in module.parents(try_):
-        if parent is found[0]:
+        if parent is lookup[0]:
             break
         if isinstance(parent, ast.For | ast.While | ast.AsyncFor):
             return False
     return all(
         binding.kind == "assignment"
         and any(module.is_inside(binding.node, statement) for statement in try_.body)
-        for binding in found[1]
+        for binding in lookup[1]
     )
 
 

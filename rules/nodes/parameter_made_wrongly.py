@@ -98,9 +98,9 @@ def _made(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     kind = _KINDS.get((file.module.qualified_name(type_) or "").rpartition(".Type.")[2])
     if kind is not None and value is None and not any(word.arg is None for word in call.keywords):
         yield type_, "type without a value: ValueError"
-    known = file.evaluator.evaluate(value)
-    if kind is None or value is None or known is UNKNOWN or known is None:
+    evaluated = file.evaluator.evaluate(value)
+    if kind is None or value is None or evaluated is UNKNOWN or evaluated is None:
         return
-    if type(known) is not kind and not isinstance(known, tuple):
-        word = type(known).__name__
+    if type(evaluated) is not kind and not isinstance(evaluated, tuple):
+        word = type(evaluated).__name__
         yield (value, f"type is {file.module.text(type_)}, but the value is a {word}: ValueError")

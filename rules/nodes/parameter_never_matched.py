@@ -72,15 +72,15 @@ class ParameterNeverMatched(RclpyRule):
                 yield from self._typed(package, file, attribute, node)
 
     def _named(
-        self, package: Package, file: RclpyFile, attribute: ast.Attribute, known: set[str]
+        self, package: Package, file: RclpyFile, attribute: ast.Attribute, declared: set[str]
     ) -> Iterator[Diagnostic]:
         if not is_listed_parameter(file, attribute.value):
             return
         for item in names_compared(file, attribute):
             name = item.value if isinstance(item, ast.Constant) else None
-            if isinstance(name, str) and name not in known and not has_always(name):
-                near = closest_name(package, name, known, 0.7)
-                hint = f"; did you mean {near!r}?" if near else ""
+            if isinstance(name, str) and name not in declared and not has_always(name):
+                closest = closest_name(package, name, declared, 0.7)
+                hint = f"; did you mean {closest!r}?" if closest else ""
                 message = f"never true: the node declares no parameter {name!r}{hint}"
                 yield self.report(file.module.location(item), message)
 

@@ -127,6 +127,6 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
 
 
 def _undeclared(package: Package, name: str, declared: dict[str, list[Parameter]]) -> str:
-    near = closest_name(package, name, declared, 0.7)
-    hint = f"; did you mean {near!r}?" if near else ""
+    closest = closest_name(package, name, declared, 0.7)
+    hint = f"; did you mean {closest!r}?" if closest else ""
     return f"parameter {name!r} is not declared: ParameterNotDeclaredException{hint}"

@@ -98,8 +98,8 @@ class StepWithoutFraction(RclpyRule):
 
 def _is_part(file: RclpyFile, node: ast.expr, part: str) -> bool:
     """Return whether an expression is one part of a time, wherever that comes from."""
-    found = [_is_plain_part(file, origin, part) for origin in _origins(file, node)]
-    return bool(found) and all(x is not False for x in found) and True in found
+    verdicts = [_is_plain_part(file, origin, part) for origin in _origins(file, node)]
+    return bool(verdicts) and all(x is not False for x in verdicts) and True in verdicts
 
 
 def _origins(file: RclpyFile, node: ast.expr) -> Sequence[ast.expr]:
@@ -108,8 +108,8 @@ def _origins(file: RclpyFile, node: ast.expr) -> Sequence[ast.expr]:
             return _origins(file, inner)
         case ast.Attribute(attr="sec" | "nanosec"):
             return [node]
-    found = file.evaluator.origins(node)
-    return found if len(found) != 1 or found[0] is node else _origins(file, found[0])
+    origins = file.evaluator.origins(node)
+    return origins if len(origins) != 1 or origins[0] is node else _origins(file, origins[0])
 
 
 def _is_plain_part(file: RclpyFile, node: ast.expr, part: str) -> bool | None:

@@ -157,8 +157,8 @@ class TransitionResult(RclpyRule):
         self, file: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
     ) -> Iterator[Diagnostic]:
         left = [name for name in _TRANSITIONS if name not in methods]
-        for near in get_close_matches(function.name, left, 1, 0.85):
-            message = f"rclpy never calls {function.name!r}; did you mean {near!r}?"
+        for closest in get_close_matches(function.name, left, 1, 0.85):
+            message = f"rclpy never calls {function.name!r}; did you mean {closest!r}?"
             yield self.report(file.module.name_location(function), message)
 
     def _check_publishers(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:

@@ -145,8 +145,8 @@ def _attribute_asked(file: RclpyFile, test: ast.expr) -> str:
         ):
             return name if file.evaluator.self_class(owner) else ""
         case ast.BoolOp(op=ast.And(), values=values):
-            found = [_attribute_asked(file, value) for value in values]
-            return next(filter(None, found), "")
+            attributes = [_attribute_asked(file, value) for value in values]
+            return next(filter(None, attributes), "")
     return ""
 
 

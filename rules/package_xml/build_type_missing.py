@@ -79,13 +79,13 @@ class BuildTypeMissing(Rule):
             )
             if not uses_ament:
                 return
-            meant = "ament_cmake"
+            build_type = "ament_cmake"
         elif package.has("setup.py"):
-            meant = "ament_python"
+            build_type = "ament_python"
         else:
             return
         export = manifest.one("export")
-        line = f"<build_type>{meant}</build_type>"
+        line = f"<build_type>{build_type}</build_type>"
         newline = manifest.source.newline
         if export is None:
             close = manifest.root.close_start
@@ -96,5 +96,5 @@ class BuildTypeMissing(Rule):
             at = export.name_location
             edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
         message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
-        fix = Fix(f"declare {meant}", (edit,)) if export is None or export.children else None
+        fix = Fix(f"declare {build_type}", (edit,)) if export is None or export.children else None
         yield self.report(at, message, fix)

@@ -50,12 +50,12 @@ class BuildTypeUnknown(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element in package.manifest.build_type_elements:
-            near = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
-            if element.text in KNOWN or not near:
+            closest = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
+            if element.text in KNOWN or not closest:
                 continue
             message = (
                 f"unknown build type {element.text!r}: colcon skips the package; closest: "
-                f"{near[0]!r}"
+                f"{closest[0]!r}"
             )
-            edit = Edit("package.xml", *element.text_span, near[0])
-            yield self.report(element.text_location, message, Fix(f"write {near[0]}", (edit,)))
+            edit = Edit("package.xml", *element.text_span, closest[0])
+            yield self.report(element.text_location, message, Fix(f"write {closest[0]}", (edit,)))

@@ -111,8 +111,8 @@ def _problem(name: str) -> str:
     debian = re.fullmatch(_DEBIAN, name)
     problem = ""
     if debian:
-        meant = debian[2].replace("-", "_")
-        problem = f"{name!r} is a Debian package; its rosdep key is {meant!r}"
+        key = debian[2].replace("-", "_")
+        problem = f"{name!r} is a Debian package; its rosdep key is {key!r}"
     elif re.search(r"[<>=~!]", name):
         problem = (
             f"{name!r} contains a version, which rosdep treats as part of the name; use "

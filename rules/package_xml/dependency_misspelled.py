@@ -56,8 +56,8 @@ class DependencyMisspelled(Rule):
             if other is not None:
                 message = f"no package {name!r} is known; use {other!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
-            meant = similar_package(name)
-            if meant is not None:
-                message = f"no package {name!r} is known; closest: {meant!r}"
-                edit = Edit("package.xml", *dependency.element.text_span, meant)
-                yield self.report(dependency, message, Fix(f"write {meant}", (edit,)))
+            closest = similar_package(name)
+            if closest is not None:
+                message = f"no package {name!r} is known; closest: {closest!r}"
+                edit = Edit("package.xml", *dependency.element.text_span, closest)
+                yield self.report(dependency, message, Fix(f"write {closest}", (edit,)))

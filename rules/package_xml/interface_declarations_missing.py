@@ -136,8 +136,8 @@ class InterfaceDeclarationsMissing(Rule):
         manifest = package.manifest
         last = manifest.dependencies[-1].element if manifest.dependencies else manifest.root
         line = generations(package)[0].command.location.line
-        for said, tag, text in _missing(manifest, package):
-            message = f"CMakeLists.txt:{line} generates interfaces, but {said}"
+        for problem, tag, text in _missing(manifest, package):
+            message = f"CMakeLists.txt:{line} generates interfaces, but {problem}"
             if any((child.tag, child.text) == (tag, text) for child in manifest.exports):
                 message += "; what is inside <export> is not read"
             changes = [manifest.insert(tag, text)]

@@ -55,12 +55,12 @@ class LicenseDiffers(Rule):
         if len(licenses) != 1 or not package.has("LICENSE"):
             return
         text = " ".join(package.source("LICENSE").text.lower().split())
-        found = {name for name, parts in _TEXTS.items() if all(part in text for part in parts)}
+        matching = {name for name, parts in _TEXTS.items() if all(part in text for part in parts)}
         named = _family(licenses[0].text)
-        if {"gpl", "lgpl"} <= found:  # each speaks of the other, but the title comes first
-            found.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
-        if named and len(found) == 1 and named not in found:
-            held = found.pop()
+        if {"gpl", "lgpl"} <= matching:  # each speaks of the other, but the title comes first
+            matching.remove(max("gpl", "lgpl", key=lambda name: text.index(_TEXTS[name][0])))
+        if named and len(matching) == 1 and named not in matching:
+            held = matching.pop()
             message = f"{licenses[0].text!r} is declared, but LICENSE contains {_NAMES[held]}"
             yield self.report(licenses[0], message)
 

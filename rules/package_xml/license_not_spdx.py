@@ -60,21 +60,21 @@ class LicenseNotSpdx(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for element in package.manifest.all("license"):
-            meant = spdx_of(element.text)
-            near = similar_license(element.text)
-            if near:
-                message = f"no license is called {element.text!r}; closest: {near!r}"
-                edit = Edit("package.xml", *element.text_span, near)
-                fix = Fix(f"write {near}", (edit,))
+            identifiers = spdx_of(element.text)
+            closest = similar_license(element.text)
+            if closest:
+                message = f"no license is called {element.text!r}; closest: {closest!r}"
+                edit = Edit("package.xml", *element.text_span, closest)
+                fix = Fix(f"write {closest}", (edit,))
                 at = element.text_location
                 yield self.report(at, message, fix, severity=Severity.WARNING)
-            if not meant or element.text in meant or meant == ("Apache-2.0",):
+            if not identifiers or element.text in identifiers or identifiers == ("Apache-2.0",):
                 continue
-            if len(meant) > 1:
-                message = f"{element.text!r} may be any of {', '.join(meant)}"
+            if len(identifiers) > 1:
+                message = f"{element.text!r} may be any of {', '.join(identifiers)}"
                 yield self.report(element.text_location, message)
                 continue
-            edit = Edit("package.xml", *element.text_span, meant[0])
-            fix = Fix(f"write {meant[0]}", (edit,))
-            message = f"the SPDX identifier of {element.text!r} is {meant[0]}"
+            edit = Edit("package.xml", *element.text_span, identifiers[0])
+            fix = Fix(f"write {identifiers[0]}", (edit,))
+            message = f"the SPDX identifier of {element.text!r} is {identifiers[0]}"
             yield self.report(element.text_location, message, fix)

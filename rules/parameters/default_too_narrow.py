@@ -67,13 +67,15 @@ class DefaultTooNarrow(Rule):
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
-                known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
+                declarations = [
+                    declared_by(owner, package) for owner in nodes_for(package, path, section)
+                ]
                 for entry in section.entries:
-                    kind, _ = agreed_type(package, known, entry.name)
+                    kind, _ = agreed_type(package, declarations, entry.name)
                     given = value_type(entry.value)
                     if not kind or not given or given == kind:
                         continue
-                    default = narrow_default(package, known, entry.name, given)
+                    default = narrow_default(package, declarations, entry.name, given)
                     if default is not None:
                         at = entry.value.location
                         message = (

@@ -101,8 +101,8 @@ class MarkupParameterDiffers(Rule):
                     if not is_known(name):
                         continue
                     if is_all and not declared.has(name.value):
-                        near = closest_name(package, name.value, sorted(declared.types), 0.6)
-                        hint = f"; did you mean {near!r}?" if near else ""
+                        closest = closest_name(package, name.value, sorted(declared.types), 0.6)
+                        hint = f"; did you mean {closest!r}?" if closest else ""
                         message = (
                             f"node declares no parameter {name.value!r}: the value is ignored{hint}"
                         )

@@ -63,26 +63,28 @@ class ParameterOutOfRange(Rule):
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
-                known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
+                declarations = [
+                    declared_by(owner, package) for owner in nodes_for(package, path, section)
+                ]
                 for entry in section.entries:
-                    message = _message(package, known, entry.name, number_of(entry.value))
+                    message = _message(package, declarations, entry.name, number_of(entry.value))
                     if message:
                         yield self.report(entry.value, message)
         for node in started_nodes(package):
             numbers = [x for x in node.parameters if x.value and x.value.number is not None]
             owner = node.owner(package) if numbers else None
-            known = [declared_by(owner, package)] if owner is not None else []
+            declarations = [declared_by(owner, package)] if owner is not None else []
             for given in numbers:
                 number = given.value.number if given.value is not None else None
-                message = _message(package, known, given.name, number)
+                message = _message(package, declarations, given.name, number)
                 if message:
                     yield self.report(given, message)
 
 
-def _message(package: Package, known: list[Declared], name: str, value: float | None) -> str:
+def _message(package: Package, declarations: list[Declared], name: str, value: float | None) -> str:
     """Return the message for a value outside the range that its nodes declare."""
     kind = "integer" if isinstance(value, int) else "double"
-    for declared in known if value is not None else ():
+    for declared in declarations if value is not None else ():
         place = declared.places.get(name)
         descriptor = place.descriptor if place is not None else None
         if place is None or descriptor is None or declared.types.get(name) != kind:

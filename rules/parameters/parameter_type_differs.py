@@ -111,13 +111,15 @@ class ParameterTypeDiffers(Rule):
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
-                known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
+                declarations = [
+                    declared_by(owner, package) for owner in nodes_for(package, path, section)
+                ]
                 for entry in section.entries:
-                    kind, where = agreed_type(package, known, entry.name)
+                    kind, where = agreed_type(package, declarations, entry.name)
                     given = value_type(entry.value)
                     if not kind or not given or given == kind:
                         continue
-                    if narrow_default(package, known, entry.name, given) is None:
+                    if narrow_default(package, declarations, entry.name, given) is None:
                         message = (
                             f"{where} is {a_type(kind)}, but this is {a_type(given)}: {_ERROR}"
                         )
@@ -127,9 +129,9 @@ class ParameterTypeDiffers(Rule):
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in consumers(package):
             owner = node.owner(package) if node.parameters else None
-            known = [declared_by(owner, package)] if owner is not None else []
+            declarations = [declared_by(owner, package)] if owner is not None else []
             for item in node.parameters:
-                kind, where = agreed_type(package, known, item.name)
+                kind, where = agreed_type(package, declarations, item.name)
                 given = item.value
                 if kind and given and given.type != kind:
                     actual = f"{given.text} is {a_type(given.type)}"

@@ -78,14 +78,14 @@ class ParameterUndeclared(Rule):
             file = parameter_file(package, path)
             for section in file.sections if file else ():
                 owners = nodes_for(package, path, section)
-                known = [declared_by(owner, package) for owner in owners]
-                if not known or not all(node.complete for node in known):
+                declarations = [declared_by(owner, package) for owner in owners]
+                if not declarations or not all(node.complete for node in declarations):
                     continue
                 if not use_of(package, path).nodes and is_loaded(package, path):
                     continue
                 for entry in section.entries:
-                    if not any(node.has(entry.name) for node in known):
-                        message = _message(package, entry.name, known, owners[0].node_name)
+                    if not any(node.has(entry.name) for node in declarations):
+                        message = _message(package, entry.name, declarations, owners[0].node_name)
                         yield self.report(entry, message, cause=_cause(owners[0].node_name))
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
@@ -116,11 +116,11 @@ def _cause(node: object) -> str:
     return f"parameters of {node}"
 
 
-def _message(package: Package, name: str, known: list[Declared], node: object) -> str:
-    names = sorted({key for declared in known for key in declared.types})
-    near = closest_name(package, name, names, 0.6)
+def _message(package: Package, name: str, declarations: list[Declared], node: object) -> str:
+    names = sorted({key for declared in declarations for key in declared.types})
+    closest = closest_name(package, name, names, 0.6)
     hint = f"it has {listed_names(names, name)}"
-    if near:
-        hint = f"did you mean {near!r}?"
+    if closest:
+        hint = f"did you mean {closest!r}?"
     who = f"node {node!r}" if isinstance(node, str) else "this node"
     return f"{who} declares no parameter {name!r}: the value is ignored; {hint}"

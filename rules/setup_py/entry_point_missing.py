@@ -87,8 +87,8 @@ class EntryPointMissing(Rule):
         base = entry.module.replace(".", "/")
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
-            near = get_close_matches(f"{base}.py", package.python_files, n=1)
-            hint = f"; closest: {near[0]}" if near else ""
+            closest = get_close_matches(f"{base}.py", package.python_files, n=1)
+            hint = f"; closest: {closest[0]}" if closest else ""
             return f"there is no {base}.py{hint}"
         try:
             exports = exports_of(package, path)
@@ -97,16 +97,16 @@ class EntryPointMissing(Rule):
         function = entry.function.partition(".")[0]
         if exports.defines(function) is not False:
             return None
-        near = get_close_matches(function, exports.functions, n=1)
-        hint = f"; it has {near[0]}()" if near else ""
+        closest = get_close_matches(function, exports.functions, n=1)
+        hint = f"; it has {closest[0]}()" if closest else ""
         return f"{path} has no {function!r}{hint}"
 
     def _missing_package(self, package: Package, root: str) -> str | None:
         where = package.setup_py.keyword("package_dir")
         own = [path.partition("/")[0] for path in package.glob("*/__init__.py")]
         if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
-            near = get_close_matches(root, own, n=1)
-            if where is None and near and not package.has(f"{root}.py"):
-                return f"the package has no module {root!r}; closest: {near[0]}"
+            closest = get_close_matches(root, own, n=1)
+            if where is None and closest and not package.has(f"{root}.py"):
+                return f"the package has no module {root!r}; closest: {closest[0]}"
             return None
         return f"there is no directory {root}/"

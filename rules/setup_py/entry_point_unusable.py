@@ -81,9 +81,9 @@ class EntryPointUnusable(Rule):
             if path:
                 yield from self._check_function(package, entry, path)
                 continue
-            meant = _meant(package, entry.module)
-            if meant:
-                message = f"no module {entry.module!r} is installed; closest: {meant!r}"
+            closest = _closest_module(package, entry.module)
+            if closest:
+                message = f"no module {entry.module!r} is installed; closest: {closest!r}"
                 yield self.report(entry, message)
 
     def _check_function(
@@ -125,7 +125,7 @@ def _file_of(package: Package, name: str) -> str:
     return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
 
 
-def _meant(package: Package, name: str) -> str:
+def _closest_module(package: Package, name: str) -> str:
     """Return the module of the package that a name without its package means."""
     first, _, rest = name.partition(".")
     if package.has_directory(first):

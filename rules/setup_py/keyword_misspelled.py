@@ -67,9 +67,11 @@ class KeywordMisspelled(Rule):
         for word in setup.call.keywords if setup.call else ():
             if word.arg is None or word.arg in _KNOWN:
                 continue
-            near = get_close_matches(word.arg, _KNOWN, 1, 0.8)
-            if near:
-                message = f"setup() ignores the unknown keyword {word.arg!r}; closest: {near[0]!r}"
+            closest = get_close_matches(word.arg, _KNOWN, 1, 0.8)
+            if closest:
+                message = (
+                    f"setup() ignores the unknown keyword {word.arg!r}; closest: {closest[0]!r}"
+                )
                 yield self.report(setup.module.location(word), message)
         keyword = setup.keyword("entry_points")
         node = keyword.node if keyword else None

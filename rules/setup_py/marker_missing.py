@@ -93,14 +93,14 @@ class MarkerMissing(Rule):
                 )
                 message = f"data_files names {source}, which does not exist: the build stops"
                 yield self.report(at, message, fix)
-            known = [source for source in data.sources if isinstance(source, str)]
-            names = [source.rpartition("/")[2] for source in known]
-            complete = data.complete and len(known) == len(data.sources)
+            sources = [source for source in data.sources if isinstance(source, str)]
+            names = [source.rpartition("/")[2] for source in sources]
+            complete = data.complete and len(sources) == len(data.sources)
             if complete and package.name not in names and not name_used_elsewhere(package):
                 message = (
                     f"installs {', '.join(names)} as marker, but the package is {package.name!r}"
                 )
-                if all(package.has(source) for source in known):
+                if all(package.has(source) for source in sources):
                     yield self.report(data.destination_location, message)
         configured = package.has("setup.cfg") and INDEX in package.source("setup.cfg").text
         if not (installed or configured) and setup.call is not None and setup.data_files_complete:

@@ -115,8 +115,8 @@ def _or_all(values: list[str]) -> list[str]:
 
 def _means_one_of(license_: str, wanted: list[str]) -> bool:
     """Tell whether two spellings mean the same license."""
-    meant = set(spdx_of(license_))
-    return any(not meant.isdisjoint(spdx_of(item)) for item in wanted)
+    identifiers = set(spdx_of(license_))
+    return any(not identifiers.isdisjoint(spdx_of(item)) for item in wanted)
 
 
 def _normal(text: str) -> str:
@@ -129,9 +129,9 @@ _CONTEXT = 15
 """Characters before the first difference, where the beginnings are the same."""
 
 
-def _short(one: str, other: str) -> list[str]:
+def _short(first: str, second: str) -> list[str]:
     """Return two texts for a message, cut so that they differ."""
-    plain = [_normal(one), _normal(other)]
+    plain = [_normal(first), _normal(second)]
     pairs = enumerate(zip(*plain, strict=False))
     same = next((at for at, (left, right) in pairs if left != right), min(map(len, plain)))
     start = max(same - _CONTEXT, 0) if same > _LONGEST - _CONTEXT else 0

@@ -101,5 +101,5 @@ class TestsNotRun(Rule):
 
 
 def _names_pytest(requirements: list[object]) -> bool:
-    known = [requirement for requirement in requirements if isinstance(requirement, str)]
-    return len(known) < len(requirements) or any(item.startswith("pytest") for item in known)
+    names = [requirement for requirement in requirements if isinstance(requirement, str)]
+    return len(names) < len(requirements) or any(item.startswith("pytest") for item in names)

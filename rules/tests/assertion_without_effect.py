@@ -153,9 +153,9 @@ def _condition_problem(module: PythonModule, condition: ast.expr) -> str:
             return f"a mock has no {name}(): it fails, or is always true; use assert_{name}()"
         case ast.Name(id=name):
             function = module.functions.get(name)
-            found = module.index.lookup(name, condition)
-            if function is not None and found is not None and found[0] is module.tree:
-                plain = not function.node.decorator_list and len(found[1]) == 1
+            lookup = module.index.lookup(name, condition)
+            if function is not None and lookup is not None and lookup[0] is module.tree:
+                plain = not function.node.decorator_list and len(lookup[1]) == 1
                 return f"{name} is a function, which is always true: call it" if plain else ""
         case ast.Attribute() if module.qualified_name(condition) == "rclpy.ok":
             return "rclpy.ok is a function, which is always true: call it"

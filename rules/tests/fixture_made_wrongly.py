@@ -57,14 +57,14 @@ class FixtureMadeWrongly(Rule):
         for module in package.modules(files_of_tests(package)):
             if "pytest" not in module.imports_by_root:
                 continue
-            known = fixtures(package, module)
+            available = fixtures(package, module)
             for fixture in own_fixtures(module):
-                problem = _problem(fixture, known)
+                problem = _problem(fixture, available)
                 if problem and fixture.node.decorator_list:
                     yield self.report(module.location(fixture.node.decorator_list[0]), problem)
 
 
-def _problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
+def _problem(fixture: Fixture, available: Mapping[str, Fixture]) -> str:
     """Return what is wrong about the scope of a fixture, or what it yields."""
     if not fixture.scope:
         return ""
@@ -73,7 +73,7 @@ def _problem(fixture: Fixture, known: Mapping[str, Fixture]) -> str:
     if sum(map(_yields, fixture.node.body)) > 1:
         return f"the fixture {fixture.name} yields twice: pytest takes one value"
     for name in arguments(fixture.node):
-        inner = known.get(name)
+        inner = available.get(name)
         if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:
             continue
         if _SCOPES.index(inner.scope) < _SCOPES.index(fixture.scope):

@@ -82,13 +82,13 @@ class FixtureMisused(Rule):
                 yield from self._check_tests(module, fixtures(package, module))
 
     def _check_tests(
-        self, module: PythonModule, known: Mapping[str, Fixture]
+        self, module: PythonModule, available: Mapping[str, Fixture]
     ) -> Iterator[Diagnostic]:
         for test in test_functions(module):
             if test.class_ is not None and test.class_.bases:
                 continue
             for name in arguments(test.node):
-                fixture = known.get(name)
+                fixture = available.get(name)
                 if fixture is not None and _gives_nothing(fixture):
                     for node in ast.walk(test.node):
                         if isinstance(node, ast.Attribute) and _is_name(node.value, name):
@@ -96,13 +96,13 @@ class FixtureMisused(Rule):
                             yield self.report(module.location(node), message)
                             break
                 elif fixture is None and not test.node.decorator_list:
-                    near = get_close_matches(name, known, 1, 0.75)
+                    closest = get_close_matches(name, available, 1, 0.75)
                     if name == "self" and test.class_ is None:
                         message = (
                             f"{test.node.name} is not a method: pytest finds no fixture 'self'"
                         )
-                    elif near and name not in _BUILT_IN:
-                        message = f"there is no fixture {name!r}; closest: {near[0]!r}"
+                    elif closest and name not in _BUILT_IN:
+                        message = f"there is no fixture {name!r}; closest: {closest[0]!r}"
                     else:
                         continue
                     yield self.report(module.name_location(test.node), message)
@@ -116,8 +116,8 @@ def _called(module: PythonModule, call: ast.Call) -> str:
     """Return the name of the fixture of the same file that is called."""
     if not isinstance(call.func, ast.Name):
         return ""
-    found = module.index.lookup(call.func.id, call)
-    nodes = [binding.node for binding in found[1]] if found else []
+    lookup = module.index.lookup(call.func.id, call)
+    nodes = [binding.node for binding in lookup[1]] if lookup else []
     own = {fixture.node for fixture in own_fixtures(module)} if len(nodes) == 1 else set()
     return call.func.id if nodes and nodes[0] in own else ""
 

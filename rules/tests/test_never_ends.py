@@ -114,8 +114,8 @@ def _waits(module: PythonModule, call: ast.Call) -> bool:
     """Tell whether a call is ``call`` of a client that is made in the file."""
     match call.func:
         case ast.Attribute(value=ast.Name(id=name), attr="call"):
-            found = module.index.lookup(name, call)
-            values = [binding.value for binding in found[1]] if found else []
+            lookup = module.index.lookup(name, call)
+            values = [binding.value for binding in lookup[1]] if lookup else []
             made = values[0] if len(values) == 1 else None
             match made:
                 case ast.Call(func=ast.Attribute(attr="create_client")):

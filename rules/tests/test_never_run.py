@@ -97,13 +97,13 @@ class TestNeverRun(Rule):
                     yield self.report(module.location(node), message)
 
     def _check_functions(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
-        known = fixtures(package, module)
+        fixture_names = fixtures(package, module)
         has_tests = any(True for _ in test_functions(module))
         for function in module.functions.values():
             decorators = function.node.decorator_list
             if function.name.startswith("test") and fixture_decorator(module, function.node):
                 message = f"{function.name} is a fixture, so pytest does not run it as a test"
-            elif has_tests and not decorators and _asserts(function.node, set(known)):
+            elif has_tests and not decorators and _asserts(function.node, set(fixture_names)):
                 message = f"pytest does not run {function.name}: its name does not begin with test"
             else:
                 continue
@@ -122,14 +122,14 @@ class TestNeverRun(Rule):
                 yield self.report(class_, message)
             if not is_case and (class_.node.bases or not class_.name.startswith("Test")):
                 continue
-            for one in own:
+            for untested in own:
                 if (
-                    _states(one)
-                    and not one.decorator_list
-                    and not is_named_elsewhere(package, one.name)
+                    _states(untested)
+                    and not untested.decorator_list
+                    and not is_named_elsewhere(package, untested.name)
                 ):
-                    message = f"pytest does not run {one.name}: its name does not begin with test"
-                    yield self.report(module.name_location(one), message)
+                    message = f"pytest does not run {untested.name}: its name does not begin with test"
+                    yield self.report(module.name_location(untested), message)
 
 
 def _states(method: FunctionNode) -> bool:
@@ -146,10 +146,13 @@ def _states(method: FunctionNode) -> bool:
     return False
 
 
-def _asserts(function: FunctionNode, known: set[str]) -> bool:
+def _asserts(function: FunctionNode, fixture_names: set[str]) -> bool:
     """Tell whether a function could be a test: it asserts, and pytest has its arguments."""
     name, arguments = function.name, {arg.arg for arg in function.args.args}
-    if name.startswith(("test", "_", "pytest_", "setup", "teardown")) or not arguments <= known:
+    if (
+        name.startswith(("test", "_", "pytest_", "setup", "teardown"))
+        or not arguments <= fixture_names
+    ):
         return False
     return any(isinstance(node, ast.Assert) for node in function.body)
 

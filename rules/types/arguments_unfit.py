@@ -167,9 +167,9 @@ def _unknown(finding: TypeFinding) -> str:
     if matched is None:
         return ""
     callee = matched["callee"]
-    known = [*parameters(finding.package, callee), *keywords(finding.package, callee)]
-    near = closest_name(finding.package, matched["name"], known, 0.6)
-    hint = f" (did you mean {near!r}?)" if near else ""
+    names = [*parameters(finding.package, callee), *keywords(finding.package, callee)]
+    closest = closest_name(finding.package, matched["name"], names, 0.6)
+    hint = f" (did you mean {closest!r}?)" if closest else ""
     return f"{_shown(callee)} has no argument {matched['name']!r}{hint}"
 
 

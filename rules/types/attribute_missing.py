@@ -83,24 +83,24 @@ class AttributeMissing(TypeRule):
         if name.startswith("_") or re.search(rf"""['"]{name}['"]""", finding.module.source.text):
             return None
         if finding.message.startswith("Module"):
-            shown, known = owner, module_names(finding.package, owner)
+            shown, names = owner, module_names(finding.package, owner)
         else:
             class_ = class_in(owner) or class_itself(owner)
             if not class_:
                 return None
-            shown, known = full_name(class_), members(finding.package, class_)
+            shown, names = full_name(class_), members(finding.package, class_)
             is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
             if not isinstance(node.ctx, ast.Load) and not is_message:
                 return None  # an object of rclpy takes any attribute
             if not is_message and _is_set(finding, name):
                 return None
-        near = closest_name(finding.package, name, known, 0.6)
-        hint = f"; did you mean {near!r}?" if near else ""
-        known -= _OF_ALL_MESSAGES
-        if not near and len(known) <= _FEW:
-            hint = f"; it has {', '.join(sorted(known))}" if known else ""
+        closest = closest_name(finding.package, name, names, 0.6)
+        hint = f"; did you mean {closest!r}?" if closest else ""
+        names -= _OF_ALL_MESSAGES
+        if not closest and len(names) <= _FEW:
+            hint = f"; it has {', '.join(sorted(names))}" if names else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
-        return self.report(finding, message, _fix(finding, node, near) if near else None)
+        return self.report(finding, message, _fix(finding, node, closest) if closest else None)
 
 
 def _is_set(finding: TypeFinding, name: str) -> bool:
@@ -110,11 +110,11 @@ def _is_set(finding: TypeFinding, name: str) -> bool:
     return any(pattern.search(package.data(path)) for path in package.python_files)
 
 
-def _fix(finding: TypeFinding, node: ast.Attribute, near: str) -> Fix:
+def _fix(finding: TypeFinding, node: ast.Attribute, closest: str) -> Fix:
     from difflib import SequenceMatcher
 
     _, end = finding.module.span(node)
-    is_sure = SequenceMatcher(None, node.attr, near).ratio() >= _CERTAIN
-    edit = Edit(finding.path, end - len(node.attr), end, near)
+    is_sure = SequenceMatcher(None, node.attr, closest).ratio() >= _CERTAIN
+    edit = Edit(finding.path, end - len(node.attr), end, closest)
     safety = Safety.SAFE if is_sure else Safety.UNSAFE
-    return Fix(f"write {near!r}", (edit,), safety)
+    return Fix(f"write {closest!r}", (edit,), safety)

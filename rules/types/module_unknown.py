@@ -93,8 +93,8 @@ class ModuleUnknown(TypeRule):
                 f"write `from {above} import {last}`"
             )
             return self.report(finding, message, self._fix(finding, module))
-        near = closest_name(finding.package, last, module_names(finding.package, above), 0.6)
-        hint = f"; did you mean '{above}.{near}'?" if near else ""
+        closest = closest_name(finding.package, last, module_names(finding.package, above), 0.6)
+        hint = f"; did you mean '{above}.{closest}'?" if closest else ""
         return self.report(
             finding, f"ROS 2 Jazzy has no module {module!r}: ModuleNotFoundError{hint}"
         )

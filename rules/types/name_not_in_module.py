@@ -53,8 +53,8 @@ class NameNotInModule(TypeRule):
         if module == "collections" and name in collections.abc.__all__:
             fix = self._fix(finding)
             return self.report(finding, f"{message}; it is in 'collections.abc'", fix)
-        near = closest_name(finding.package, name, module_names(finding.package, module), 0.6)
-        hint = f"; did you mean {near!r}?" if near else ""
+        closest = closest_name(finding.package, name, module_names(finding.package, module), 0.6)
+        hint = f"; did you mean {closest!r}?" if closest else ""
         return self.report(finding, f"{message}{hint}")
 
     def _fix(self, finding: TypeFinding) -> Fix | None:

@@ -91,8 +91,8 @@ class AttributeLeftOut(Rule):
             holder = part.holder.tag if part.holder is not None else ""
             for name in _OF_URDF.get((holder, part.tag), ()):
                 if name not in part.attributes:
-                    near = closest_name(package, name, list(part.attributes), 0.6)
-                    hint = f"; {near!r} is not read" if near else ""
+                    closest = closest_name(package, name, list(part.attributes), 0.6)
+                    hint = f"; {closest!r} is not read" if closest else ""
                     message = f"<{part.tag}> has no {name!r}: urdfdom refuses the whole file{hint}"
                     yield self.report(part, message)
         for path in robot_paths(package):

@@ -133,8 +133,8 @@ class FileNotThere(Rule):
             elif not _is_there(package, named):
                 name = named.path.rpartition("/")[2]
                 names = [item.rpartition("/")[2] for item in robot_paths(package)]
-                near = closest_name(package, name, names, 0.7)
-                hint = f"; closest: {near!r}" if near else ""
+                closest = closest_name(package, name, names, 0.7)
+                hint = f"; closest: {closest!r}" if closest else ""
                 message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
                 yield self.report(named, message)
 

@@ -112,8 +112,8 @@ def _is_here(package: Package, part: Part) -> bool:
 
 
 def _hint(package: Package, name: str, names: Sequence[str]) -> str:
-    near = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
-    return f"; closest: {near!r}" if near else ""
+    closest = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
+    return f"; closest: {closest!r}" if closest else ""
 
 
 def _is_among(name: str, names: Sequence[str]) -> bool:

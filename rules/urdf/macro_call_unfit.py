@@ -73,12 +73,12 @@ class MacroCallUnfit(Rule):
 
 
 def _message(package: Package, misfit: Misfit) -> str:
-    kind, macro, name, _, known = misfit
+    kind, macro, name, _, names = misfit
     if kind == "missing":
         return f"macro {macro!r} needs {name!r}: xacro stops with 'Undefined parameters'"
     if kind == "unknown":
-        near = closest_name(package, name, known, 0.6)
-        hint = f"closest: {near!r}" if near else f"it has {listed_names(known, name)}"
+        closest = closest_name(package, name, names, 0.6)
+        hint = f"closest: {closest!r}" if closest else f"it has {listed_names(names, name)}"
         return f"macro {macro!r} has no parameter {name!r}: xacro stops; {hint}"
     if kind == "block missing":
         return f"macro {macro!r} needs an element for its block {name!r}: xacro stops"

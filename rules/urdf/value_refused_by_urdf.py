@@ -100,8 +100,8 @@ class ValueRefusedByUrdf(Rule):
             holder = part.holder.tag if part.holder is not None else ""
             type_ = part.get("type") if (holder, part.tag) == ("robot", "joint") else None
             if type_ is not None and is_known(type_) and type_ not in _TYPES:
-                near = closest_name(package, type_.lower(), _TYPES, 0.7)
-                hint = f"closest: {near!r}" if near else f"known: {', '.join(_TYPES)}"
+                closest = closest_name(package, type_.lower(), _TYPES, 0.7)
+                hint = f"closest: {closest!r}" if closest else f"known: {', '.join(_TYPES)}"
                 message = f"unknown joint type {type_!r}: urdfdom refuses the whole file; {hint}"
                 yield self.report(part.at("type"), message)
             if holder == "geometry" and part.tag not in _SHAPES and ":" not in part.tag:

@@ -112,18 +112,18 @@ class XacroNameUndefined(Rule):
 
 
 def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
-    kind, name, _, known = undefined
-    near = closest_name(package, name, known, _FIRST)
-    hint = f"; closest: {near!r}" if near else ""
+    kind, name, _, names = undefined
+    closest = closest_name(package, name, names, _FIRST)
+    hint = f"; closest: {closest!r}" if closest else ""
     messages = {
         "property": f"property {name!r} is not defined here: xacro stops{hint}",
         "macro": f"macro {name!r} is not defined here: xacro stops{hint}",
         "block": f"block {name!r} is not a parameter of this macro: xacro stops; add '*{name}'",
-        "command": f"xacro has no $({name} ...): it stops; known: {', '.join(known[:5])}",
+        "command": f"xacro has no $({name} ...): it stops; known: {', '.join(names[:5])}",
         "expression": f"${{{name}}} is not an expression of Python: xacro stops",
         "tag": f"<{name}> is not expanded without its prefix: write <xacro:{name}>",
     }
     is_given = kind == "argument" and is_argument_given(package, name)
-    if kind == "argument" and not is_given and (near or is_used_here):
+    if kind == "argument" and not is_given and (closest or is_used_here):
         return f"argument {name!r} has no <xacro:arg>: xacro stops unless it is given{hint}"
     return messages.get(kind, "")
