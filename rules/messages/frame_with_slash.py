@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Package, Report, Severity
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.messages import MessageTypes
+from scaffold.api.rclpy import rclpy_paths
 
 _FIELDS = ("frame_id", "child_frame_id")
 _LOOKUPS = frozenset({"lookup_transform", "can_transform", "lookup_transform_async"})
+_FRAMES = ("target_frame", "source_frame")
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
 _CODE = (
     "from geometry_msgs.msg import TransformStamped\n\n\n"
@@ -19,6 +21,10 @@ _CODE = (
     "    sent = TransformStamped(child_frame_id={})\n"
     "    sent.header.frame_id = {}\n"
     "    return transform, sent\n"
+)
+_LOOKUP = (
+    "import rclpy\n\n\ndef look(buffer, time):\n"
+    "    return buffer.lookup_transform(target_frame='{}', source_frame='a', time=time)\n"
 )
 _OTHERS = (
     "from sensor_msgs.msg import LaserScan\nfrom team_msgs.msg import Goal\n\n\n"
@@ -74,6 +80,16 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _CODE.format("'map'", '"base"', "'map'")},
         ),
         Example(
+            "in a file without messages",
+            {"node.py": _LOOKUP.format("/map")},
+            Report(
+                "5:49",
+                "frame '/map' starts with '/': tf2 rejects it; remove the slash",
+                fix="remove the slash",
+            ),
+            fixed={"node.py": _LOOKUP.format("map")},
+        ),
+        Example(
             "in messages of ROS and of a package of one's own",
             {"node.py": _OTHERS.format("'/laser'", "'/world'")},
             Report(
@@ -97,6 +113,10 @@ class FrameWithSlash(MessageRule):
             fixed={"node.py": _OTHERS.format("'laser'", "'world'")},
         ),
     )
+
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that use messages, or that may look up transforms."""
+        return [*dict.fromkeys([*super().paths(package), *rclpy_paths(package)])]
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         # Frames that a test makes up as input are never looked up.
@@ -130,6 +150,7 @@ def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     for call in types.module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and call.func.attr in _LOOKUPS:
             yield from ((argument, "") for argument in call.args[:2])
+            yield from ((word.value, "") for word in call.keywords if word.arg in _FRAMES)
         elif call.keywords and (class_ := types.class_of(call.func)):
             yield from ((word.value, class_.name) for word in call.keywords if word.arg in _FIELDS)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Phases, phases_of
@@ -86,31 +86,41 @@ class StampMadeOnce(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        stamps = [
-            *file.evaluator.stores("stamp"),
-            *file.evaluator.stores("header"),
-        ]
-        if not stamps or file.module.in_tests or file.module.mentions(*_STATIC):
+        if not file.module.mentions("stamp") or file.module.in_tests:
+            return
+        if file.module.mentions(*_STATIC):
             return
         phases = phases_of(file)
-        for store in stamps:
-            function = file.function_of(store.node)
-            if store.value is None or function is None:
-                continue
-            if function in phases.running and _is_made_once(file, phases, store.value):
-                what = file.module.text(store.value)
+        for node, value in _stamped(file):
+            function = file.function_of(node)
+            if function in phases.running and _is_made_once(file, phases, value):
                 message = (
-                    f"{what} is made in the constructor alone: all messages have the time of "
-                    "the start; use self.get_clock().now().to_msg()"
+                    f"{file.module.text(value)} is made in the constructor alone: all messages "
+                    "have the time of the start; use self.get_clock().now().to_msg()"
                 )
-                yield self.report(file.module.location(store.value), message)
-            elif _is_time(file, store.value) and _is_sent_again(file, phases, store.node):
+                yield self.report(file.module.location(value), message)
+            elif (
+                isinstance(node, ast.Attribute)
+                and _is_time(file, value)
+                and _is_sent_again(file, phases, node)
+            ):
                 message = (
                     "this stamp is never renewed: all messages have the time of the start; "
                     "set header.stamp where the message is published"
                 )
-                at = file.module.location(store.node)
+                at = file.module.location(node)
                 yield self.report(at, message, severity=Severity.WARNING)
+
+
+def _stamped(file: RclpyFile) -> Iterator[tuple[ast.AST, ast.expr]]:
+    """Yield where stamps and headers are set, with what they are set to."""
+    for name in ("stamp", "header"):
+        for store in file.evaluator.stores(name):
+            if store.value is not None:
+                yield store.node, store.value
+    for word in file.module.walk(ast.keyword):
+        if word.arg in {"stamp", "header"}:
+            yield word, word.value
 
 
 _STATIC = ("StaticTransformBroadcaster", "TRANSIENT_LOCAL", "TransientLocal", "transient_local")
@@ -136,21 +146,31 @@ def _is_now(node: ast.expr) -> bool:
 
 def _is_made_once(file: RclpyFile, phases: Phases, node: ast.expr) -> bool:
     """Return whether a stamp or a header is an attribute that only constructors set."""
+    match node:
+        case ast.Call(func=ast.Attribute(attr="to_msg", value=time), args=[]):
+            return _is_set_once(file, phases, time, _is_now)
+    return _is_set_once(file, phases, node, lambda x: _is_time(file, x) or _is_stamped(file, x))
+
+
+def _is_set_once(
+    file: RclpyFile, phases: Phases, node: ast.expr, fits: Callable[[ast.expr], bool]
+) -> bool:
     if not isinstance(node, ast.Attribute) or file.evaluator.self_class(node.value) is None:
         return False
-    if not _set_in_constructor(file, phases, node.attr):
-        return False
-    values = file.evaluator.values(node)
-    return bool(values) and all(_is_time(file, x) or _is_stamped(file, x) for x in values)
+    stores = [store for store in file.evaluator.stores(node.attr) if store.class_ is not None]
+    return _set_in_constructor(file, phases, node.attr) and all(
+        store.value is not None and all(map(fits, file.evaluator.origins(store.value)))
+        for store in stores
+    )
 
 
 def _is_stamped(file: RclpyFile, node: ast.expr) -> bool:
     """Return whether it is a header that is made with the time, and never changed."""
     if not isinstance(node, ast.Call) or file.module.qualified_name(node.func) != _HEADER:
         return False
-    if _later(file, node):
-        return False
-    return any(word.arg == "stamp" and _is_time(file, word.value) for word in node.keywords)
+    return not _later(file, node) and any(
+        word.arg == "stamp" and _is_time(file, word.value) for word in node.keywords
+    )
 
 
 _HEADER = "std_msgs.msg.Header"

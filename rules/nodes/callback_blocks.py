@@ -196,8 +196,12 @@ def _blocking(file: RclpyFile, call: ast.Call) -> str:
             return f"time.sleep({seconds:g})"
     if name in WAITING:
         return f"{name}()"
-    if name == "cv2.waitKey" and (not call.args or file.evaluator.evaluate(call.args[0]) == 0):
-        return "cv2.waitKey(0)"
+    if name == "cv2.waitKey":
+        delays = [*call.args[:1], *(word.value for word in call.keywords)]
+        delay = file.evaluator.number(delays[0]) if delays else 0
+        return "cv2.waitKey(0)" if isinstance(delay, int | float) and delay <= 0 else ""
+    if name == "matplotlib.pyplot.show" and not call.args and not call.keywords:
+        return "" if file.module.mentions(".ion()") else "matplotlib.pyplot.show()"
     is_builtin = isinstance(call.func, ast.Name) and call.func.id == "input"
     if is_builtin and file.module.index.lookup("input", call.func) is None:
         return "input()"

@@ -37,7 +37,7 @@ class ExecutorMisused(RclpyRule):
 
     code = "ND096"
     name = "executor-misused"
-    other_severities = {Severity.WARNING: "rclpy.spin() runs the callbacks, in one thread"}
+    other_severities = {Severity.WARNING: "callbacks run, but in one thread"}
     examples = (
         Example("with a node, spun", {"talker.py": _NODE.format(_ADD + _SPIN)}),
         Example(
@@ -54,6 +54,20 @@ class ExecutorMisused(RclpyRule):
             "not spun",
             {"talker.py": _NODE.format(_ADD)},
             Report("15:16", "executor is never spun: the callbacks of its nodes never run"),
+        ),
+        Example(
+            "one of many threads",
+            {
+                "talker.py": _NODE.replace("SingleThreaded", "MultiThreaded")
+                .replace("Executor()", "Executor(num_threads=1)")
+                .format(_ADD + _SPIN)
+            },
+            Report(
+                "15:16",
+                "a MultiThreadedExecutor with one thread runs callbacks one at a "
+                "time; leave num_threads out",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "with many threads that are not used",
@@ -77,6 +91,12 @@ class ExecutorMisused(RclpyRule):
             if added:
                 message = f"'{added}' is a class, not a node: TypeError; write {added}()"
                 yield self.report(file.module.location(call.args[0]), message)
+            if _has_one_thread(file, call):
+                message = (
+                    "a MultiThreadedExecutor with one thread runs callbacks one at a time; "
+                    "leave num_threads out"
+                )
+                yield self.report(file.module.location(call), message, severity=Severity.WARNING)
             used = used_of_executor(file, call)
             if used is None:
                 continue
@@ -109,6 +129,13 @@ def _added_class(file: RclpyFile, call: ast.Call) -> str:
 
 def _has_many_threads(call: ast.Call) -> bool:
     return ast.unparse(call.func).endswith("MultiThreadedExecutor")
+
+
+def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
+    if not _has_many_threads(call) or file.module.in_tests:
+        return False
+    given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "num_threads")]
+    return bool(given) and file.evaluator.evaluate(given[0]) == 1
 
 
 def _other_spins(file: RclpyFile, add_node: ast.AST) -> Iterator[RclpyCall]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
-from scaffold.api.rclpy import ActionServer, RclpyFile
+from scaffold.api.rclpy import GOAL_HANDLE, ActionServer, RclpyFile, class_of
 
 _WAITING = frozenset({"sleep", "wait", "join", "sleep_for", "sleep_until"})
 _NODE = (
@@ -65,6 +65,19 @@ class GoalNeverCanceled(RclpyRule):
             ),
         ),
         Example(
+            "a goal that nobody asked to cancel",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS).replace(
+                    "if goal_handle.is_cancel_requested:", "if self.failed:"
+                )
+            },
+            Report(
+                "18:17",
+                "nobody asked to cancel the goal: canceled() raises RCLError; check "
+                "is_cancel_requested, or call abort()",
+            ),
+        ),
+        Example(
             "all requests are rejected",
             {"server.py": _NODE.format("", _THREADS)},
             Report(
@@ -77,6 +90,7 @@ class GoalNeverCanceled(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions("is_cancel_requested") or file.module.in_tests:
+            yield from self._check_unasked(file)
             return
         for server in file.action_servers:
             asked = _where_asked(file, server)
@@ -94,6 +108,21 @@ class GoalNeverCanceled(RclpyRule):
                     "cancel afterwards; use a MultiThreadedExecutor"
                 )
                 yield self.report(file.module.location(asked), message)
+
+    def _check_unasked(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        """Check a file that never asks whether a goal is to be canceled."""
+        for server in file.action_servers if not file.module.in_tests else ():
+            for function in _work(file, server):
+                for call in file.calls_in(function):
+                    func = call.func
+                    if not isinstance(func, ast.Attribute) or func.attr != "canceled":
+                        continue
+                    if class_of(file, func.value) == GOAL_HANDLE:
+                        message = (
+                            "nobody asked to cancel the goal: canceled() raises RCLError; "
+                            "check is_cancel_requested, or call abort()"
+                        )
+                        yield self.report(file.module.location(call), message)
 
 
 def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import takewhile
+from typing import NamedTuple
 
 from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
-from scaffold.api.python import PythonModule
+from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
 _LOCKS = frozenset({"threading.Lock", "_thread.allocate_lock"})
@@ -63,17 +65,64 @@ class LockTakenTwice(PythonRule):
         if not module.mentions("Lock(", "allocate_lock"):
             return
         file = rclpy_file(package, module.path)
-        for block in module.walk(ast.With):
-            for lock in (_lock(file, item.context_expr) for item in block.items):
-                if lock is None:
-                    continue
-                for node in _taken_inside(file, block, lock):
-                    message = (
-                        f"the lock of line {block.lineno} is taken again while it is held: the "
-                        "thread waits for itself; use threading.RLock()"
-                    )
-                    yield self.report(module.location(node), message)
-                    break
+        for held in (*_with_blocks(file), *_acquired_blocks(file)):
+            for node in _taken_inside(file, held):
+                message = (
+                    f"the lock of line {held.line} is taken again while it is held: the thread "
+                    "waits for itself; use threading.RLock()"
+                )
+                yield self.report(module.location(node), message)
+                break
+
+
+class _Held(NamedTuple):
+    """Statements that run while a lock is held."""
+
+    lock: ast.expr
+    line: int
+    body: Sequence[ast.stmt]
+
+
+def _with_blocks(file: RclpyFile) -> Iterator[_Held]:
+    for block in file.module.walk(ast.With):
+        for item in block.items:
+            lock = _lock(file, item.context_expr)
+            if lock is not None:
+                yield _Held(lock, block.lineno, block.body)
+
+
+def _acquired_blocks(file: RclpyFile) -> Iterator[_Held]:
+    """Yield what is between ``lock.acquire()`` and ``lock.release()`` of a block."""
+    for func in file.module.index.attributes("acquire"):
+        lock = _lock(file, func.value)
+        call = file.module.parent(func)
+        statement = file.module.parent(call) if isinstance(call, ast.Call) else None
+        if lock is None or not isinstance(statement, ast.Expr) or _has_arguments(call):
+            continue
+        field, number = file.module.index.place(statement)
+        following = getattr(file.module.parent(statement), field)[number + 1 :]
+        yield _Held(lock, statement.lineno, _up_to_release(file, following, lock))
+
+
+def _up_to_release(
+    file: RclpyFile, statements: Sequence[ast.stmt], lock: ast.expr
+) -> Sequence[ast.stmt]:
+    """Return the statements ahead of the one that releases a lock."""
+    first = statements[0] if statements else None
+    if isinstance(first, ast.Try) and any(_releases(file, x, lock) for x in first.finalbody):
+        return first.body
+    return list(takewhile(lambda x: not _releases(file, x, lock), statements))
+
+
+def _has_arguments(call: ast.AST | None) -> bool:
+    return isinstance(call, ast.Call) and bool(call.args or call.keywords)
+
+
+def _releases(file: RclpyFile, scope: ast.AST, lock: ast.expr) -> bool:
+    return any(
+        func.attr == "release" and _lock(file, func.value) is lock
+        for func in file.module.below(scope, ast.Attribute)
+    )
 
 
 def _lock(file: RclpyFile, node: ast.expr) -> ast.expr | None:
@@ -85,34 +134,58 @@ def _lock(file: RclpyFile, node: ast.expr) -> ast.expr | None:
     return made if is_lock else None
 
 
-def _taken_inside(file: RclpyFile, block: ast.With, lock: ast.expr) -> Iterator[ast.AST]:
+def _taken_inside(file: RclpyFile, held: _Held) -> Iterator[ast.AST]:
     """Yield what takes a lock again: a block inside, or the call of a function that takes it."""
-    if any(_lock(file, use.value) is lock for use in file.module.index.attributes("release")):
+    if not held.body or any(_releases(file, statement, held.lock) for statement in held.body):
         return
-    holder = file.function_of(block)
-    for statement in block.body:
-        for node in file.module.below(statement, ast.With, ast.Call):
+    holder = file.function_of(held.body[0])
+    for statement in held.body:
+        for node in file.module.below(statement, ast.With, ast.Call, ast.Attribute):
             if file.function_of(node) is holder and (
-                _is_taken(file, node, lock) or _is_taken_by_call(file, node, lock)
+                _is_taken(file, node, held.lock) or _is_taken_by_call(file, node, held.lock)
             ):
                 yield node
 
 
 def _is_taken_by_call(file: RclpyFile, node: ast.AST, lock: ast.expr) -> bool:
-    """Return whether a call is of a function that takes a lock, itself or in what it calls."""
-    function = file.callback(node.func).function if isinstance(node, ast.Call) else None
+    """Return whether a call or property is a function that takes a lock, itself or in turn."""
+    function = None
+    if isinstance(node, ast.Call):
+        function = file.callback(node.func).function
+    elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
+        function = file.callback(node).function
+        if not isinstance(function, ast.FunctionDef) or not _is_property(function):
+            return False
     if not isinstance(function, ast.FunctionDef):
         return False
     return any(_takes(file, inner, lock) for inner in file.reached(function))
 
 
-def _takes(file: RclpyFile, function: ast.AST, lock: ast.expr) -> bool:
-    """Return whether a function takes a lock under no condition."""
+def _is_property(function: ast.FunctionDef) -> bool:
+    return any(isinstance(x, ast.Name) and x.id == "property" for x in function.decorator_list)
+
+
+def _takes(file: RclpyFile, function: FunctionNode | ast.Lambda, lock: ast.expr) -> bool:
+    """Return whether a function takes a lock under no condition, before it releases it."""
+    released = [
+        func.lineno
+        for func in file.module.below(function, ast.Attribute)
+        if func.attr == "release" and _lock(file, func.value) is lock
+    ]
     return any(
-        _is_taken(file, node, lock)
-        for node in file.module.below(function, ast.With, ast.Call)
-        if file.function_of(node) is function and not file.is_conditional(node)
+        _is_taken(file, node, lock) and not any(line < node.lineno for line in released)
+        for node in _own(file, function)
     )
+
+
+def _own(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.With | ast.Call]:
+    """Yield the blocks and calls of a function that are under no condition."""
+    for node in file.module.below(function, ast.With):
+        if file.function_of(node) is function and not file.is_conditional(node):
+            yield node
+    for call in file.calls_in(function):
+        if not file.is_conditional(call):
+            yield call
 
 
 def _is_taken(file: RclpyFile, node: ast.AST, lock: ast.expr) -> bool:

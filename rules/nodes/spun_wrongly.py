@@ -23,7 +23,8 @@ class SpunWrongly(RclpyRule):
     """A class or executor is spun instead of a node, or a node after the shutdown.
 
     **Why.** ``rclpy.spin(Talker)`` fails with ``TypeError: 'property' object is not iterable``;
-    after ``rclpy.shutdown()``, spinning has no effect.
+    after ``rclpy.shutdown()``, spinning has no effect. ``rclpy.spin`` returns only at the shutdown:
+    what it is to spin afterwards is never spun. Two threads cannot spin at the same time.
 
     **Fix.** ``rclpy.spin(node)``, or ``executor.spin()``.
 
@@ -66,6 +67,21 @@ class SpunWrongly(RclpyRule):
                 "never spun; add both to an executor",
             ),
         ),
+        Example(
+            "a node that a thread spins",
+            {
+                "talker.py": "import threading\n"
+                + _NODE.format(
+                    "    threading.Thread(target=rclpy.spin, args=(node,)).start()\n"
+                    "    rclpy.spin_until_future_complete(node, node.ask())\n"
+                )
+            },
+            Report(
+                "16:5",
+                "the thread of line 15 spins 'node' already: ValueError: generator "
+                "already executing; wait for the future in another way",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -74,6 +90,19 @@ class SpunWrongly(RclpyRule):
             problem = _problem(file, call, shutdowns)
             if problem:
                 yield self.report(call, problem)
+        for thread, name in _spinning_threads(file):
+            for call in file.spin_calls:
+                node = call.call.args[0] if call.call.args else None
+                if call.name.startswith("executor.") or node is None:
+                    continue
+                if any(word.arg == "executor" for word in call.call.keywords):
+                    continue
+                if file.module.text(node) == name and _share_scope(file, thread, call.call):
+                    message = (
+                        f"the thread of line {thread.lineno} spins {name!r} already: ValueError: "
+                        "generator already executing; wait for the future in another way"
+                    )
+                    yield self.report(call, message)
 
 
 def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
@@ -97,6 +126,28 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
             "add both to an executor"
         )
     return ""
+
+
+def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
+    """Yield the threads that spin a node, with what the node is called."""
+    for call in file.module.walk(ast.Call) if file.module.mentions("Thread(") else ():
+        if file.module.qualified_name(call.func) != "threading.Thread":
+            continue
+        words = {word.arg: word.value for word in call.keywords}
+        target, args = words.get("target"), words.get("args")
+        if target is None or file.module.qualified_name(target) != "rclpy.spin":
+            continue
+        if isinstance(args, ast.Tuple | ast.List) and len(args.elts) == 1:
+            yield call, file.module.text(args.elts[0])
+
+
+def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
+    """Return whether a name means the same node in two calls."""
+    functions = [file.module.enclosing_function(node) for node in (thread, call)]
+    classes = [file.module.enclosing_class(node) for node in (thread, call)]
+    if functions[0] is functions[1]:
+        return thread.lineno < call.lineno and not file.is_conditional(thread)
+    return classes[0] is not None and classes[0] is classes[1] and "self" in ast.unparse(call)
 
 
 def _spun_before(file: RclpyFile, call: RclpyCall) -> int:

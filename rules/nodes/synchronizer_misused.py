@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import Synchronizer, is_unused
 
@@ -25,6 +25,10 @@ _NODE = (
 _REGISTER = "        self.sync.registerCallback(self.view)\n\n"
 
 
+_LONG = 5
+"""Seconds between messages that nobody calls simultaneous; milliseconds may be meant."""
+
+
 class SynchronizerMisused(MessageRule):
     """A message filter has no callback, or can never match the messages that it gets.
 
@@ -40,6 +44,7 @@ class SynchronizerMisused(MessageRule):
 
     code = "ND104"
     name = "synchronizer-misused"
+    other_severities = {Severity.WARNING: "a slop that is too large"}
     examples = (
         Example("matches", {"viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER)}),
         Example(
@@ -64,6 +69,16 @@ class SynchronizerMisused(MessageRule):
         Example(
             "messages without a header, which are matched by the time they arrive",
             {"viewer.py": _NODE.format("String", "10, 0.1, allow_headerless=True", _REGISTER)},
+        ),
+        Example(
+            "milliseconds",
+            {"viewer.py": _NODE.format("Image", "10, 100", _REGISTER)},
+            Report(
+                "12:79",
+                "a slop of 100 seconds matches messages that do not belong "
+                "together; it is in seconds",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "no slop",
@@ -99,6 +114,13 @@ class SynchronizerMisused(MessageRule):
             given = synchronizer.argument(name)
             if given is not None and type(given.value) in {int, float} and given.value == 0:
                 yield self.report(given, f"a {name} of 0 matches nothing: the callback never runs")
+        slop = synchronizer.argument("slop")
+        if slop is not None and isinstance(slop.value, int | float) and slop.value >= _LONG:
+            message = (
+                f"a slop of {slop.value} seconds matches messages that do not belong together; "
+                "it is in seconds"
+            )
+            yield self.report(slop, message, severity=Severity.WARNING)
 
     def _check_inputs(
         self, types: MessageTypes, synchronizer: Synchronizer

@@ -6,10 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.programs import in_constructors, spins_elsewhere
+from scaffold.api.programs import in_constructors, phases_of, spins_elsewhere
 from scaffold.api.python import caught_around
 from scaffold.api.rclpy import (
     RclpyFile,
+    buffer_made,
     buffers_in,
     is_spun_by_listener,
     is_used_elsewhere,
@@ -67,6 +68,26 @@ class TransformBufferEmpty(RclpyRule):
             ),
         ),
         Example(
+            "made in a callback",
+            {
+                "follower.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+                "from tf2_ros import Buffer, TransformListener\n\n\n"
+                "class Follower(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('follower')\n"
+                "        self.create_timer(1.0, self.tick)\n\n"
+                "    def tick(self):\n"
+                "        buffer = Buffer()\n"
+                "        TransformListener(buffer, self)\n"
+                "        self.at = buffer.lookup_transform('map', 'base_link', Time())\n"
+            },
+            Report(
+                "12:18",
+                "this buffer is new in every call, so it is empty: every lookup "
+                "fails; make buffer and listener in the constructor",
+            ),
+        ),
+        Example(
             "given to another", {"follower.py": _NODE.format("        self.fill(self.buffer)\n")}
         ),
     )
@@ -79,6 +100,12 @@ class TransformBufferEmpty(RclpyRule):
                 message = (
                     "no TransformListener fills this buffer: every lookup fails; "
                     "add TransformListener(buffer, node)"
+                )
+                yield self.report(file.module.location(made), message)
+            elif _is_made_to_ask(file, made):
+                message = (
+                    "this buffer is new in every call, so it is empty: every lookup fails; "
+                    "make buffer and listener in the constructor"
                 )
                 yield self.report(file.module.location(made), message)
         if is_spun_by_listener(file) or spins_elsewhere(file):
@@ -97,6 +124,20 @@ class TransformBufferEmpty(RclpyRule):
                 "node is spun; look it up in a callback"
             )
             yield self.report(file.module.location(lookup.call), message)
+
+
+def _is_made_to_ask(file: RclpyFile, made: ast.Call) -> bool:
+    """Return whether a callback makes a buffer in which it looks something up."""
+    function = file.function_of(made)
+    return (
+        function in phases_of(file).running
+        and not file.is_conditional(made)
+        and not is_spun_by_listener(file)
+        and any(
+            buffer_made(file, lookup.buffer) is made and file.function_of(lookup.call) is function
+            for lookup in lookups_in(file)
+        )
+    )
 
 
 def _is_only_asked(package: Package, file: RclpyFile, made: ast.Call) -> bool:

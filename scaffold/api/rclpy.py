@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from scaffold.model.rclpy.api import (
+    GOAL_HANDLE,
     NODE,
     PARAMETER,
     PLACES,
@@ -76,6 +77,7 @@ __all__ = [
     "CALLBACKS",
     "DESCRIPTOR",
     "FIELDS",
+    "GOAL_HANDLE",
     "LOG_METHODS",
     "NODE",
     "PARAMETER",

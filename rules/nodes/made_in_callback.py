@@ -1,0 +1,108 @@
+"""ND124: callbacks use publishers and clients that are there already."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.programs import in_callbacks
+from scaffold.api.python import FunctionNode, conditions_on
+from scaffold.api.rclpy import RclpyFile, Service
+
+_MADE = {
+    "create_publisher": "a publisher",
+    "create_client": "a client",
+    "TransformBroadcaster": "a broadcaster",
+    "StaticTransformBroadcaster": "a broadcaster",
+    "ActionClient": "an action client",
+}
+_USES = {
+    "a publisher": "what it publishes at once reaches nobody",
+    "a broadcaster": "what it sends at once reaches nobody",
+}
+_ENDS = ("cancel", "destroy_", "destroy", "unregister")
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.timer = self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "{}"
+    "        publisher = self.create_publisher(String, 'chatter', 10)\n"
+    "        publisher.publish(String())\n"
+)
+
+
+class MadeInCallback(RclpyRule):
+    """A callback makes a publisher, broadcaster or client each time it is called.
+
+    **Why.** Subscribers need a moment to discover a publisher: what is published until then is
+    lost, so each message is. The node keeps them all, more with every call.
+
+    **Fix.** Make it in the constructor, and keep it: ``self.publisher``.
+
+    **Source.** ``rclpy/node.py``, ``create_publisher``; ROS 2 documentation, "Discovery".
+    """
+
+    code = "ND124"
+    name = "made-in-callback"
+    examples = (
+        Example("once", {"talker.py": _NODE.format("        self.timer.cancel()\n")}),
+        Example(
+            "each time",
+            {"talker.py": _NODE.format("")},
+            Report(
+                "11:21",
+                "callback 'tick' makes a publisher each time: what it publishes at "
+                "once reaches nobody; make it in the constructor",
+            ),
+        ),
+        Example(
+            "if there is none yet",
+            {"talker.py": _NODE.format("        if self.ready:\n            return\n")},
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if file.module.in_tests:
+            return
+        for executed in in_callbacks(file):
+            function = executed.function
+            if isinstance(executed.entity, Service) or not isinstance(function, FunctionNode):
+                continue
+            calls = file.calls_in(function)
+            if any(_name(call).startswith(_ENDS) for call in calls):
+                continue
+            for call in calls:
+                what = _MADE.get(_name(call))
+                if what is None or file.is_conditional(call) or conditions_on(file.module, call):
+                    continue
+                if not _is_of_ros(file, call) or _is_stored_by_key(file, call):
+                    continue
+                happens = _USES.get(what, "the node keeps them all")
+                message = (
+                    f"{executed.origin} makes {what} each time: {happens}; make it in the "
+                    "constructor"
+                )
+                yield self.report(file.module.location(call), message)
+
+
+def _name(call: ast.Call) -> str:
+    func = call.func
+    return func.attr if isinstance(func, ast.Attribute) else getattr(func, "id", "")
+
+
+def _is_of_ros(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether it is a method of a node, or a class of tf2 or rclpy."""
+    if isinstance(call.func, ast.Attribute) and file.owner_of(call.func.value) is not None:
+        return True
+    names = file.module.qualified_names(call.func)
+    return any(name.startswith(("tf2_ros.", "rclpy.action.")) for name in names)
+
+
+def _is_stored_by_key(file: RclpyFile, call: ast.Call) -> bool:
+    """Return whether it is kept for something: ``self.publishers[name] = ...``."""
+    parent = file.module.parent(call)
+    return isinstance(parent, ast.Assign) and isinstance(parent.targets[0], ast.Subscript)

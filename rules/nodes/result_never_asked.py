@@ -1,0 +1,81 @@
+"""ND122: a callback for the result of a goal is called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.rclpy import RclpyFile
+
+_NODE = (
+    "from example_interfaces.action import Fibonacci\n"
+    "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = ActionClient(self, Fibonacci, 'count')\n\n"
+    "    def send(self):\n"
+    "        self.client.wait_for_server()\n"
+    "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
+    "        future.add_done_callback(self.on_response)\n\n"
+    "    def on_response(self, future):\n"
+    "        {}\n\n"
+    "    def on_result(self, future):\n"
+    "        self.result = future.result().result\n"
+)
+
+
+class ResultNeverAsked(RclpyRule):
+    """A node has a callback for the result of its goals, but never asks for the result.
+
+    **Why.** The future of ``send_goal_async`` is done when the goal is accepted; the result comes
+    only to who asks for it: the callback is never called.
+
+    **Fix.** ``goal_handle.get_result_async().add_done_callback(self.on_result)``.
+
+    **Source.** ROS 2 documentation, "Writing an action server and client (Python)".
+    """
+
+    code = "ND122"
+    name = "result-never-asked"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "asks",
+            {
+                "caller.py": _NODE.format(
+                    "future.result().get_result_async().add_done_callback(self.on_result)"
+                )
+            },
+        ),
+        Example(
+            "does not ask",
+            {"caller.py": _NODE.format("self.handle = future.result()")},
+            Report(
+                "19:9",
+                "nothing calls 'on_result': the result is never asked for; call "
+                "goal_handle.get_result_async().add_done_callback(self.on_result)",
+            ),
+        ),
+    )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("send_goal_async") or file.module.in_tests:
+            return
+        if any(package.modules(mentioning=("get_result",))):
+            return
+        for node in file.classes:
+            for name, method in node.methods.items():
+                if "result" not in name or len(method.args.args) != _WITH_FUTURE:
+                    continue
+                if method.decorator_list or package.occurrences(name) > 1:
+                    continue
+                message = (
+                    f"nothing calls {name!r}: the result is never asked for; call "
+                    f"goal_handle.get_result_async().add_done_callback(self.{name})"
+                )
+                yield self.report(file.module.name_location(method), message)
+
+
+_WITH_FUTURE = 2
+"""Parameters of such a callback: ``self`` and the future."""
