@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import nodes_for
+from scaffold.api.launch import values_in_files
 from scaffold.api.parameters import (
     a_type,
     agreed_type,
-    declared_by,
     narrow_default,
-    parameter_file,
-    parameter_paths,
     value_type,
 )
 
@@ -64,23 +61,17 @@ class DefaultTooNarrow(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
-                declarations = [
-                    declared_by(owner, package) for owner in nodes_for(package, path, section)
-                ]
-                for entry in section.entries:
-                    kind, _ = agreed_type(package, declarations, entry.name)
-                    given = value_type(entry.value)
-                    if not kind or not given or given == kind:
-                        continue
-                    default = narrow_default(package, declarations, entry.name, given)
-                    if default is not None:
-                        at = entry.value.location
-                        message = (
-                            f"default is {a_type(kind)}, but {at.path}:{at.line} sets "
-                            f"{a_type(given)}: InvalidParameterTypeException; "
-                            f"declare {a_type(given)}"
-                        )
-                        yield self.report(default, message)
+        for _, entry, declarations in values_in_files(package):
+            kind, _ = agreed_type(package, declarations, entry.name)
+            given = value_type(entry.value)
+            if not kind or not given or given == kind:
+                continue
+            default = narrow_default(package, declarations, entry.name, given)
+            if default is not None:
+                at = entry.value.location
+                message = (
+                    f"default is {a_type(kind)}, but {at.path}:{at.line} sets "
+                    f"{a_type(given)}: InvalidParameterTypeException; "
+                    f"declare {a_type(given)}"
+                )
+                yield self.report(default, message)

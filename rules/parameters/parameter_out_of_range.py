@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import nodes_for, started_nodes
+from scaffold.api.launch import started_nodes, values_in_files
 from scaffold.api.parameters import (
     Declared,
     declared_by,
     number_of,
-    parameter_file,
-    parameter_paths,
     place_of,
 )
 
@@ -60,16 +58,10 @@ class ParameterOutOfRange(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
-                declarations = [
-                    declared_by(owner, package) for owner in nodes_for(package, path, section)
-                ]
-                for entry in section.entries:
-                    message = _message(package, declarations, entry.name, number_of(entry.value))
-                    if message:
-                        yield self.report(entry.value, message)
+        for _, entry, declarations in values_in_files(package):
+            message = _message(package, declarations, entry.name, number_of(entry.value))
+            if message:
+                yield self.report(entry.value, message)
         for node in started_nodes(package):
             numbers = [x for x in node.parameters if x.value and x.value.number is not None]
             owner = node.owner(package) if numbers else None

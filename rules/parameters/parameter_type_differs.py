@@ -6,15 +6,13 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.api.formats import Scalar
-from scaffold.api.launch import consumers, nodes_for
+from scaffold.api.launch import consumers, values_in_files
 from scaffold.api.parameters import (
     Entry,
     a_type,
     agreed_type,
     declared_by,
     narrow_default,
-    parameter_file,
-    parameter_paths,
     value_type,
 )
 
@@ -108,22 +106,14 @@ class ParameterTypeDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
-            file = parameter_file(package, path)
-            for section in file.sections if file else ():
-                declarations = [
-                    declared_by(owner, package) for owner in nodes_for(package, path, section)
-                ]
-                for entry in section.entries:
-                    kind, where = agreed_type(package, declarations, entry.name)
-                    given = value_type(entry.value)
-                    if not kind or not given or given == kind:
-                        continue
-                    if narrow_default(package, declarations, entry.name, given) is None:
-                        message = (
-                            f"{where} is {a_type(kind)}, but this is {a_type(given)}: {_ERROR}"
-                        )
-                        yield self.report(entry.value, message, _fix(path, entry, kind, given))
+        for path, entry, declarations in values_in_files(package):
+            kind, where = agreed_type(package, declarations, entry.name)
+            given = value_type(entry.value)
+            if not kind or not given or given == kind:
+                continue
+            if narrow_default(package, declarations, entry.name, given) is None:
+                message = f"{where} is {a_type(kind)}, but this is {a_type(given)}: {_ERROR}"
+                yield self.report(entry.value, message, _fix(path, entry, kind, given))
         yield from self._in_launch_files(package)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:

@@ -122,14 +122,14 @@ class TestNeverRun(Rule):
                 yield self.report(class_, message)
             if not is_case and (class_.node.bases or not class_.name.startswith("Test")):
                 continue
-            for untested in own:
+            for suite in own:
                 if (
-                    _states(untested)
-                    and not untested.decorator_list
-                    and not is_named_elsewhere(package, untested.name)
+                    _states(suite)
+                    and not suite.decorator_list
+                    and not is_named_elsewhere(package, suite.name)
                 ):
-                    message = f"pytest does not run {untested.name}: its name does not begin with test"
-                    yield self.report(module.name_location(untested), message)
+                    message = f"pytest does not run {suite.name}: its name does not begin with test"
+                    yield self.report(module.name_location(suite), message)
 
 
 def _states(method: FunctionNode) -> bool:

@@ -13,7 +13,7 @@ from scaffold.api.types import (
     class_itself,
     full_name,
     in_words,
-    is_certain,
+    is_certain_misfit,
     is_function,
     name_of,
     parameters,
@@ -134,9 +134,7 @@ class ArgumentTypeUnfit(TypeRule):
         if matched is None or matched["callee"].endswith(_UNCHECKED):
             return None
         expected, given = matched["expected"], matched["given"]
-        if not is_certain(expected.replace("|", ",")) or not (
-            is_certain(given) or is_function(given)
-        ):
+        if not is_certain_misfit(expected, given):
             return None
         if expected.startswith("(") and is_function(given):
             return None  # they differ in their annotations; ND003 counts the arguments

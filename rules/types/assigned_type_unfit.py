@@ -10,8 +10,7 @@ from scaffold.api.types import (
     class_itself,
     full_name,
     in_words,
-    is_certain,
-    is_function,
+    is_certain_misfit,
     name_of,
     with_article,
 )
@@ -81,9 +80,7 @@ class AssignedTypeUnfit(TypeRule):
         if matched is None:
             return None
         expected, given = matched["expected"], matched["given"]
-        if not is_certain(expected.replace("|", ",")) or not (
-            is_certain(given) or is_function(given)
-        ):
+        if not is_certain_misfit(expected, given):
             return None
         class_ = class_itself(given)
         hint = f"; write {full_name(class_).rpartition('.')[2]}()" if class_ else ""

@@ -30,6 +30,7 @@ from scaffold.model.launch.parameter_files import (
     node_names,
     nodes_for,
     use_of,
+    values_in_files,
 )
 from scaffold.model.launch.python_file import (
     FUNCTION,
@@ -102,5 +103,6 @@ __all__ = [
     "text_uses",
     "truth_tests",
     "use_of",
+    "values_in_files",
     "why_missing",
 ]

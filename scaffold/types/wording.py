@@ -25,6 +25,16 @@ def is_certain(type_: str) -> bool:
     return all(MARK in word or word in _BUILTINS for word in _IDENTIFIER.findall(bare))
 
 
+def is_certain_misfit(expected: str, given: str) -> bool:
+    """Tell whether a value of one type certainly does not fit where another is expected.
+
+    Args:
+        expected: The type, or several with ``|`` between them.
+        given: The type of the value, which the type checker has rejected.
+    """
+    return is_certain(expected.replace("|", ",")) and (is_certain(given) or is_function(given))
+
+
 def _without_arguments(type_: str) -> str:
     """Return a type without what is in brackets."""
     before = ""

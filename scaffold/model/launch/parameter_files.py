@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
 from scaffold.model.package import mentions
-from scaffold.model.parameters.declared import own_nodes
+from scaffold.model.parameters.declared import Declared, declared_by, own_nodes
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.parameters.files import ParameterFile, Section
+    from scaffold.model.parameters.files import Entry, ParameterFile, Section
     from scaffold.model.programs.known_nodes import KnownNode
 
 _ALIKE = 0.75
@@ -30,6 +30,28 @@ class FileUse(NamedTuple):
     """The nodes that the launch files of the package give it to."""
     complete: bool
     """Whether no other file of the package names it."""
+
+
+class FileValue(NamedTuple):
+    """A value in a parameter file."""
+
+    path: str
+    entry: Entry
+    declared: list[Declared]
+    """The declarations of the nodes that the value is for."""
+
+
+def values_in_files(package: Package) -> Iterator[FileValue]:
+    """Yield the values that the parameter files of a package give nodes."""
+    from scaffold.model.parameters.files import parameter_file, parameter_paths
+
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        for section in file.sections if file else ():
+            nodes = nodes_for(package, path, section)
+            declared = [declared_by(owner, package) for owner in nodes]
+            for entry in section.entries:
+                yield FileValue(path, entry, declared)
 
 
 def use_of(package: Package, path: str) -> FileUse:
