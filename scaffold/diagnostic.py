@@ -31,6 +31,14 @@ class Diagnostic(NamedTuple):
     fix: Fix | None = None
     cause: str = ""
     """The same for findings of one package, of any code, that one edit would end."""
+    distributions: tuple[str, ...] = ()
+    """Those that it holds for, of several that were checked for; empty for the only one."""
+
+    @property
+    def text(self) -> str:
+        """The message, and the distributions that it holds for where that is worth saying."""
+        names = ", ".join(self.distributions)
+        return f"{self.message} ({names})" if names else self.message
 
     @property
     def sort_key(self) -> tuple[str, int, int, str, str]:

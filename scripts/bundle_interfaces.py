@@ -1,4 +1,4 @@
-"""Writes scaffold/data/jazzy_interfaces.txt: the common interfaces of ROS 2 Jazzy, in short.
+"""Writes scaffold/data/jazzy/interfaces.txt: the common interfaces of ROS 2 Jazzy, in short.
 
 Usage:
 
@@ -26,8 +26,9 @@ import os
 import sys
 import xml.etree.ElementTree as ET
 
+from scaffold import distributions
 from scaffold.model.interfaces.definitions import KINDS, Definitions, render
-from scaffold.model.interfaces.sources import BUNDLE, PrefixSource
+from scaffold.model.interfaces.sources import PrefixSource
 
 PACKAGES = (
     "ackermann_msgs",
@@ -60,6 +61,7 @@ PACKAGES = (
     "vision_msgs",
     "visualization_msgs",
 )
+BUNDLE = distributions.JAZZY.path("interfaces.txt")
 HEAD = (
     "# Common interfaces of ROS 2 Jazzy: names, types, constants and defaults.\n"
     "# Made by scripts/bundle_interfaces.py from installed packages; do not edit.\n"

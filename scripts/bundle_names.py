@@ -1,4 +1,4 @@
-"""Write scaffold/data/jazzy_names.txt: the names that rclpy has on ROS 2 Jazzy.
+"""Write scaffold/data/jazzy/names.txt: the names that rclpy has on ROS 2 Jazzy.
 
 Run it where the Python packages of Jazzy can be imported. One line for each module, and one for
 each class: its full name, a colon, and the names that it has, separated by blanks; methods are
@@ -17,7 +17,7 @@ from pathlib import Path
 from types import ModuleType
 
 PACKAGES = ("rclpy", "ament_index_python")
-TARGET = Path(__file__).parent.parent / "scaffold" / "data" / "jazzy_names.txt"
+TARGET = Path(__file__).parent.parent / "scaffold" / "data" / "jazzy" / "names.txt"
 
 
 def modules(package: str) -> Iterator[ModuleType]:

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.errors import InputError
+from scaffold.cli.main import main
+from scaffold.distributions import JAZZY
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.workspace.workspace import Workspace
@@ -43,7 +44,7 @@ ament_package()
 def bundled(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a directory with the stubs of the distribution and of the bundle."""
     directory = tmp_path_factory.mktemp("stubs")
-    write_stubs(str(directory), stub_files("jazzy", Definitions.around(prefixes=[])))
+    write_stubs(str(directory), stub_files(JAZZY, Definitions.around(prefixes=[])))
     return directory
 
 
@@ -329,7 +330,7 @@ def test_interfaces_of_the_workspace_come_along(tmp_path: Path) -> None:
     definitions = definitions_of(
         tmp_path, {"msg/Level.msg": "uint8 LOW=1\nuint8 level\nstd_msgs/Header header\n"}
     )
-    files = stub_files("jazzy", definitions)
+    files = stub_files(JAZZY, definitions)
     assert "LOW: Final = 1" in files["robot_interfaces/msg/_level.pyi"]
     assert "header: Header" in files["robot_interfaces/msg/_level.pyi"]
     assert "import Level" in files["robot_interfaces/msg/__init__.pyi"]
@@ -341,18 +342,18 @@ def test_a_package_alone_imports_what_its_messages_hold(tmp_path: Path) -> None:
     module = interface_stub_files(target.package)["robot_interfaces/msg/_level.pyi"]
     assert "from map_msgs.msg._tile import Tile" in module
     assert "low: Any" in module
-    assert "robot_interfaces" not in "".join(stub_files("jazzy"))
+    assert "robot_interfaces" not in "".join(stub_files(JAZZY))
 
 
 def test_what_cannot_be_read_may_be_anything(tmp_path: Path) -> None:
     definitions = definitions_of(tmp_path, {"msg/Level.msg": "uint8 level\n", "msg/Raw.idl": ""})
-    module = stub_files("jazzy", definitions)["robot_interfaces/msg/__init__.pyi"]
+    module = stub_files(JAZZY, definitions)["robot_interfaces/msg/__init__.pyi"]
     assert "Raw: Any" in module or "def __getattr__" in module
 
 
-def test_an_unknown_distribution_is_refused() -> None:
-    with pytest.raises(InputError, match="no stubs for distribution 'noetic'"):
-        library_stubs("noetic")
+def test_an_unknown_distribution_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stubs", "--distro", "noetic", "--dry-run"]) == 2
+    assert "--distro: no distribution 'noetic'; known are humble," in capsys.readouterr().err
 
 
 def test_stubs_have_no_errors_themselves(bundled: Path) -> None:
@@ -387,7 +388,7 @@ def test_generated_stubs_are_what_the_script_makes_of_the_source() -> None:
     script = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(script)
     made = script.stubs(site_packages())
-    stored = library_stubs("jazzy")
+    stored = library_stubs(JAZZY)
     assert len(made) > 50
     assert {path: stored[path] for path in made} == made
 
@@ -407,7 +408,7 @@ def exported(text: str) -> set[str]:
 
 
 def test_stubs_of_rclpy_have_every_public_class_and_function() -> None:
-    stored = library_stubs("jazzy")
+    stored = library_stubs(JAZZY)
     missing = []
     for path in sorted((site_packages() / "rclpy").rglob("*.py")):
         relative = path.relative_to(site_packages()).with_suffix(".pyi").as_posix()

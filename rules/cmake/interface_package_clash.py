@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.cmake import generations, is_interface_package
+from scaffold.api.distributions import target
 
 _LISTS = (
     "project(my_robot)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
@@ -18,7 +19,7 @@ class InterfacePackageClash(Rule):
     """A package generates interfaces and installs a Python package of the same name.
 
     **Why.** Both are the Python package ``my_robot``: CMake stops because the target
-    ``ament_cmake_python_copy_my_robot`` exists already.
+    ``ament_cmake_python_copy_my_robot`` exists already. From Lyrical on both are merged.
 
     **Fix.** Move the interfaces to a separate package, such as ``my_robot_msgs``.
 
@@ -30,6 +31,11 @@ class InterfacePackageClash(Rule):
     name = "interface-package-clash"
     examples = (
         Example("another name", {"CMakeLists.txt": _LISTS % "my_robot_tools", **_FILES}),
+        Example(
+            "the same name where both are merged",
+            {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
+            distro="lyrical",
+        ),
         Example(
             "the same name",
             {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
@@ -44,7 +50,8 @@ class InterfacePackageClash(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        if not is_interface_package(package):
+        may_be = target().fact("build.package_may_be_installed_twice")
+        if not is_interface_package(package) or may_be:
             return
         line = generations(package)[0].command.location.line
         for command in cmake.find("ament_python_install_package"):

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.cmake import Command
+from scaffold.api.distributions import target
 
 _OLDEST = (3, 5)
 _WANTED = "3.8"
@@ -30,6 +31,10 @@ class MinimumVersionUnfit(Rule):
     code = "CM005"
     name = "minimum-version-unfit"
     severity = Severity.WARNING
+    other_severities = {
+        Severity.ERROR: "the CMake of the distribution stops",
+        Severity.INFO: "the CMake of the distribution warns",
+    }
     examples = (
         Example("first", {"CMakeLists.txt": f"{_MINIMUM}project(talker)\n"}),
         Example(
@@ -45,6 +50,30 @@ class MinimumVersionUnfit(Rule):
         Example("of ROS 2", {"CMakeLists.txt": _LISTS.format("3.8")}),
         Example(
             "old, but known to work with newer", {"CMakeLists.txt": _LISTS.format("3.1...3.28")}
+        ),
+        Example(
+            "too old for CMake 4",
+            {"CMakeLists.txt": _LISTS.format("3.4")},
+            Report(
+                "1:32",
+                "CMake 4.2 of Lyrical stops at 3.4: it supports 3.5 and newer",
+                fix="write 3.10",
+                severity=Severity.ERROR,
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format("3.10")},
+            distro="lyrical",
+        ),
+        Example(
+            "deprecated by CMake 4",
+            {"CMakeLists.txt": _LISTS.format("3.8")},
+            Report(
+                "1:32",
+                "CMake 4.2 of Lyrical warns of 3.8, and a later one stops",
+                fix="write 3.10",
+                severity=Severity.INFO,
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format("3.10")},
+            distro="lyrical",
         ),
         Example(
             "of ROS 1",
@@ -76,18 +105,37 @@ class MinimumVersionUnfit(Rule):
 
     def _check_version(self, command: Command) -> Iterator[Diagnostic]:
         match command.arguments:
-            case [word, version, *_] if word.value == "VERSION" and _is_outdated(version.value):
-                edit = Edit("CMakeLists.txt", version.start, version.end, _WANTED)
-                message = (
-                    f"CMake 4 stops at {version.value}: it supports 3.5 and newer; ROS 2 asks "
-                    f"for {_WANTED}"
-                )
-                yield self.report(version, message, Fix(f"write {_WANTED}", (edit,)))
+            case [word, version, *_] if word.value == "VERSION":
+                numbers = _numbers(version.value)
+                if numbers is None:
+                    return
+                message, wanted, severity = _verdict(version.value, numbers)
+                if message:
+                    edit = Edit("CMakeLists.txt", version.start, version.end, wanted)
+                    fix = Fix(f"write {wanted}", (edit,))
+                    yield self.report(version, message, fix, severity=severity)
 
 
-def _is_outdated(version: str) -> bool:
-    """Tell whether a version, or the end of a range of versions, is no longer supported."""
-    numbers = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version)
-    if numbers is None or ".." in version:
-        return False
-    return (int(numbers[1]), int(numbers[2])) < _OLDEST
+def _verdict(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity | None]:
+    """Return a message, the version to write and another severity; no message if all is well."""
+    stops = target().fact("build.cmake_minimum_error_below")
+    warns = target().fact("build.cmake_minimum_warning_below")
+    cmake = f"CMake {target().fact('cmake').rpartition('.')[0]} of {target().title}"
+    if stops and numbers < (_numbers(stops) or _OLDEST):
+        message = f"{cmake} stops at {version}: it supports {stops} and newer"
+        return message, warns, Severity.ERROR
+    if warns and numbers < (_numbers(warns) or _OLDEST):
+        message = f"{cmake} warns of {version}, and a later one stops"
+        return message, warns, Severity.INFO
+    if numbers < _OLDEST:
+        message = f"CMake 4 stops at {version}: it supports 3.5 and newer; ROS 2 asks for {_WANTED}"
+        return message, _WANTED, None
+    return "", "", None
+
+
+def _numbers(version: str) -> tuple[int, int] | None:
+    """Return a version that is no range as numbers."""
+    matched = re.fullmatch(r"(\d{1,9})\.(\d{1,9})(?:\.[\d.]*)?", version)
+    if matched is None or ".." in version:
+        return None
+    return int(matched[1]), int(matched[2])

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, PythonRule, Report, Severity
+from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule, is_handled
 
 _NODE = "import numpy as np\n\n\ndef area(values):\n    return {}\n"
@@ -50,6 +51,9 @@ _LATER: Mapping[str, str] = {
     "bitwise_left_shift": "np.left_shift()",
 }
 """What NumPy has since 2.0; Ubuntu 24.04, which Jazzy is for, has 1.26."""
+
+
+_SECOND = (2,)
 
 
 class NameGone(PythonRule):
@@ -98,8 +102,7 @@ class NameGone(PythonRule):
             },
             Report(
                 "area.py:5:12",
-                "numpy.trapezoid came with NumPy 2, Ubuntu 24.04 has 1.26: "
-                "AttributeError; use np.trapz()",
+                "numpy.trapezoid came with NumPy 2, Jazzy has 1.26: AttributeError; use np.trapz()",
             ),
         ),
         Example(
@@ -107,10 +110,15 @@ class NameGone(PythonRule):
             {"area.py": _NODE.format("np.concat(values)")},
             Report(
                 "5:12",
-                "numpy.concat came with NumPy 2, Ubuntu 24.04 has 1.26: "
+                "numpy.concat came with NumPy 2, Jazzy has 1.26: "
                 "AttributeError; use np.concatenate()",
                 severity=Severity.WARNING,
             ),
+        ),
+        Example(
+            "what NumPy 2 has",
+            {"a.py": _NODE.format("np.trapezoid(values)")},
+            distro="lyrical",
         ),
         Example(
             "of the system, and without a loader",
@@ -139,13 +147,14 @@ class NameGone(PythonRule):
             short = name.removeprefix("numpy.")
             if is_handled(module, node, "AttributeError") or _is_replaced(module, node):
                 continue
-            if name in _GONE:
+            if name in _GONE and _is_gone(_GONE[name][0]):
                 since, instead = _GONE[name]
                 message = f"{name} is gone {since}: AttributeError; use {instead}"
                 yield self.report(module.location(node), message)
-            elif short in _LATER:
+            elif short in _LATER and _numpy() < _SECOND:
+                has = target().fact("numpy").rpartition(".")[0]
                 message = (
-                    f"{name} came with NumPy 2, Ubuntu 24.04 has 1.26: AttributeError; use "
+                    f"{name} came with NumPy 2, {target().title} has {has}: AttributeError; use "
                     f"{_LATER[short]}"
                 )
                 severity = None if _has_numpy_of_system(package) else Severity.WARNING
@@ -158,6 +167,16 @@ class NameGone(PythonRule):
                         "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"
                     )
                     yield self.report(module.location(call), message)
+
+
+def _numpy() -> tuple[int, ...]:
+    return tuple(map(int, target().fact("numpy").split(".")))
+
+
+def _is_gone(since: str) -> bool:
+    """Tell whether the target has the release that a name is gone since, as far as that differs."""
+    word, number = since.removeprefix("since ").split()
+    return word != "NumPy" or _numpy() >= tuple(map(int, number.split(".")))
 
 
 def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:

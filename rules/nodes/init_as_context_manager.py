@@ -1,25 +1,26 @@
-"""ND007: ``rclpy.init()`` is not a context manager on Jazzy."""
+"""ND007: ``rclpy.init()`` is a context manager on newer distributions only."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.distributions import target
+from scaffold.api.rclpy import RclpyFile, known_names
 
 _WITH = "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
 _PLAIN = "import rclpy\n\n\ndef main():\n    rclpy.init()\n"
 
 
 class InitAsContextManager(RclpyRule):
-    """``with rclpy.init()`` needs a newer ROS distribution than Jazzy.
+    """``with rclpy.init()`` needs a newer ROS distribution than the one that is checked for.
 
-    **Why.** On Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not support the
-    context manager protocol``.
+    **Why.** On Humble and Jazzy ``init`` returns None: ``TypeError: 'NoneType' object does not
+    support the context manager protocol``.
 
     **Fix.** Call ``rclpy.init(args=args)``, and ``rclpy.try_shutdown()`` in a ``finally``.
 
-    **Source.** rclpy 7.4.0 (pull request 1298) introduced it; Jazzy has 7.1.
+    **Source.** rclpy 7.4.0 (pull request 1298) introduced it: it is in Kilted and later.
     """
 
     code = "ND007"
@@ -34,7 +35,10 @@ class InitAsContextManager(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        if "rclpy.InitContextManager" in known_names():
+            return
+        title = target().title
         for call in file.init_calls:
             if call.in_with:
-                message = "rclpy.init() is not a context manager on Jazzy: TypeError at start"
+                message = f"rclpy.init() is not a context manager on {title}: TypeError at start"
                 yield self.report(call, message)

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.distributions import target
 from scaffold.api.setup_py import SetupPy, setup_edit
 
 EXTRAS = ("test", "tests", "testing")
+_IGNORING = 72
+"""The first setuptools that ignores tests_require."""
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
 _NEW = "extras_require={'test': ['pytest']}"
 _EXTRA = f"    {_NEW},\n"
@@ -57,6 +60,18 @@ class TestsNotRun(Rule):
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
         ),
+        Example(
+            "tests_require where it is ignored",
+            {"setup.py": _SETUP.format("    tests_require=['pytest'],\n")},
+            Report(
+                "5:19",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 "
+                "tests; write extras_require={'test': ['pytest']}",
+                fix="write extras_require={'test': ['pytest']}",
+            ),
+            fixed={"setup.py": _SETUP.format(_EXTRA)},
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -80,11 +95,15 @@ class TestsNotRun(Rule):
             return
         span = setup_edit.span(setup, "tests_require")
         fix = Fix(f"write {_NEW}", (Edit("setup.py", *span, _NEW),)) if span else None
-        message = (
-            "setuptools 72 and later, which Jazzy does not have, ignore tests_require: colcon will "
-            f"run 0 tests; write {_NEW}"
+        has_new = int(target().fact("setuptools").partition(".")[0]) >= _IGNORING
+        ignored = (
+            f"setuptools of {target().title} ignores tests_require: colcon runs 0 tests"
+            if has_new
+            else f"setuptools {_IGNORING} and later, which {target().title} does not have, ignore "
+            "tests_require: colcon will run 0 tests"
         )
-        yield self.report(old, message, fix, severity=Severity.INFO)
+        severity = None if has_new else Severity.INFO
+        yield self.report(old, f"{ignored}; write {_NEW}", fix, severity=severity)
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")

@@ -6,18 +6,25 @@ import ast
 import re
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TypeRule, closest_name
+from scaffold.api.distributions import target
 from scaffold.api.types import TypeFinding, module_names
 
 _INSTEAD = {
     "asynchat": "asyncio",
     "asyncore": "asyncio",
     "binhex": "base64",
+    "cgi": "email.message",
+    "crypt": "hashlib",
     "distutils": "shutil, sysconfig or packaging.version",
     "formatter": "string",
     "imp": "importlib",
+    "imghdr": "filetype",
     "parser": "ast",
+    "pipes": "subprocess",
     "smtpd": "aiosmtpd",
+    "sndhdr": "filetype",
     "symbol": "token",
+    "telnetlib": "telnetlib3",
 }
 _NODE = "import rclpy\nimport {}\n\nrclpy.init()\nmessage = std_msgs.msg.String()\n"
 
@@ -81,7 +88,8 @@ class ModuleUnknown(TypeRule):
         if root in _INSTEAD:
             severity = Severity.WARNING if root == "distutils" else None
             message = (
-                f"Python 3.12 has no module {root!r}: ModuleNotFoundError; use {_INSTEAD[root]}"
+                f"Python {target().python_version} has no module {root!r}: ModuleNotFoundError; "
+                f"use {_INSTEAD[root]}"
             )
             return self.report(finding, message, severity=severity)
         above, _, last = module.rpartition(".")
@@ -96,7 +104,7 @@ class ModuleUnknown(TypeRule):
         closest = closest_name(finding.package, last, module_names(finding.package, above), 0.6)
         hint = f"; did you mean '{above}.{closest}'?" if closest else ""
         return self.report(
-            finding, f"ROS 2 Jazzy has no module {module!r}: ModuleNotFoundError{hint}"
+            finding, f"ROS 2 {target().title} has no module {module!r}: ModuleNotFoundError{hint}"
         )
 
     def _fix(self, finding: TypeFinding, module: str) -> Fix | None:

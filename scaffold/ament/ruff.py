@@ -12,6 +12,7 @@ import signal
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.ament.finding import Replacement
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import bundled
@@ -32,7 +33,6 @@ _COMMON = (
     "--exit-zero",
     "--ignore-noqa",
     "--output-format=json",
-    "--target-version=py312",
     "--no-respect-gitignore",
     "--line-length=99",
 )
@@ -48,6 +48,14 @@ PASSES = (
     ),
     (*_COMMON, "--preview", f"--select={PREVIEW}", f"--ignore={PREVIEW_OFF}"),
 )
+
+
+def passes() -> Iterator[Sequence[str]]:
+    """Yield the arguments of both passes; the syntax is that of the target's Python."""
+    version = distributions.target().python_version.replace(".", "")
+    for command, *arguments in PASSES:
+        yield (command, f"--target-version=py{version}", *arguments)
+
 
 MAX_ARGUMENTS = 100_000
 """Bytes of file names for one process; the system's limit is at least 128 KiB for all arguments."""
@@ -89,7 +97,7 @@ class Run:
             for at, chunk in enumerate(self._chunks):
                 if at:
                     self._running = self._start(chunk)
-                for arguments in PASSES:
+                for arguments in passes():
                     output = _collect(*self._running.pop(0))
                     answer = _bisect(arguments, chunk) if output is None else _parse(output)
                     for path, diagnostic in answer:
@@ -107,7 +115,7 @@ class Run:
 
     @staticmethod
     def _start(chunk: Sequence[str]) -> list[tuple[int, int]]:
-        return [_spawn([*arguments, "--", *chunk]) for arguments in PASSES]
+        return [_spawn([*arguments, "--", *chunk]) for arguments in passes()]
 
 
 def _bisect(arguments: Sequence[str], files: Sequence[str]) -> Iterator[tuple[str, RuffDiagnostic]]:

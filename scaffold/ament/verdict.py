@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.ament.codes import CODES
 from scaffold.ament.finding import FLAKE8, PEP257, TOO_LARGE, UNPARSABLE, Finding, Replacement
 from scaffold.ament.flake8 import builtins as shadowing
@@ -161,7 +162,13 @@ def _broken(
     if own is not None and own.lineno:
         # It names the line that flake8 names.
         line, column = own.lineno, max(own.offset or 1, 1)
-    return Finding("E999", line, column, f"not valid Python 3.12: {message}", linters=both)
+    return Finding(
+        "E999",
+        line,
+        column,
+        f"not valid Python {distributions.target().python_version}: {message}",
+        linters=both,
+    )
 
 
 def _syntax_error(text: PythonText) -> SyntaxError | None:

@@ -24,6 +24,7 @@ from scaffold.model.rclpy.attributes import (
 )
 from scaffold.model.rclpy.callbacks import numbers_taken
 from scaffold.model.rclpy.called_functions import called_function
+from scaffold.model.rclpy.changed_names import ChangedUse, changed_calls, changed_uses
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
@@ -87,6 +88,7 @@ __all__ = [
     "ActionServer",
     "Argument",
     "Callback",
+    "ChangedUse",
     "Client",
     "Endpoint",
     "Entity",
@@ -108,6 +110,8 @@ __all__ = [
     "buffers_in",
     "callback_arguments",
     "called_function",
+    "changed_calls",
+    "changed_uses",
     "class_of",
     "clocks_of",
     "conflict_of",

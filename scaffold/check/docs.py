@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.check.rule import Example, Report, Rule
 from scaffold.diagnostic import Severity
+from scaffold.distributions import DEFAULT
 from scaffold.edits import Safety
 
 if TYPE_CHECKING:
@@ -150,7 +151,8 @@ def _severity(rule: type[Rule]) -> str:
 
 
 def _example(rule: type[Rule], example: Example) -> str:
-    parts = [f"*{example.title}*"]
+    target = "" if example.distro == DEFAULT else f", for {example.distro.capitalize()}"
+    parts = [f"*{example.title}{target}*"]
     for path, text in example.files.items():
         parts.append(f"`{path}`:")
         if text:

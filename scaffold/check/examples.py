@@ -30,7 +30,8 @@ def package_of(example: Example) -> Package:
 
 def reports(rule: type[Rule], example: Example) -> list[Report]:
     """Return what a rule reports about an example, in reading order."""
-    return [_report(rule, diagnostic) for diagnostic in runner.check(package_of(example), [rule()])]
+    with example.targeting():
+        return [_report(rule, one) for one in runner.check(package_of(example), [rule()])]
 
 
 def _report(rule: type[Rule], diagnostic: Diagnostic) -> Report:

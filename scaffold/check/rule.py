@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
+from scaffold import distributions
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Fix, Safety
 from scaffold.source import Location
@@ -77,6 +79,8 @@ class Example:
         executable: The files with an executable bit.
         neighbours: Other packages of the workspace: files by path, by package directory.
         rosdep_keys: What rosdep resolves; ``None`` for a machine without its cache.
+        distro: The distribution that the package is checked for.
+        moved_from: The one that it comes from, where it is moved; empty else.
     """
 
     def __init__(
@@ -88,6 +92,8 @@ class Example:
         executable: tuple[str, ...] = (),
         neighbours: Mapping[str, Mapping[str, str]] | None = None,
         rosdep_keys: tuple[str, ...] | None = None,
+        distro: str = distributions.DEFAULT,
+        moved_from: str = "",
     ) -> None:
         self.title = title
         self.files = files
@@ -96,6 +102,13 @@ class Example:
         self.executable = executable
         self.neighbours = neighbours or {}
         self.rosdep_keys = rosdep_keys
+        self.distro = distro
+        self.moved_from = moved_from
+
+    def targeting(self) -> AbstractContextManager[None]:
+        """Return what the package is to be checked in."""
+        origin = distributions.named(self.moved_from) if self.moved_from else None
+        return distributions.targeting(distributions.named(self.distro), origin)
 
     @property
     def reports(self) -> tuple[Report, ...]:

@@ -24,7 +24,7 @@ class Choices:
 
     def __init__(self, settings: Config, rules: Sequence[type[Rule]]) -> None:
         self._settings = settings
-        self._rules = rules
+        self._rules = self.rules = rules
         self._names: dict[str, str] = {}
 
     def selection(

@@ -33,6 +33,7 @@ VERBS = {
     "add": "add a node, an interface, a program or a launch file to a package",
     "update": "update a package to the current templates",
     "check": "lint packages and find what will break",
+    "migrate": "move packages to another distribution of ROS 2",
     "rules": "list and explain the rules",
     "templates": "list the templates, or test those of a team",
     "interfaces": "list the known messages, services and actions, or show some",

@@ -77,7 +77,7 @@ def write(
     if options.format == "github":
         from scaffold.reporters import github
 
-        add_job_summary(github.job_summary(results))
+        add_job_summary(github.job_summary(results, shown))
     is_noted = options.format == "text" and path is None
     for note in () if is_noted or shown.quiet else shown.notes:
         terminal.say(note)
@@ -87,7 +87,7 @@ def write(
         return text if is_all else None
     write_file(path, text.encode("utf-8", "backslashreplace"), "--output-file")
     if not shown.quiet:
-        terminal.say(f"{summary.summary(results, unsafe=shown.unsafe)}; the report is in {path}")
+        terminal.say(f"{summary.summary(results, shown)}; the report is in {path}")
     return None
 
 

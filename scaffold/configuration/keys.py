@@ -6,10 +6,10 @@ come from here.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from scaffold import distributions
 from scaffold.record import NamedTuple
 
 SEVERITIES = ("error", "warning", "info")
@@ -98,10 +98,13 @@ def _refuse_number(value: Any) -> str:  # noqa: ANN401  likewise
 
 
 def _refuse_distribution(value: Any) -> str:  # noqa: ANN401  likewise
-    if value in DISTRIBUTIONS:
-        return ""
-    supported = ", ".join(DISTRIBUTIONS)
-    return f"is {value!r}: only {supported} is supported"
+    names = [value] if isinstance(value, str) else value
+    if not _is_list_of_strings(names) or not names:
+        return _must_be(_DISTRIBUTION_NOUN)
+    for name in names:
+        if name not in distributions.NAMES:
+            return f"is {value!r}: {distributions.refusal(name)}"
+    return ""
 
 
 def _refuse_kinds(value: Any) -> str:  # noqa: ANN401  likewise
@@ -124,13 +127,9 @@ _DIRECTORIES_NOUN = "a list of directories"
 _LISTS_BY_PATTERN_NOUN = "a table of patterns with lists of strings"
 _SEVERITIES_NOUN = "a table of rules with severities"
 LONGEST_LINE = 10_000
-_DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data")
-_NAMES = "_names.txt"
-DISTRIBUTIONS = tuple(
-    sorted(name.removesuffix(_NAMES) for name in os.listdir(_DATA) if name.endswith(_NAMES))
-)
-"""Those that there is data of."""
-
+_NAMES = ", ".join(f"`{name}`" for name in distributions.NAMES)
+_DISTRIBUTION_NOUN = f"one of {_NAMES}, or a list of them"
+_ONE_DISTRIBUTION = {"enum": [*distributions.NAMES]}
 _NUMBER_NOUN = f"a number from 1 to {LONGEST_LINE}"
 _KINDS_NOUN = "a list of `submodules`, `ignored`, `vendored` and `copies`"
 _STRINGS = {"type": "array", "items": {"type": "string"}}
@@ -157,9 +156,9 @@ NUMBER = Kind(
     _NUMBER_NOUN, _refuse_number, {"type": "integer", "minimum": 1, "maximum": LONGEST_LINE}
 )
 DISTRIBUTION = Kind(
-    " or ".join(f'`"{name}"`' for name in DISTRIBUTIONS),
+    _DISTRIBUTION_NOUN,
     _refuse_distribution,
-    {"enum": [*DISTRIBUTIONS]},
+    {"anyOf": [_ONE_DISTRIBUTION, {"type": "array", "items": _ONE_DISTRIBUTION, "minItems": 1}]},
 )
 STYLE = Kind('`"all"` or `"own"`', _refuse_style, {"enum": [*STYLES]})
 
@@ -242,8 +241,8 @@ KEYS = (
         "check",
         "distribution",
         DISTRIBUTION,
-        "jazzy",
-        "The distribution of ROS 2 that packages are checked for.",
+        distributions.DEFAULT,
+        "The distributions of ROS 2 that packages are checked for.",
     ),
 )
 """In the order of the documentation."""

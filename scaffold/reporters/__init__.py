@@ -6,11 +6,13 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol, TextIO, cast
 
+from scaffold import distributions
 from scaffold.diagnostic import Severity
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.result import Result
+    from scaffold.distributions import Distribution
 
 
 class ReportOptions(NamedTuple):
@@ -32,6 +34,8 @@ class ReportOptions(NamedTuple):
     """Whether the summary is skipped."""
     notes: tuple[str, ...] = ()
     """Lines above the summary: what is not in the report, and why."""
+    distributions: tuple[Distribution, ...] = (distributions.JAZZY,)
+    """Those that were checked for."""
 
 
 class Reporter(Protocol):

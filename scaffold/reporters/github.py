@@ -38,7 +38,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         }
         if at.line != at.end_line:
             del properties["col"], properties["endColumn"]  # GitHub knows them for one line only
-        message = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.message)}"
+        message = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.text)}"
         out.write(command(_COMMANDS[diagnostic.severity], properties, message))
 
 
@@ -54,10 +54,10 @@ def command(level: str, properties: Mapping[str, object], message: str) -> str:
     return f"::{level} {words}::{_data(message)}\n"
 
 
-def job_summary(results: Sequence[Result]) -> str:
+def job_summary(results: Sequence[Result], options: ReportOptions) -> str:
     """Return the summary of a job as Markdown: errors first, then how often each code is found."""
     findings = _worst_first(results)
-    lines = ["### ros2-scaffold check", "", summary(results, unsafe=False), ""]
+    lines = ["### ros2-scaffold check", "", summary(results, options._replace(unsafe=False)), ""]
     if findings:
         lines += _table(findings[:_MOST_LISTED])
         if len(findings) > _MOST_LISTED:

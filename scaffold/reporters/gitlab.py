@@ -20,7 +20,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     fingerprints = Fingerprints()
     findings = [
         {
-            "description": f"{diagnostic.code} {printable(diagnostic.message)}",
+            "description": f"{diagnostic.code} {printable(diagnostic.text)}",
             "check_name": diagnostic.code,
             "fingerprint": fingerprints.of(result.package, diagnostic),
             "severity": _SEVERITIES[diagnostic.severity],

@@ -19,18 +19,25 @@ SCHEMA_VERSION = 1
 """Counts up when a field changes its meaning or goes; a new field does not count."""
 
 
-def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
+def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
     """Write ``{"schema_version": 1, "diagnostics": [...], "summary": {...}}``."""
-    summary = Summary.of(results)._asdict()
+    checked = [one.name for one in options.distributions]
+    summary = {**Summary.of(results)._asdict(), "distributions": checked}
     data = {
         "schema_version": SCHEMA_VERSION,
-        "diagnostics": [*_diagnostics(results)],
+        "diagnostics": [*diagnostics(results, checked)],
         "summary": summary,
     }
     out.write(json_text(data) + "\n")
 
 
-def _diagnostics(results: Sequence[Result]) -> Iterator[dict[str, object]]:
+def diagnostics(results: Sequence[Result], checked: Sequence[str]) -> Iterator[dict[str, object]]:
+    """Yield findings as data.
+
+    Args:
+        results: Of all packages.
+        checked: The names of the distributions that were checked for.
+    """
     pages = rule_pages.of(item.code for result in results for item in result.diagnostics)
     number = 0
     for result in results:
@@ -38,6 +45,7 @@ def _diagnostics(results: Sequence[Result]) -> Iterator[dict[str, object]]:
         for diagnostic in result.diagnostics:
             data = _as_data(diagnostic, shown(result.package, diagnostic.location.path))
             data["cause"] = diagnostic.cause or None
+            data["distributions"] = [*(diagnostic.distributions or checked)]
             data["url"] = pages[diagnostic.code].url
             fix = diagnostic.fix
             first = number if fix is None else repetitions.first(fix, number)

@@ -39,7 +39,7 @@ def _suite(result: Result) -> ET.Element:
     for diagnostic in result.diagnostics:
         at = diagnostic.location
         path = printable(shown(result.package, at.path))
-        line = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.message)}"
+        line = f"{path}:{at.line}:{at.column}: {diagnostic.code} {printable(diagnostic.text)}"
         by_case.setdefault((f"{diagnostic.code} {path}", path, _outcome(diagnostic)), []).append(
             line
         )

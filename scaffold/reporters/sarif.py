@@ -96,7 +96,7 @@ def _result(package: Package, diagnostic: Diagnostic, number: int) -> Data:
         "ruleId": diagnostic.code,
         "ruleIndex": number,
         "level": _LEVELS[diagnostic.severity],
-        "message": {"text": printable(diagnostic.message)},
+        "message": {"text": printable(diagnostic.text)},
         "locations": [
             {
                 "physicalLocation": {

@@ -136,7 +136,7 @@ def _blocks(
 
 def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]:
     first = entry.first
-    message = printable(first.message)
+    message = printable(first.text)
     if not options.everything:
         message = shorten(message, MAX_MESSAGE, placeholder=" …")
     lines = [
@@ -165,10 +165,10 @@ def _further(entry: Entry) -> list[Text]:
     rest = len(others) - len(shown)
     more = f" and {count(rest, 'more place')}" if rest else ""
     places = [place(entry.package, item) for item in shown]
-    if all((item.code, item.message) == (first.code, first.message) for item in shown):
+    if all((item.code, item.text) == (first.code, first.text) for item in shown):
         return [Text(f"    also at {', '.join(places)}{more}", style="dim")]
     lines = [
-        f"    also {at}: {item.code} {shorten(printable(item.message), 80, placeholder=' …')}"
+        f"    also {at}: {item.code} {shorten(printable(item.text), 80, placeholder=' …')}"
         for at, item in zip(places, shown, strict=True)
     ]
     return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
@@ -215,7 +215,7 @@ def _footer(results: Sequence[Result], folded: _Folded, options: ReportOptions) 
             )
         ]
     notes = [Text(printable(note)) for note in options.notes]
-    return [*lines, *notes, Text(summary(results, unsafe=options.unsafe), style="bold")]
+    return [*lines, *notes, Text(summary(results, options), style="bold")]
 
 
 def _style_line(result: Result, *, unsafe: bool) -> Text:

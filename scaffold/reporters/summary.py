@@ -4,26 +4,31 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from scaffold.check.result import Result, Summary
 from scaffold.diagnostic import Diagnostic
+from scaffold.distributions import titles
 from scaffold.edits import Safety
 from scaffold.reporters.entries import SEVERITIES
 
+if TYPE_CHECKING:
+    from scaffold.reporters import ReportOptions
 
-def summary(results: Sequence[Result], *, unsafe: bool) -> str:
+def summary(results: Sequence[Result], options: ReportOptions) -> str:
     """Return one line: what was checked, the findings, and how many are fixable.
 
     Args:
         results: Of all packages.
-        unsafe: Whether unsafe fixes are counted with the others.
+        options: Which distributions were checked for, and which fixes are counted.
     """
     total = Summary.of(results)
-    checked = f"{count(total.packages, 'package')}, {count(total.files, 'file')}"
+    target = titles(options.distributions)
+    checked = f"{count(total.packages, 'package')}, {count(total.files, 'file')} for {target}"
     diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
     if not diagnostics:
         return f"{checked}: no findings"
-    fixes = fixable(diagnostics, unsafe=unsafe)
+    fixes = fixable(diagnostics, unsafe=options.unsafe)
     return "; ".join(filter(None, (f"{checked}: {by_severity(diagnostics)}", fixes)))
 
 

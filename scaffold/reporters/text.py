@@ -37,7 +37,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
                 out.writelines(f"    {text}\n" for text in excerpt(package, diagnostic.location))
     if not options.quiet:
         out.writelines(f"{printable(note)}\n" for note in options.notes)
-        out.write(summary(results, unsafe=options.unsafe) + "\n")
+        out.write(summary(results, options) + "\n")
 
 
 def worst_first(
@@ -54,7 +54,7 @@ def worst_first(
 def line(package: Package, diagnostic: Diagnostic) -> str:
     """Return the line of a finding: ``path:line:column: severity code message [name]``."""
     head = f"{place(package, diagnostic)}: {diagnostic.severity.value} {diagnostic.code}"
-    return f"{head} {printable(diagnostic.message)} [{diagnostic.name}]"
+    return f"{head} {printable(diagnostic.text)} [{diagnostic.name}]"
 
 
 def place(package: Package, diagnostic: Diagnostic) -> str:

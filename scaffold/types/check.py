@@ -9,6 +9,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 
+from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.types import environment, ty
 from scaffold.types.callbacks import with_callback_types
@@ -19,11 +20,13 @@ from scaffold.types.stubs import INCOMPLETE
 from scaffold.types.ty import TyDiagnostic, UnavailableError
 from scaffold.types.unannotated import without_annotations
 
-DISTRIBUTION = "jazzy"
-REMOVED = frozenset(
-    {"asynchat", "asyncore", "binhex", "distutils", "formatter", "imp", "parser", "smtpd", "symbol"}
-)
-"""Modules that Python 3.12 does not have any more."""
+_REMOVED_IN: Mapping[tuple[int, int], frozenset[str]] = {
+    (3, 10): frozenset({"formatter", "parser", "symbol"}),
+    (3, 11): frozenset({"binhex"}),
+    (3, 12): frozenset({"asynchat", "asyncore", "distutils", "imp", "smtpd"}),
+    (3, 13): frozenset({"cgi", "crypt", "imghdr", "pipes", "sndhdr", "telnetlib"}),
+}
+"""Modules that people use, by the version of Python that has them no more."""
 _CHANGED = frozenset({"collections", "random"})
 """Modules of Python of which people use what is no longer there."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
@@ -83,11 +86,12 @@ class TypeCheck:
 
     def _start(self, is_wanted: Callable[[Package, str], bool]) -> None:
         home = self._environment()
-        entries = os.listdir(os.path.join(home, environment.PACKAGES))
+        target = distributions.target()
+        entries = os.listdir(os.path.join(home, environment.packages(target)))
         stubbed = frozenset(name.removesuffix(".pyi") for name in entries) - INCOMPLETE
         self._stubbed = stubbed
         self._cache = Cache(
-            f"{ty.identity()} {environment.identity(DISTRIBUTION)} {sys.version_info[:2]}"
+            f"{ty.identity()} {environment.identity(target)} {sys.version_info[:2]}"
         )
         sources = Sources()
         asked: list[_File] = []
@@ -127,7 +131,7 @@ class TypeCheck:
         needed.update(item.package.full_path(item.path) for item in reached.values() if item.path)
 
     def _environment(self) -> str:
-        return environment.directory(DISTRIBUTION, self._directory)
+        return environment.directory(distributions.target(), self._directory)
 
     def _directory(self, name: str) -> str:
         if not self._scratch:
@@ -202,9 +206,17 @@ class TypeCheck:
         self.close()
 
 
+def removed_modules() -> frozenset[str]:
+    """Return the modules that Python had and that of the target does not have any more."""
+    python = distributions.target().python
+    return frozenset[str]().union(
+        *(names for version, names in _REMOVED_IN.items() if version <= python)
+    )
+
+
 def _is_relevant(roots: frozenset[str], stubbed: frozenset[str]) -> bool:
     """Tell whether anything that is imported is known well enough to judge its use."""
-    return not roots.isdisjoint(stubbed | REMOVED | _CHANGED)
+    return not roots.isdisjoint(stubbed | removed_modules() | _CHANGED)
 
 
 def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
@@ -235,7 +247,7 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
         quoted = re.search(r"`([\w.]+)`", item.message)
         root = quoted[1].partition(".")[0] if quoted else ""
         if item.kind == "import-not-found":
-            return root in stubbed or root in REMOVED
+            return root in stubbed or root in removed_modules()
         return root in stubbed or root in sys.stdlib_module_names
     return MARK in item.message
 

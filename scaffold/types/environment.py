@@ -11,24 +11,29 @@ import shutil
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
+from scaffold.distributions import NAMES, Distribution
 from scaffold.files import cache, temporary
 from scaffold.files.disk import digest
 from scaffold.types import stubs
 from scaffold.types.marks import mark
 
 KIND = "stubs"
-KEPT = 3
+KEPT = 6
 """Environments that are kept: of this and of other versions of the tool."""
-PACKAGES = os.path.join("lib", "python3.12", "site-packages")
 _INDEX = "index"
 _MAGIC = b"scaffold-stubs-1\n"
-_SETTINGS = "home = /nonexistent\nversion = 3.12\n"
+_SETTINGS = "home = /nonexistent\nversion = {}\n"
 
 
-@lru_cache(maxsize=1)
-def identity(distribution: str) -> str:
+def packages(distribution: Distribution) -> str:
+    """Return where the stubs are in an environment."""
+    return os.path.join("lib", f"python{distribution.python_version}", "site-packages")
+
+
+@lru_cache(maxsize=len(NAMES))
+def identity(distribution: Distribution) -> str:
     """Return what changes with the stubs of a distribution, and with how they are written."""
-    parts = [distribution]
+    parts = [distribution.name]
     own = os.path.dirname(os.path.abspath(__file__))
     for top in (own, os.path.join(os.path.dirname(own), "data")):
         parts += sorted(_stamps(top))
@@ -44,11 +49,11 @@ def _stamps(top: str) -> Iterator[str]:
             yield f"{place} {status.st_size} {status.st_mtime_ns}"
 
 
-def directory(distribution: str, scratch: Callable[[str], str]) -> str:
+def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
     """Return the environment of a distribution; it is written where it is not there yet.
 
     Args:
-        distribution: The name of a ROS distribution.
+        distribution: The distribution.
         scratch: Returns where a temporary directory is, for when there is no cache.
 
     Raises:
@@ -90,7 +95,7 @@ def _stamp(path: str) -> tuple[int, int] | None:
     return status.st_size, status.st_mtime_ns
 
 
-def _write_aside(distribution: str, place: str) -> None:
+def _write_aside(distribution: Distribution, place: str) -> None:
     kept = os.path.dirname(place)
     aside = os.path.join(kept, temporary.name())
     os.makedirs(kept, exist_ok=True)
@@ -105,13 +110,13 @@ def _write_aside(distribution: str, place: str) -> None:
     _trim(kept)
 
 
-def _write(distribution: str, place: str) -> list[str]:
+def _write(distribution: Distribution, place: str) -> list[str]:
     """Write an environment; return the paths of its files."""
     files = {
-        os.path.join(PACKAGES, path): marked(path, text)
+        os.path.join(packages(distribution), path): marked(path, text)
         for path, text in stubs.stub_files(distribution).items()
     }
-    files["pyvenv.cfg"] = _SETTINGS
+    files["pyvenv.cfg"] = _SETTINGS.format(distribution.python_version)
     write_files(place, files)
     return list(files)
 

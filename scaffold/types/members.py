@@ -6,6 +6,8 @@ import ast
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
+from scaffold import distributions
+from scaffold.distributions import Distribution
 from scaffold.model.package import Package
 from scaffold.types import stubs
 from scaffold.types.marks import MARK
@@ -148,14 +150,12 @@ def _stubs_of(package: Package, module: str) -> Mapping[str, str]:
     other = package if package.name == root else package.workspace.get(root)
     if other is not None:
         return other.remember("stubs", lambda: stubs.interface_stub_files(other))
-    return _bundled()
+    return _bundled(distributions.target())
 
 
 @lru_cache(maxsize=1)
-def _bundled() -> Mapping[str, str]:
-    from scaffold.types.check import DISTRIBUTION
-
-    return stubs.stub_files(DISTRIBUTION)
+def _bundled(distribution: Distribution) -> Mapping[str, str]:
+    return stubs.stub_files(distribution)
 
 
 def _parsed(files: Mapping[str, str], module: str) -> ast.Module | None:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.errors import InputError
+from scaffold import distributions
 from scaffold.types.interface_stubs import package_stubs
 
 if TYPE_CHECKING:
+    from scaffold.distributions import Distribution
     from scaffold.model.interfaces.definitions import Definitions
     from scaffold.model.package import Package
 
-_DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
 _STUBS = "stubs"
+_REMOVED = "removed_stubs.txt"
 INCOMPLETE = frozenset(
     {
         "ament_copyright",
@@ -28,31 +29,29 @@ INCOMPLETE = frozenset(
         "launch_testing_ros",
         "launch_xml",
         "launch_yaml",
+        "rosbag2_py",
         "tf2_kdl",
     }
 )
 """The libraries whose stubs leave modules or names out."""
 
 
-def distributions() -> list[str]:
-    """Return the names of the distributions that have stubs, sorted."""
-    return sorted(
-        name for name in os.listdir(_DATA) if os.path.isdir(os.path.join(_DATA, name, _STUBS))
-    )
-
-
-def library_stubs(distribution: str) -> dict[str, str]:
+def library_stubs(distribution: Distribution) -> dict[str, str]:
     """Return the stubs of the libraries of a distribution, by relative path.
 
-    Raises:
-        InputError: there are no stubs for this distribution.
+    Those of Jazzy are complete; of others there are those that differ, and a list of those that
+    are gone.
     """
-    if distribution not in distributions():
-        supported = ", ".join(distributions())
-        raise InputError(
-            f"no stubs for distribution {distribution!r}; there are some for {supported}"
-        )
-    top = os.path.join(_DATA, distribution, _STUBS)
+    files = _stubs_below(distributions.JAZZY.path(_STUBS))
+    if distribution.place != distributions.JAZZY.place:
+        with open(distribution.path(_REMOVED), encoding="utf-8") as file:
+            for line in file:
+                files.pop(line.strip(), None)
+        files.update(_stubs_below(distribution.path(_STUBS)))
+    return dict(sorted(files.items()))
+
+
+def _stubs_below(top: str) -> dict[str, str]:
     files: dict[str, str] = {}
     for directory, _, names in os.walk(top):
         for name in names:
@@ -61,25 +60,25 @@ def library_stubs(distribution: str) -> dict[str, str]:
             path = os.path.join(directory, name)
             with open(path, encoding="utf-8") as file:
                 files[os.path.relpath(path, top)] = file.read()
-    return dict(sorted(files.items()))
+    return files
 
 
-def stub_files(distribution: str, definitions: Definitions | None = None) -> dict[str, str]:
+def stub_files(
+    distribution: Distribution, definitions: Definitions | None = None
+) -> dict[str, str]:
     """Return the stubs of the libraries and of all interfaces, by relative path.
 
     Args:
-        distribution: The one whose libraries are wanted, such as ``jazzy``.
+        distribution: The one whose libraries are wanted.
         definitions: The interfaces: those of the workspace, of installed packages, of the bundle;
             ``None``: of the bundle alone.
-
-    Raises:
-        InputError: there are no stubs for this distribution.
     """
     from scaffold.model.interfaces.definitions import Definitions
 
     files = library_stubs(distribution)
     if definitions is None:
-        definitions = Definitions.around(prefixes=())
+        with distributions.targeting(distribution):
+            definitions = Definitions.around(prefixes=())
     for package in definitions.packages():
         for path, text in package_stubs(definitions, package).items():
             files.setdefault(path, text)

@@ -12,6 +12,7 @@ import signal
 import time
 from collections.abc import Iterator, Mapping, Sequence
 
+from scaffold import distributions
 from scaffold.errors import ScaffoldError
 from scaffold.programs import bundled
 from scaffold.record import NamedTuple
@@ -262,7 +263,7 @@ def _configuration() -> str:
     rules = "".join(f'{kind} = "error"\n' for kind in KINDS)
     return f"""\
 [environment]
-python-version = "3.12"
+python-version = "{distributions.target().python_version}"
 python-platform = "linux"
 root = ["{LIBRARY}"]
 

@@ -12,6 +12,11 @@ from scaffold.check.rule import Example, Rule
 
 def assert_reported(rule: type[Rule], example: Example) -> None:
     """Fail unless a rule reports and fixes what an example has, word for word."""
+    with example.targeting():
+        _assert_reported(rule, example)
+
+
+def _assert_reported(rule: type[Rule], example: Example) -> None:
     package = package_of(example)
     diagnostics = runner.check(package, [rule()])
     assert {diagnostic.code for diagnostic in diagnostics} <= {rule.code}
@@ -49,7 +54,8 @@ def assert_suppressible(examples: Iterable[tuple[type[Rule], Example]]) -> None:
         package = package_of(
             Example("", files, executable=example.executable, neighbours=example.neighbours)
         )
-        said = runner.check(package, [rule()])
+        with example.targeting():
+            said = runner.check(package, [rule()])
         assert suppression.apply(package, said, {rule.code}) == [], example.title
         silenced += bool(said)
     assert silenced > 0

@@ -59,7 +59,7 @@ def flawed(package: Path) -> Path:
 @pytest.mark.usefixtures("package")
 def test_clean(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker"]) == 0
-    assert capsys.readouterr().out == "1 package, 3 files: no findings\n"
+    assert capsys.readouterr().out == "1 package, 3 files for Jazzy: no findings\n"
 
 
 @pytest.mark.usefixtures("flawed")
@@ -74,7 +74,7 @@ def test_found(capsys: pytest.CaptureFixture[str]) -> None:
             "talker/package.xml:6:3: warning PX002 the description is a placeholder, "
             "'TODO: Package description' [description-placeholder]"
         ),
-        "1 package, 3 files: 1 error, 1 warning; 1 fixable with --fix",
+        "1 package, 3 files for Jazzy: 1 error, 1 warning; 1 fixable with --fix",
     ]
 
 
@@ -93,6 +93,7 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
         "message": "the project is 'listener', the package 'talker' (package.xml, line 4)",
         "fixable": True,
         "cause": None,
+        "distributions": ["jazzy"],
         "url": None,
         "fix": {
             "title": "name the project talker",
@@ -118,6 +119,7 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
         "errors": 1,
         "warnings": 1,
         "infos": 0,
+        "distributions": ["jazzy"],
     }
 
 

@@ -70,7 +70,7 @@ def test_pyproject_configures_like_a_file_of_its_own(
     (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
     assert check(capsys, "talker")[0] == 1
     (workspace / "pyproject.toml").write_text('[tool.ros2-scaffold.check]\nselect = ["CM"]\n')
-    assert check(capsys, "talker") == (0, "1 package, 12 files: no findings\n")
+    assert check(capsys, "talker") == (0, "1 package, 12 files for Jazzy: no findings\n")
     (workspace / "talker" / "pyproject.toml").write_text("[tool.black]\nline-length = 99\n")
     assert check(capsys, "talker")[0] == 0, "a pyproject.toml without the table does not count"
     (workspace / "talker" / "ros2-scaffold.toml").write_text('[check]\nselect = ["F"]\n')
@@ -186,12 +186,15 @@ def test_excluded_packages_and_files_are_left_out_and_counted(
     assert code == 1
     assert [line.split()[0] for line in findings] == ["listener/listener/extra.py:1:1:"]
     assert note == "excluded by ros2-scaffold.toml: 1 package"
-    assert summary.startswith("1 package, 12 files: ")
+    assert summary.startswith("1 package, 12 files for Jazzy: ")
     configuration.write_text('[check]\nexclude = ["./third_party/", "listener/*/extra.py"]\n')
     for _ in range(2):
         assert check(capsys, *words) == (
             0,
-            "excluded by ros2-scaffold.toml: 1 package, 1 file\n1 package, 11 files: no findings\n",
+            """\
+excluded by ros2-scaffold.toml: 1 package, 1 file
+1 package, 11 files for Jazzy: no findings
+""",
         )
     code, output = check(capsys, *words, "third_party/talker", "listener/listener/extra.py")
     assert (code, output.splitlines()[0]) == (
@@ -304,7 +307,11 @@ def test_dependencies_that_are_known_to_be_there(
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("distribution = 'humble'", "check.distribution is 'humble': only jazzy is supported"),
+        (
+            "distribution = 'jazy'",
+            "check.distribution is 'jazy': no distribution 'jazy'; did you mean 'jazzy'?",
+        ),
+        ("distribution = []", "check.distribution must be one of `humble`, `jazzy`, "),
         (
             "leave-out = ['vendor']",
             "check.leave-out has 'vendor', which is not a choice; did you mean",
@@ -387,7 +394,10 @@ def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
         ("[check]\nline-length = true\n", False),
         ("[check]\nlicenses = 'MIT'\n", False),
         ("[check]\nimplicit-dependencies = [1]\n", False),
-        ("[check]\ndistribution = 'humble'\n", False),
+        ("[check]\ndistribution = 'humble'\n", True),
+        ("[check]\ndistribution = ['jazzy', 'lyrical']\n", True),
+        ("[check]\ndistribution = ['noetic']\n", False),
+        ("[check]\ndistribution = []\n", False),
         ("[check.per-path-ignores]\na = 'PX'\n", False),
         ("content = ['']\n", False),
         ("contnet = []\n", False),

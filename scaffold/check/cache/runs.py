@@ -37,6 +37,7 @@ ENVIRONMENT = (
     "NO_COLOR",
     "PATH",
     "PYTHONPATH",
+    "ROS_DISTRO",
     "ROS_HOME",
     "TERM",
     "XDG_CONFIG_HOME",

@@ -6,7 +6,8 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import baselines, flags, since, terminal
+from scaffold import distributions
+from scaffold.cli import baselines, distro, flags, since, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from scaffold.check.rule import Rule
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
+    from scaffold.configuration.config import Config
+    from scaffold.distributions import Distribution
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.reporters import ReportOptions
@@ -36,6 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
     parser.add_argument("--format", choices=NAMES, default="text", help="output format")
     parser.add_argument("--output-file", metavar="FILE", help="write the report to a file")
+    distro.add_argument(parser)
     select = parser.add_argument(
         "--select",
         action="append",
@@ -155,10 +159,8 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
-    from scaffold.check.cache.results import ResultCache
     from scaffold.cli import reports, standard_input
     from scaffold.cli.choices import Choices
-    from scaffold.cli.interactive import progress
     from scaffold.cli.settings import validate_answers, warn
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
@@ -170,7 +172,7 @@ def run(options: argparse.Namespace) -> int:
     baselines.validate(options, disk)
     since.validate(options)
     _validate_noqa(options)
-    directory = _directory([options.stdin_filename] if is_unsaved else options.paths, disk)
+    directory = common_directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
     validate_answers(settings, of_user=False)
@@ -178,9 +180,53 @@ def run(options: argparse.Namespace) -> int:
     choices = Choices(settings, rules)
     session = _session(options, rules, choices)
     options.policy = choices.policy()
-    if is_unsaved:
+    options.distributions = distro.chosen(options.distro, settings)
+    options.notes = distro.note(options.distributions)
+    if len(options.distributions) > 1:
+        return _check_several(options, session, disk)
+    with distributions.targeting(options.distributions[0]):
+        return _run(options, session, settings, disk, directory)
+
+
+def _check_several(options: argparse.Namespace, session: Session, disk: Disk) -> int:
+    """Check for several distributions, one after the other; nothing is remembered."""
+    from scaffold.check.several import merged
+    from scaffold.cli import reports
+    from scaffold.cli.interactive import progress
+    from scaffold.errors import InputError
+
+    for flag in ("fix", "diff", "add_noqa", "reference", "stdin_filename", "since"):
+        if getattr(options, flag):
+            raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
+    found: dict[Distribution, list[Result]] = {}
+    notes = options.notes
+    targets: list[Target] = []
+    for one in options.distributions:
+        options.notes = notes
+        with distributions.targeting(one):
+            targets = find_targets(options, session, disk)
+            found[one] = list(progress.shown(session.run(targets), len(targets), "packages"))
+        options.notes += _foreign_note(session, found[one])
+        _note_types(session)
+    results = merged(found)
+    if options.write_baseline:
+        return baselines.write(options, results)
+    results = baselines.hide(options, results, targets, session)
+    reports.write(options, results, _report_options(options))
+    return _exit_code(options, session, results)
+
+
+def _run(
+    options: argparse.Namespace, session: Session, settings: Config, disk: Disk, directory: str
+) -> int:
+    """Check, or fix, for the target; return the exit code."""
+    from scaffold.check.cache.results import ResultCache
+    from scaffold.cli import reports
+    from scaffold.cli.interactive import progress
+
+    if options.stdin_filename:
         return _check_unsaved(options, session, disk)
-    targets = _targets(options, session, disk)
+    targets = find_targets(options, session, disk)
     if options.fix or options.diff or options.add_noqa:
         return _fix(options, session, targets)
     if options.reference:
@@ -250,7 +296,7 @@ def _validate_noqa(options: argparse.Namespace) -> None:
             raise InputError(f"--add-noqa only adds comments: leave out --{flag.replace('_', '-')}")
 
 
-def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
+def find_targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
     """Find the packages; note for the report what the configuration leaves out."""
     from scaffold.model.discovery import targets as discovery
     from scaffold.reporters.summary import count
@@ -276,7 +322,7 @@ def _targets(options: argparse.Namespace, session: Session, disk: Disk | None) -
         parts = [count(packages, "package")] if packages else []
         parts += [count(files, "file")] if files or not packages else []
         origin = adjustments.exclusion.origin
-        options.notes = (f"excluded by {os.path.relpath(origin)}: {', '.join(parts)}",)
+        options.notes += (f"excluded by {os.path.relpath(origin)}: {', '.join(parts)}",)
     return targets
 
 
@@ -341,6 +387,7 @@ def _report_options(options: argparse.Namespace) -> ReportOptions:
         statistics=options.statistics,
         quiet=options.quiet,
         notes=options.notes,
+        distributions=tuple(options.distributions),
     )
 
 
@@ -352,7 +399,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.model.discovery.targets import Target
 
     written, has_failed = fixing.write(
-        options, session, targets, lambda: _targets(options, session, None)
+        options, session, targets, lambda: find_targets(options, session, None)
     )
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
     limits = {target.package.directory: target.only for target in targets}
@@ -382,8 +429,8 @@ def _report_fixes(
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(item.applied for item in fixed)
-    done = _comments(count) if options.add_noqa else f"{_fixes(count)} applied"
-    terminal.say(f"{_fixes(count)}, nothing written" if options.diff else done)
+    done = _comments(count) if options.add_noqa else f"{fix_count(count)} applied"
+    terminal.say(f"{fix_count(count)}, nothing written" if options.diff else done)
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
@@ -415,7 +462,8 @@ def _comments(count: int) -> str:
     return f"noqa added to {'1 line' if count == 1 else f'{count} lines'}"
 
 
-def _fixes(count: int) -> str:
+def fix_count(count: int) -> str:
+    """Return ``1 fix``, ``2 fixes``."""
     return "1 fix" if count == 1 else f"{count} fixes"
 
 
@@ -437,7 +485,7 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
     return FINDINGS if has_findings and not is_zero else CLEAN
 
 
-def _directory(paths: Sequence[str], disk: Disk) -> str:
+def common_directory(paths: Sequence[str], disk: Disk) -> str:
     """Return the common directory of all paths: the configuration is there or above."""
     places = [os.path.abspath(path) for path in paths]
     return os.path.commonpath(

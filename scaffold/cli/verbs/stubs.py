@@ -6,6 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
 TYPINGS = "typings"
 """Where Pylance and pyright look for stubs."""
-_DISTRIBUTION = "jazzy"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,6 +38,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--force", action="store_true", help="overwrite files that this verb has not written"
     )
+    parser.add_argument(
+        "--distro",
+        default=distributions.DEFAULT,
+        metavar="NAME",
+        help="the distribution of ROS 2 (default: %(default)s)",
+    )
     flags.add_looking(parser)
 
 
@@ -49,7 +55,9 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.types.stubs import stub_files
 
     workspace = _workspace(options.paths or ["."])
-    stubs = stub_files(_DISTRIBUTION, Definitions.around(workspace))
+    distribution = distributions.named(options.distro)
+    with distributions.targeting(distribution):
+        stubs = stub_files(distribution, Definitions.around(workspace))
     plan = typings.plan(options.output, stubs, force=options.force)
     if options.diff:
         terminal.show_patch(plan.diff())

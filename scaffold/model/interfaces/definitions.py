@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.errors import InputError
 from scaffold.model.interfaces.sources import (
     BundleSource,
@@ -100,6 +101,12 @@ class Spelling(NamedTuple):
     name: str
 
 
+def _is_of_another(prefix: str) -> bool:
+    """Tell whether a prefix is the installation of another distribution than the target."""
+    name = os.path.basename(prefix.rstrip(os.sep))
+    return name in distributions.NAMES and name != distributions.target().name
+
+
 class Definitions:
     """Looks interfaces up; the first source that knows a package answers for all of it."""
 
@@ -119,7 +126,8 @@ class Definitions:
             prefixes: Where packages are installed; ``None``: what ``AMENT_PREFIX_PATH`` says.
         """
         if prefixes is None:
-            prefixes = [p for p in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
+            listed = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+            prefixes = [path for path in listed if path and not _is_of_another(path)]
         sources: list[DefinitionSource] = []
         if workspace is not None:
             sources.append(WorkspaceSource(workspace))

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
+from scaffold import distributions
 from scaffold.files.disk import Disk
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.interfaces.syntax import SECTIONS
@@ -16,12 +17,6 @@ from scaffold.source import Source, ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.workspace.workspace import Workspace
-
-BUNDLE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))),
-    "data",
-    "jazzy_interfaces.txt",
-)
 
 
 MAX_BYTES = 500_000
@@ -196,20 +191,21 @@ class _InstalledPackage:
 
 
 class BundleSource:
-    """The common interfaces of ROS 2 Jazzy, shipped with the tool.
+    """The common interfaces of the target distribution, shipped with the tool.
 
     The file is made by ``scripts/bundle_interfaces.py``: a line ``@ package version`` starts a
     package, a line ``= kind name`` a definition.
     """
 
-    def __init__(self, path: str = BUNDLE) -> None:
-        self._path = path
+    def __init__(self) -> None:
+        self._distribution = distributions.target()
         self._by_name: dict[str, _BundledPackage] = {}
 
     def package(self, name: str) -> KnownPackage | None:
         """Return a package of the bundle."""
         if name not in self._by_name and name in self._chunks:
-            self._by_name[name] = _BundledPackage(name, self._chunks[name])
+            title = self._distribution.title
+            self._by_name[name] = _BundledPackage(name, self._chunks[name], title)
         return self._by_name.get(name)
 
     def packages(self) -> Sequence[str]:
@@ -218,15 +214,15 @@ class BundleSource:
 
     @cached_property
     def _chunks(self) -> Mapping[str, str]:
-        with open(self._path, encoding="utf-8") as file:
+        with open(self._distribution.path("interfaces.txt"), encoding="utf-8") as file:
             chunks = file.read().split("\n@ ")[1:]
         return {chunk.partition(" ")[0]: chunk for chunk in chunks}
 
 
 class _BundledPackage:
-    def __init__(self, name: str, chunk: str) -> None:
+    def __init__(self, name: str, chunk: str, title: str) -> None:
         head, *definitions = chunk.split("\n= ")
-        self._origin = f"{name} {head.partition(' ')[2]} of ROS 2 Jazzy"
+        self._origin = f"{name} {head.partition(' ')[2]} of ROS 2 {title}"
         self._path = f"share/{name}"
         self._texts: dict[str, dict[str, str]] = {kind: {} for kind in SECTIONS}
         for definition in definitions:

@@ -6,14 +6,11 @@ import re
 from collections.abc import Mapping
 from typing import NoReturn
 
+from scaffold import distributions
 from scaffold.record import NamedTuple
 
-JAZZY: Mapping[str, str] = {
-    "ROS_VERSION": "2",
-    "ROS_DISTRO": "jazzy",
-    "ROS_PYTHON_VERSION": "3",
-}
-"""The environment that packages are checked for."""
+VARIABLES = frozenset({"ROS_VERSION", "ROS_DISTRO", "ROS_PYTHON_VERSION"})
+"""What conditions may ask for."""
 
 _SYNTAX = r"""\s*(?:(?P<op>==|!=|<=|>=|<|>)|(?P<paren>[()])|(?P<text>"[^"]*"|'[^']*')"""
 _SYNTAX += r"""|(?P<variable>\$[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+))"""
@@ -34,18 +31,29 @@ class _Token(NamedTuple):
     offset: int
 
 
-def holds(condition: str, environment: Mapping[str, str] = JAZZY) -> bool:
+def environment() -> Mapping[str, str]:
+    """Return the environment that packages are checked for."""
+    name = distributions.target().name
+    return {"ROS_VERSION": "2", "ROS_DISTRO": name, "ROS_PYTHON_VERSION": "3"}
+
+
+def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
     """Evaluate a condition; a variable that is not set is empty text.
+
+    Args:
+        condition: The condition.
+        variables: The environment; ``None`` for that of the target distribution.
 
     Raises:
         ConditionError: it does not follow the grammar of REP 149.
     """
-    return _Evaluation(_tokens(condition), len(condition), environment).run()
+    known = environment() if variables is None else variables
+    return _Evaluation(_tokens(condition), len(condition), known).run()
 
 
-def names_unknown(condition: str, environment: Mapping[str, str] = JAZZY) -> bool:
+def names_unknown(condition: str) -> bool:
     """Tell whether a condition asks for a variable that is not of ROS, but of who builds it."""
-    return any(name not in environment for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
+    return any(name not in VARIABLES for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
 
 
 def _tokens(condition: str) -> list[_Token]:

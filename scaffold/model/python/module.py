@@ -7,12 +7,15 @@ import builtins
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from scaffold import distributions
 from scaffold.model.python.bounds import why_unchecked
-from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_jazzy
+from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_target
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ParseError, Source, TooLargeError
 
+_DEFAULTS_OF_TYPES = (3, 13)
+"""The version whose type parameters may have defaults."""
 MAX_DEPTH = 300
 """Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
 
@@ -137,10 +140,12 @@ class PythonModule:
 
     def _refuse_later_syntax(self) -> None:
         """Give the verdict of the target's Python when a later one runs this tool."""
+        if distributions.target().python >= _DEFAULTS_OF_TYPES:
+            return
         type_var: type[ast.AST] | None = getattr(ast, "TypeVar", None)
         for node in self.walk(type_var) if type_var else ():
             if getattr(node, "default_value", None) is not None:
-                raise ParseError(self.location(node), past_jazzy((3, 13)))
+                raise ParseError(self.location(node), past_target(_DEFAULTS_OF_TYPES))
 
     # -- nodes and places
 

@@ -9,13 +9,13 @@ import warnings
 from bisect import bisect_left
 from functools import cached_property
 
+from scaffold import distributions
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 
 BOM = "\ufeff"
 MAX_CHARACTERS = 2_000_000
 """Longer modules are not written by hand, and their trees would take a gigabyte."""
 
-JAZZY = (3, 12)
 """The Python of the target: syntax up to here is right whatever runs this tool."""
 
 _COOKIE = r"^[ \t\f]*#.*?coding[:=][ \t]*([-\w.]+)"
@@ -138,7 +138,7 @@ def parse_tree(source: Source, positions: Positions) -> ast.Module:
         # A warning about an escape is for the linter; under -W error it would end the parsing.
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return ast.parse(text.removeprefix(BOM))
+            return ast.parse(text.removeprefix(BOM), feature_version=_feature_version())
     except SyntaxError as error:
         raise _explain(source, positions, error) from error
     except (RecursionError, MemoryError) as error:
@@ -150,21 +150,33 @@ def parse_tree(source: Source, positions: Positions) -> ast.Module:
         raise ParseError(Location.start_of(source.path), str(error)) from error
 
 
+def _feature_version() -> tuple[int, int] | None:
+    """Return the Python whose syntax is asked for, where that is older than the running one.
+
+    Python itself knows nothing of what f-strings and defaults of types got later.
+    """
+    version = distributions.target().python
+    is_older = version < sys.version_info[:2] and version < _FIRST_TYPES
+    return version if is_older else None
+
+
 def _explain(
     source: Source, positions: Positions, error: SyntaxError
 ) -> ParseError | NewerSyntaxError:
     at = _place(source, positions, error)
     version = _newer_version(source.text, positions, error)
-    if version and version <= JAZZY:
+    if version and version <= distributions.target().python:
         return NewerSyntaxError(at, version)
     if version:
-        return ParseError(at, past_jazzy(version))
+        return ParseError(at, past_target(version))
     return ParseError(at, _in_our_words(error.msg))
 
 
-def past_jazzy(version: tuple[int, int]) -> str:
+def past_target(version: tuple[int, int]) -> str:
     """Return the message for syntax that the target does not have yet."""
-    return f"needs Python {version[0]}.{version[1]}, but ROS 2 Jazzy has {JAZZY[0]}.{JAZZY[1]}"
+    target = distributions.target()
+    own = target.python
+    return f"needs Python {version[0]}.{version[1]}, but ROS 2 {target.title} has {own[0]}.{own[1]}"
 
 
 def _place(source: Source, positions: Positions, error: SyntaxError) -> Location:
@@ -198,13 +210,25 @@ _NEWER = (
     (r"\w\[(?:[^\[\]]*,)?\s*\*\s*\w", (3, 11)),
     (r"\*\w+\s*:\s*\*\s*\w", (3, 11)),
 )
+_NEWEST = (
+    (r"^\s*except\s+[\w.]+\s*,", (3, 14)),
+    (r"""(?i:(?<![\w'"])(?:t|rt|tr)['"])""", (3, 14)),
+)
+"""Where the target is older, this is Python 2, or nothing."""
+_FIRST_TYPES = (3, 12)
+"""The version with parameters of types, and with f-strings as they are now."""
 
 
 def _newer_version(text: str, positions: Positions, error: SyntaxError) -> tuple[int, int] | None:
     """Return the Python version whose syntax made an older one stumble."""
-    running = sys.version_info[:2]
+    target = distributions.target().python
+    running = target if _feature_version() is not None else sys.version_info[:2]
+    said = re.search(r"only supported in Python 3\.(\d+) and greater", error.msg)
+    if said is not None:
+        return 3, int(said[1])
     start, end = positions.line_span(max(error.lineno or 1, 1))
-    for pattern, version in _NEWER:
+    known = [*_NEWER, *_NEWEST] if target >= _NEWEST[0][1] else [*_NEWER]
+    for pattern, version in known:
         if running < version and re.search(pattern, text[start:end]):
             return version
     if running < (3, 12) and _has_new_f_string(text, start, end):

@@ -1,16 +1,17 @@
-"""The names that rclpy has on Jazzy, and of which of its classes an object is."""
+"""The names that rclpy has on the target distribution, and of which of its classes an object is."""
 
 from __future__ import annotations
 
 import ast
-import os
 from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.model.rclpy.parameters.objects import is_listed_parameter
 
 if TYPE_CHECKING:
+    from scaffold.distributions import Distribution
     from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.file import RclpyFile
 
@@ -34,11 +35,6 @@ PLACES: Mapping[str, str] = {
     "Time": "rclpy.time",
 }
 """Where names are that are often looked for in ``rclpy`` itself."""
-_TABLE = os.path.join(
-    os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))),
-    "data",
-    "jazzy_names.txt",
-)
 _MADE: Mapping[str, str] = {
     "create_publisher": "rclpy.publisher.Publisher",
     "create_subscription": "rclpy.subscription.Subscription",
@@ -70,10 +66,15 @@ _GOAL_CALLBACKS = ("execute_callback", "handle_accepted_callback", "cancel_callb
 _DEEPEST = 20
 
 
-@cache
 def known_names() -> Mapping[str, frozenset[str]]:
     """Return what modules and classes have, by their full names; methods end in ``()``."""
-    with open(_TABLE, encoding="utf-8") as file:
+    return names_of(distributions.target())
+
+
+@cache
+def names_of(distribution: Distribution) -> Mapping[str, frozenset[str]]:
+    """Return what modules and classes of a distribution have; see `known_names`."""
+    with open(distribution.path("names.txt"), encoding="utf-8") as file:
         pairs = [line.partition(": ") for line in file]
     return {owner: frozenset(names.split()) for owner, _, names in pairs}
 
@@ -90,13 +91,14 @@ def is_method(owner: str, name: str) -> bool:
 
 
 @cache
-def _places() -> Mapping[str, str]:
+def _places(distribution: Distribution) -> Mapping[str, str]:
     """Return the modules of classes that a package re-exports, by the shorter name."""
     result: dict[str, str] = {}
-    for place in known_names():
+    known = names_of(distribution)
+    for place in known:
         module, _, name = place.rpartition(".")
         package = module.rpartition(".")[0]
-        if name[:1].isupper() and name in known_names().get(package, ()):
+        if name[:1].isupper() and name in known.get(package, ()):
             result[f"{package}.{name}"] = place
     return result
 
@@ -120,7 +122,7 @@ def _find_class(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     if not isinstance(value, ast.Call):
         return _class_of_argument(file, value, depth)
     name = file.module.qualified_name(value.func) or ""
-    name = _places().get(name, name)
+    name = _places(distributions.target()).get(name, name)
     if name in _GIVEN:
         return _GIVEN[name]
     if name in known_names() and name.rpartition(".")[2][:1].isupper():

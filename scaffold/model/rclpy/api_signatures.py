@@ -1,16 +1,22 @@
-"""Which arguments the functions of rclpy take on Jazzy, and whether a call gives others."""
+"""Which arguments the functions of rclpy take, and whether a call gives others.
+
+The tables are those of Jazzy; ``arguments.txt`` of another distribution has what is different.
+"""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.nodes import NodeClass, NodeObject
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.distributions import Distribution
     from scaffold.model.rclpy.file import RclpyFile
 
 _NODE_KEYWORDS = (
@@ -134,6 +140,37 @@ OBJECTS: Mapping[str, Mapping[str, Signature]] = {
 """Of other objects of rclpy, by the name of the method and by class."""
 
 
+_PLACES: Mapping[str, str] = {
+    "rclpy.action.ActionClient": "rclpy.action.client.ActionClient",
+    "rclpy.action.ActionServer": "rclpy.action.server.ActionServer",
+    "rclpy.shutdown": "rclpy.utilities.shutdown",
+}
+"""Where functions are defined that are called by a shorter name."""
+
+
+@cache
+def _changed(distribution: Distribution) -> Mapping[str, Signature | None]:
+    """Return the functions that take other arguments on a distribution, by full name.
+
+    Nothing is known of one that takes any keyword.
+    """
+    if distribution.place == distributions.JAZZY.place:
+        return {}
+    result: dict[str, Signature | None] = {}
+    with open(distribution.path("arguments.txt"), encoding="utf-8") as file:
+        for line in file:
+            name, _, rest = line.partition(": ")
+            positional, _, keywords = rest.partition("|")
+            result[name] = None if "..." in keywords else _signature(positional, keywords)
+    return result
+
+
+def _on_target(name: str, known: Signature) -> Signature | None:
+    """Return what a function takes on the target; ``None`` if that is not known."""
+    changed = _changed(distributions.target())
+    return changed.get(name, changed.get(_PLACES.get(name, name), known))
+
+
 class Excess(NamedTuple):
     """An argument that the called function does not take."""
 
@@ -156,20 +193,30 @@ def excess_arguments(file: RclpyFile) -> Iterator[Excess]:
     for node in file.classes:
         base = node.constructor_call if node.base is None and not node.is_lifecycle else None
         if base is not None:
-            yield from _excess(base, "Node.__init__", FUNCTIONS["rclpy.node.Node"])
+            known = _on_target("rclpy.node.Node", FUNCTIONS["rclpy.node.Node"])
+            if known is not None:
+                yield from _excess(base, "Node.__init__", known)
 
 
 def _called(file: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
+    """Return how a function of rclpy is called in messages, and what it takes."""
     for name in file.module.qualified_names(call.func):
         if name in FUNCTIONS:
-            return name, FUNCTIONS[name]
+            return _named(name, name, FUNCTIONS[name])
     func = call.func
-    if isinstance(func, ast.Attribute) and func.attr in OBJECTS:
-        signature = OBJECTS[func.attr].get(class_of(file, func.value) or "")
-        return (func.attr, signature) if signature is not None else None
-    if not isinstance(func, ast.Attribute) or func.attr not in METHODS:
+    if not isinstance(func, ast.Attribute):
         return None
-    return (func.attr, METHODS[func.attr]) if _is_plain(file, func) else None
+    if func.attr in OBJECTS:
+        class_ = class_of(file, func.value) or ""
+        return _named(func.attr, f"{class_}.{func.attr}", OBJECTS[func.attr].get(class_))
+    if func.attr not in METHODS or not _is_plain(file, func):
+        return None
+    return _named(func.attr, f"rclpy.node.Node.{func.attr}", METHODS[func.attr])
+
+
+def _named(shown: str, full: str, known: Signature | None) -> tuple[str, Signature] | None:
+    signature = None if known is None else _on_target(full, known)
+    return None if signature is None else (shown, signature)
 
 
 def _is_plain(file: RclpyFile, func: ast.Attribute) -> bool:

@@ -14,14 +14,15 @@ from collections.abc import Mapping, Sequence
 from io import BytesIO
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
+
 if TYPE_CHECKING:
     from scaffold.files.disk import Disk
 
-ROS_DISTRO = "jazzy"
-_OTHER_DISTROS = frozenset(
+_DISTROS = frozenset(
     {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "humble", "iron"}
     | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
-    | {"kilted", "lyrical", "rolling"}
+    | {"jazzy", "kilted", "lyrical", "rolling"}
 )
 MAX_BYTES = 50_000_000
 """Of one source; that of a distribution has less than one million."""
@@ -64,7 +65,7 @@ class RosdepKeys:
 
 
 def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> RosdepKeys | None:
-    """Return the keys of rosdep's cache; ``None`` if it does not hold all that Jazzy needs.
+    """Return the keys of rosdep's cache; ``None`` if it does not hold all that the target needs.
 
     Args:
         disk: Records what was accessed.
@@ -76,19 +77,20 @@ def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> Rosdep
         index = disk.read_renewed(os.path.join(cache, "index")).decode()
     except (OSError, ValueError):
         return None
+    target = distributions.target().name
     sources: list[bytes] = []
     kinds: set[str] = set()
     for line in index.splitlines():
         kind, _, rest = line.strip().partition(" ")
         url, *tags = rest.split() or [""]
-        if kind != "yaml" or not url or not _OTHER_DISTROS.isdisjoint(tags):
+        if kind != "yaml" or not url or not (_DISTROS - {target}).isdisjoint(tags):
             continue
         try:
             sources.append(disk.read_renewed(os.path.join(cache, _file_of(url)), MAX_BYTES))
         except OSError:
             return None
-        kinds.add(ROS_DISTRO if ROS_DISTRO in tags else "" if not tags else "other")
-    return RosdepKeys(sources) if {ROS_DISTRO, ""} <= kinds else None
+        kinds.add(target if target in tags else "" if not tags else "other")
+    return RosdepKeys(sources) if {target, ""} <= kinds else None
 
 
 def _file_of(url: str) -> str:

@@ -1,6 +1,4 @@
-from rosbag2_py._storage import BagMetadata
+from typing import Any
 
-class Info:
-    def __init__(self) -> None: ...
-    def read_metadata(self, uri: str, storage_id: str, /) -> BagMetadata: ...
-    def read_metadata_and_output_service_verbose(self, uri: str, storage_id: str, /) -> None: ...
+# Its methods were changed within each distribution.
+Info: Any

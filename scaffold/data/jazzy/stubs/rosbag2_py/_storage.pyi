@@ -38,6 +38,7 @@ class StorageOptions:
         start_time_ns: int = ...,
         end_time_ns: int = ...,
         custom_data: dict[str, str] = ...,
+        **others: Any,  # later releases have more
     ) -> None: ...
 
 class StorageFilter:

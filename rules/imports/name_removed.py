@@ -1,0 +1,117 @@
+"""IM050: names are used that the distribution has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Fix, PythonRule, Report
+from scaffold.api.distributions import of_kind
+from scaffold.api.python import PythonModule
+from scaffold.api.rclpy import changed_uses
+
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n{}\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.get_logger().{}('hello')\n"
+)
+
+
+class NameRemoved(PythonRule):
+    """Code uses a name that the distribution had and does not have any more.
+
+    **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed what
+    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies.
+
+    **Fix.** Write the name that took its place. Where that is not on all distributions that the
+    package is kept for, ask for it first.
+
+    **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
+    """
+
+    code = "IM050"
+    name = "name-removed"
+    examples = (
+        Example("still there", {"talker.py": _NODE.format("", "warn")}),
+        Example("the new name", {"talker.py": _NODE.format("", "warning")}, distro="lyrical"),
+        Example(
+            "asked for",
+            {
+                "talker.py": "try:\n    from rclpy.qos_event import QoSEventHandler\n"
+                "except ImportError:\n    from rclpy.event_handler import EventHandler\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "the old name",
+            {"talker.py": _NODE.format("", "warn")},
+            Report(
+                "8:9",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
+                "Lyrical: AttributeError; use warning (rclpy 1456)",
+                fix="write warning",
+            ),
+            fixed={"talker.py": _NODE.format("", "warning")},
+            distro="lyrical",
+        ),
+        Example(
+            "a long name of a policy",
+            {
+                "talker.py": "from rclpy.qos import QoSReliabilityPolicy\n\n"
+                "policy = QoSReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT\n"
+            },
+            Report(
+                "3:10",
+                ""
+                ""
+                ""
+                ""
+                ""
+                ""
+                ""
+                ""
+                ""
+                "rclpy.qos.QoSReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT "
+                "was removed in Lyrical: AttributeError; use BEST_EFFORT (rclpy 1456)",
+                fix="write BEST_EFFORT",
+            ),
+            fixed={
+                "talker.py": "from rclpy.qos import QoSReliabilityPolicy\n\n"
+                "policy = QoSReliabilityPolicy.BEST_EFFORT\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "modules",
+            {
+                "talker.py": "from rclpy.qos_event import SubscriptionEventCallbacks\n"
+                "from rclpy.topic_endpoint_info import TopicEndpointInfo\n"
+            },
+            Report(
+                "1:6",
+                "rclpy.qos_event was removed in Lyrical: ModuleNotFoundError; "
+                "use event_handler (rclpy 1456)",
+                fix="write event_handler",
+            ),
+            Report(
+                "2:6",
+                "rclpy.topic_endpoint_info was removed in Lyrical: "
+                "ModuleNotFoundError; use endpoint_info (rclpy 1371)",
+                fix="write endpoint_info",
+            ),
+            fixed={
+                "talker.py": "from rclpy.event_handler import SubscriptionEventCallbacks\n"
+                "from rclpy.endpoint_info import TopicEndpointInfo\n"
+            },
+            distro="lyrical",
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        changes = [change for change in of_kind("name") if change.is_removed]
+        for use in changed_uses(module, changes):
+            advice = use.change.instead(use.replacement)
+            message = f"{use.shown} {use.change.state}: {use.error}; {advice} ({use.change.source})"
+            fix = Fix(f"write {use.replacement}", use.edits) if use.edits else None
+            yield self.report(use.location, message, fix)

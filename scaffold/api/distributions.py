@@ -1,0 +1,8 @@
+"""The distribution of ROS 2 that packages are checked for, and what is known of it."""
+
+from __future__ import annotations
+
+from scaffold.changes import Change, of_kind
+from scaffold.distributions import Distribution, target
+
+__all__ = ["Change", "Distribution", "of_kind", "target"]

@@ -1,0 +1,120 @@
+"""What distributions removed, deprecated or changed: ``scaffold/data/changes.toml``.
+
+The keys of an entry: ``removed`` and ``deprecated`` are the first distributions where it is so,
+``changed`` is the first with the new meaning; ``use`` is the last part of the name that takes its
+place, where ``*`` is what the same sign at the end of the old name stands for; ``since`` is the
+first distribution that has this name, all of them without it; ``advice`` is for people.
+"""
+
+from __future__ import annotations
+
+import os
+from functools import cache
+from typing import Any
+
+from scaffold import distributions
+from scaffold.distributions import Distribution, named
+from scaffold.record import NamedTuple
+
+_FILE = "changes.toml"
+EARLIEST = distributions.ORDER[0]
+
+
+class Change(NamedTuple):
+    """Something that is no longer, or no longer the same."""
+
+    names: tuple[str, ...]
+    """Full names; a last one may end in ``*``."""
+    removed: Distribution | None
+    deprecated: Distribution | None
+    changed: Distribution | None
+    use: str
+    since: Distribution
+    advice: str
+    source: str
+    """Where it was decided: a repository and the number of a pull request, or a release."""
+    having: str = ""
+    """The keyword with which a call is meant."""
+    without: str = ""
+    """The keyword without which a call is meant."""
+
+    @property
+    def is_removed(self) -> bool:
+        """Whether the target does not have it any more."""
+        return _is_past(self.removed)
+
+    @property
+    def is_deprecated(self) -> bool:
+        """Whether the target still has it, and says that it will go."""
+        return not self.is_removed and _is_past(self.deprecated)
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether it means something else on the target than where the code comes from."""
+        origin = distributions.origin()
+        if origin is None or self.changed is None:
+            return False
+        return origin.place < self.changed.place <= distributions.target().place
+
+    @property
+    def has_replacement(self) -> bool:
+        """Whether what takes its place is on the target, and on what is to be kept."""
+        kept = distributions.kept()
+        lowest = min(one.place for one in (distributions.target(), *kept))
+        return bool(self.use) and self.since.place <= lowest
+
+    @property
+    def state(self) -> str:
+        """What happened to it, for a message."""
+        if self.is_removed and self.removed is not None:
+            return f"was removed in {self.removed.title}"
+        if self.deprecated is None:
+            return ""
+        last = f", and {self.removed.title} removes it" if self.removed is not None else ""
+        return f"is deprecated since {self.deprecated.title}{last}"
+
+    def instead(self, replacement: str) -> str:
+        """Return what to do, for a message.
+
+        Args:
+            replacement: The name that takes its place; empty if there is none.
+        """
+        if not replacement:
+            return self.advice
+        if self.has_replacement:
+            return f"use {replacement}"
+        return f"use {replacement}, which is new in {self.since.title}: older ones need a branch"
+
+
+def _is_past(first: Distribution | None) -> bool:
+    return first is not None and first.place <= distributions.target().place
+
+
+@cache
+def _entries() -> dict[str, list[dict[str, Any]]]:
+    return distributions.read_toml(os.path.join(distributions.DATA, _FILE))
+
+
+@cache
+def of_kind(kind: str) -> tuple[Change, ...]:
+    """Return the changes of a kind: ``name``, ``call``, ``command``."""
+    return tuple(_change(entry) for entry in _entries()[kind])
+
+
+def _change(entry: dict[str, Any]) -> Change:
+    def when(key: str) -> Distribution | None:
+        return named(entry[key], _FILE) if key in entry else None
+
+    names = entry.get("names") or [entry.get("name") or entry["function"]]
+    return Change(
+        tuple(names),
+        when("removed"),
+        when("deprecated"),
+        when("changed"),
+        entry.get("use", ""),
+        named(entry.get("since", EARLIEST), _FILE),
+        entry.get("advice", ""),
+        entry["source"],
+        entry.get("having", ""),
+        entry.get("without", ""),
+    )

@@ -1,0 +1,69 @@
+"""What a move to another distribution changes: what is found for it and not for the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.check.session import Session
+from scaffold.check.several import without_distribution
+from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.check.result import Result
+    from scaffold.model.discovery.targets import Target
+
+    Known = Collection[tuple[str, str, str, str]]
+
+AREAS = ("PX", "CM", "SP", "LY", "TS", "NM", "IM", "ND", "MS", "LF", "PF", "TY", "SC")
+"""The beginnings of the codes that a move may change: all but those of style."""
+
+
+class Consequences(NamedTuple):
+    """What a move does to one package."""
+
+    result: Result
+    breaks: Sequence[Diagnostic]
+    changes: Sequence[Diagnostic]
+    """What runs and does something else."""
+    deprecated: Sequence[Diagnostic]
+
+    @classmethod
+    def of(cls, result: Result) -> Consequences:
+        """Sort what is found in a package."""
+        by_severity: dict[Severity, list[Diagnostic]] = {severity: [] for severity in Severity}
+        for item in result.diagnostics:
+            by_severity[item.severity].append(item)
+        return cls(
+            result,
+            by_severity[Severity.ERROR],
+            by_severity[Severity.WARNING],
+            by_severity[Severity.INFO],
+        )
+
+
+class MigratingSession(Session):
+    """Reports what is not known of the distribution that the packages come from."""
+
+    known: Known = ()
+    """What is found there, as `identities` returns it."""
+
+    def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+        """Return what is new; lines may have moved since, so that places do not count."""
+        found = super()._report(target, diagnostics)
+        directory = target.package.directory
+        return [item for item in found if _identity(directory, item) not in self.known]
+
+
+def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:
+    """Return what makes findings the same for two distributions."""
+    return {
+        _identity(result.package.directory, item)
+        for result in results
+        for item in result.diagnostics
+    }
+
+
+def _identity(directory: str, item: Diagnostic) -> tuple[str, str, str, str]:
+    return directory, item.location.path, item.code, without_distribution(item.message)

@@ -1,0 +1,53 @@
+"""A check for several distributions: each finding once, with those that it holds for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+
+if TYPE_CHECKING:
+    from scaffold.check.result import Result
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.distributions import Distribution
+
+    Key = tuple[str, tuple[object, ...], str]
+
+_TITLES = "|".join(name.capitalize() for name in distributions.NAMES)
+_NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
+"""What a message may say of the distribution that it is about."""
+
+
+def merged(found: Mapping[Distribution, Sequence[Result]]) -> list[Result]:
+    """Return one result for each package, with the findings for all distributions.
+
+    Args:
+        found: What a check for each distribution found, in the same packages.
+    """
+    first, *_ = found.values()
+    results: list[Result] = []
+    for at, result in enumerate(first):
+        findings = {one: results_[at].diagnostics for one, results_ in found.items()}
+        results.append(result._replace(diagnostics=_merged(findings), verdict=None))
+    return results
+
+
+def without_distribution(message: str) -> str:
+    """Return a message without what it says of the distribution that it is about."""
+    return _NAMED.sub("", message)
+
+
+def _merged(found: Mapping[Distribution, Sequence[Diagnostic]]) -> list[Diagnostic]:
+    known: dict[Key, Diagnostic] = {}
+    holding: dict[Key, list[str]] = {}
+    for distribution, diagnostics in found.items():
+        for item in diagnostics:
+            key = (item.code, tuple(item.location), without_distribution(item.message))
+            known.setdefault(key, item)
+            names = holding.setdefault(key, [])
+            if distribution.name not in names:
+                names.append(distribution.name)
+    result = [item._replace(distributions=tuple(holding[key])) for key, item in known.items()]
+    return sorted(result, key=lambda item: item.sort_key)

@@ -1,0 +1,201 @@
+"""``ros2-scaffold migrate [PATHS] --to NAME``."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+from scaffold.cli import distro, fixing, terminal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from scaffold.check.migration import Consequences, MigratingSession
+    from scaffold.check.result import Result
+    from scaffold.cli.choices import Choices
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.distributions import Distribution
+    from scaffold.model.discovery.targets import Target
+
+HEADINGS = ("breaks", "changes silently", "deprecated")
+COUNTED = ("break", "change silently", "deprecated")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Define the flags of the verb."""
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        default=["."],
+        metavar="PATH",
+        help="packages or workspaces (default: the current directory)",
+    )
+    parser.add_argument(
+        "--to", required=True, metavar="NAME", help="the distribution that the packages move to"
+    )
+    parser.add_argument(
+        "--from",
+        dest="origin",
+        metavar="NAME",
+        help=f"the one that they run on (default: {distro.KEY} of the configuration, else "
+        f"{distributions.DEFAULT})",
+    )
+    parser.add_argument(
+        "--keep",
+        metavar="NAMES",
+        help="distributions that they are to run on as well, separated by commas: fixes write "
+        "only what all of them have",
+    )
+    parser.add_argument(
+        "--fix", action="store_true", help="apply what is safe, and report what is left"
+    )
+    parser.add_argument("--diff", action="store_true", help="show what --fix would change")
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Report what a move changes, and fix what is safe; return the exit code."""
+    from scaffold.check import registry
+    from scaffold.check.migration import Consequences, identities
+    from scaffold.cli.choices import Choices
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
+    from scaffold.cli.settings import warn
+    from scaffold.cli.verbs import check
+    from scaffold.configuration import config, content
+    from scaffold.files.disk import Disk
+
+    directory = check.common_directory(options.paths, Disk())
+    settings = config.load(directory, (), Disk())
+    warn(settings.warnings)
+    origin, target, kept = _distributions(options, distro.chosen(options.origin, settings)[0])
+    choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
+    _complete(options, choices)
+    session = _session(choices)
+    has_failed = False
+    with distributions.targeting(origin):
+        before = _checked(options, session)
+    session.known = identities(before)
+    with distributions.targeting(target, origin, kept):
+        targets = check.find_targets(options, session, None)
+        if options.fix or options.diff:
+            written, has_failed = fixing.write(
+                options, session, targets, lambda: check.find_targets(options, session, None)
+            )
+            count = sum(item.applied for item in written)
+            verb = "would be applied" if options.diff else "applied"
+            terminal.say(f"{check.fix_count(count)} {verb}")
+            if options.diff:
+                return FINDINGS if count else CLEAN
+        results = _checked(options, session)
+    consequences = [Consequences.of(result) for result in results]
+    if options.format == "json":
+        terminal.show_json(_as_data(consequences, origin, target, kept))
+    else:
+        terminal.show("\n".join(_lines(consequences, origin, target)))
+    if session.types_failure:
+        terminal.error(f"types are not checked: {session.types_failure}")
+        has_failed = True
+    is_left = any(item.breaks or item.changes for item in consequences)
+    return USAGE_ERROR if has_failed else FINDINGS if is_left else CLEAN
+
+
+def _distributions(
+    options: argparse.Namespace, default: Distribution
+) -> tuple[Distribution, Distribution, list[Distribution]]:
+    """Return where packages come from, where they go, and what they are kept for.
+
+    Raises:
+        InputError: there is no distribution of a name, or nothing to move.
+    """
+    from scaffold.errors import InputError
+
+    target = distributions.named(options.to, "--to")
+    origin = distributions.named(options.origin, "--from") if options.origin else default
+    kept = distributions.several(options.keep, "--keep") if options.keep else []
+    if origin.place == target.place:
+        raise InputError(
+            f"the packages are for {origin.title} already: --from names where they come from"
+        )
+    return origin, target, kept
+
+
+def _complete(options: argparse.Namespace, choices: Choices) -> None:
+    """Set what the functions of `check` ask for besides the flags of this verb."""
+    options.whole_packages = True
+    options.unsafe_fixes = False
+    options.policy = choices.policy()
+    options.notes = ()
+
+
+def _session(choices: Choices) -> MigratingSession:
+    from scaffold.check.migration import AREAS, MigratingSession
+
+    return MigratingSession(
+        choices.rules, choices.selection([",".join(AREAS)]), choices.adjustments(), has_types=True
+    )
+
+
+def _checked(options: argparse.Namespace, session: MigratingSession) -> list[Result]:
+    from scaffold.cli.interactive import progress
+    from scaffold.cli.verbs import check
+
+    targets: Sequence[Target] = check.find_targets(options, session, None)
+    return list(progress.shown(session.run(targets), len(targets), "packages"))
+
+
+def _lines(
+    consequences: Sequence[Consequences], origin: Distribution, target: Distribution
+) -> Iterator[str]:
+    """Yield the report: packages with what happens to them, then the counts."""
+    from scaffold.reporters import text
+    from scaffold.reporters.summary import count, fixable
+
+    for item in consequences:
+        groups = [*zip(HEADINGS, item[1:], strict=True)]
+        if not any(found for _, found in groups):
+            continue
+        yield f"{item.result.package.name}:"
+        for heading, found in groups:
+            if found:
+                yield f"  {heading}:"
+                yield from (f"    {text.line(item.result.package, one)}" for one in found)
+    totals = [sum(len(item[at]) for item in consequences) for at in range(1, 4)]
+    counts = zip(totals, COUNTED, strict=True)
+    named = ", ".join(f"{number} {state}" for number, state in counts)
+    every = [one for item in consequences for one in item.result.diagnostics]
+    parts = [
+        f"{count(len(consequences), 'package')} from {origin.title} to {target.title}: "
+        + (named if every else "nothing changes")
+    ]
+    fixes = fixable(every, unsafe=False)
+    yield "; ".join([*parts, fixes] if fixes else parts)
+
+
+def _as_data(
+    consequences: Sequence[Consequences],
+    origin: Distribution,
+    target: Distribution,
+    kept: Sequence[Distribution],
+) -> dict[str, object]:
+    from scaffold.reporters import json
+
+    def listed(item: Consequences, found: Sequence[Diagnostic]) -> list[dict[str, object]]:
+        result = item.result._replace(diagnostics=list(found))
+        return [*json.diagnostics([result], [target.name])]
+
+    return {
+        "schema_version": json.SCHEMA_VERSION,
+        "from": origin.name,
+        "to": target.name,
+        "keep": [one.name for one in kept],
+        "packages": [
+            {
+                "name": item.result.package.name,
+                "breaks": listed(item, item.breaks),
+                "changes": listed(item, item.changes),
+                "deprecated": listed(item, item.deprecated),
+            }
+            for item in consequences
+        ],
+    }

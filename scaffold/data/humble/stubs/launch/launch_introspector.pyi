@@ -1,0 +1,23 @@
+from collections.abc import Iterable
+from typing import Any
+from launch.launch_description import LaunchDescription
+from .action import Action as Action
+from .actions import EmitEvent as EmitEvent
+from .actions import ExecuteProcess as ExecuteProcess
+from .actions import LogInfo as LogInfo
+from .actions import RegisterEventHandler as RegisterEventHandler
+from .event_handler import BaseEventHandler as BaseEventHandler
+from .launch_description_entity import LaunchDescriptionEntity as LaunchDescriptionEntity
+from .some_substitutions_type import SomeSubstitutionsType as SomeSubstitutionsType
+from .utilities import is_a as is_a
+from .utilities import normalize_to_list_of_substitutions as normalize_to_list_of_substitutions
+
+def indent(lines: list[str], indention: str = "    ") -> list[str]: ...
+def tree_like_indent(lines: list[str]) -> list[str]: ...
+def format_entities(entities: Iterable[Any]) -> list[str]: ...
+def format_substitutions(substitutions: Any) -> str: ...
+def format_event_handler(event_handler: Any) -> list[str]: ...
+def format_action(action: Any) -> list[str]: ...
+
+class LaunchIntrospector:
+    def format_launch_description(self, launch_description: LaunchDescription) -> str: ...

@@ -1,0 +1,3 @@
+import asyncio
+
+def create_future(loop: asyncio.AbstractEventLoop) -> asyncio.Future: ...

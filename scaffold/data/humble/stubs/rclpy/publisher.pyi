@@ -1,0 +1,36 @@
+from typing import TypeVar
+from rclpy.callback_groups import CallbackGroup as CallbackGroup
+from rclpy.duration import Duration as Duration
+from rclpy.event_handler import PublisherEventCallbacks as PublisherEventCallbacks
+from rclpy.qos import QoSProfile as QoSProfile
+from typing import Any, Generic
+from rclpy.qos_event import QoSEventHandler as QoSEventHandler
+
+MsgType = TypeVar("MsgType", default=Any)
+
+class Publisher(Generic[MsgType]):
+    def __init__(
+        self,
+        publisher_impl: Any,
+        msg_type: type[MsgType],
+        topic: str,
+        qos_profile: QoSProfile,
+        event_callbacks: PublisherEventCallbacks,
+        callback_group: CallbackGroup,
+    ) -> None: ...
+    def publish(self, msg: MsgType | bytes) -> None: ...
+    def get_subscription_count(self) -> int: ...
+    @property
+    def topic_name(self) -> str: ...
+    @property
+    def handle(self) -> Any: ...
+    @property
+    def logger_name(self) -> str: ...
+    def destroy(self) -> None: ...
+    def assert_liveliness(self) -> None: ...
+    def wait_for_all_acked(self, timeout: Duration = ...) -> bool: ...
+    __publisher: Any
+    msg_type: type[MsgType]
+    topic: str
+    qos_profile: QoSProfile
+    event_handlers: EventHandler

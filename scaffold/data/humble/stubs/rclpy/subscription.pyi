@@ -1,0 +1,45 @@
+from typing import Callable
+from typing import TypeVar
+from rclpy.callback_groups import CallbackGroup as CallbackGroup
+from rclpy.event_handler import SubscriptionEventCallbacks as SubscriptionEventCallbacks
+from rclpy.qos import QoSProfile as QoSProfile
+from typing import Any, Generic, TypedDict
+from rclpy.qos_event import QoSEventHandler as QoSEventHandler
+
+MsgType = TypeVar("MsgType", default=Any)
+
+class Subscription(Generic[MsgType]):
+    def __init__(
+        self,
+        subscription_impl: Any,
+        msg_type: type[MsgType],
+        topic: str,
+        callback: Callable[[MsgType], object] | Callable[[MsgType, MessageInfo], object],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+        raw: bool,
+        event_callbacks: SubscriptionEventCallbacks,
+    ) -> None: ...
+    @property
+    def handle(self) -> Any: ...
+    def destroy(self) -> None: ...
+    @property
+    def topic_name(self) -> str: ...
+    callback: Callable[..., Any]
+
+    @property
+    def logger_name(self) -> str: ...
+    __subscription: Any
+    msg_type: type[MsgType]
+    topic: str
+    callback_group: CallbackGroup
+    _executor_event: Any
+    qos_profile: QoSProfile
+    raw: bool
+    event_handlers: EventHandler
+
+class MessageInfo(TypedDict):
+    source_timestamp: int
+    received_timestamp: int
+    publication_sequence_number: int | None
+    reception_sequence_number: int | None

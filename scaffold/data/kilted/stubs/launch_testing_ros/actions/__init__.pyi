@@ -1,0 +1,1 @@
+from .enable_rmw_isolation import EnableRmwIsolation as EnableRmwIsolation

@@ -1,0 +1,23 @@
+from typing import Any
+from typing import TypedDict
+
+class TypeHash:
+    _TYPE_HASH_SIZE: int
+
+    def __init__(self, version: int = -1, value: bytes = ...) -> None: ...
+    @property
+    def version(self) -> int: ...
+    @version.setter
+    def version(self, value: int) -> None: ...
+    @property
+    def value(self) -> bytes: ...
+    @value.setter
+    def value(self, value: bytes) -> None: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __str__(self) -> str: ...
+    _version: Any
+    _value: Any
+
+class TypeHashDictionary(TypedDict):
+    version: int
+    value: bytes

@@ -1,0 +1,16 @@
+from typing import Any
+from launch.condition import Condition as Condition
+from launch.launch_context import LaunchContext as LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity as LaunchDescriptionEntity
+from typing_extensions import Self as Self
+from .frontend import Entity as Entity
+from .frontend import Parser as Parser
+
+class Action(LaunchDescriptionEntity):
+    def __init__(self, *, condition: Condition | None = None) -> None: ...
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> Any: ...
+    @property
+    def condition(self) -> Condition | None: ...
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]: ...
+    def execute(self, context: LaunchContext) -> Any: ...

@@ -1,0 +1,106 @@
+from typing import Callable
+from typing import TypeVar
+from rclpy.callback_groups import CallbackGroup as CallbackGroup
+from rclpy.clock import Clock as Clock
+from rclpy.qos import QoSProfile as QoSProfile
+from rclpy.service_introspection import ServiceIntrospectionState as ServiceIntrospectionState
+from collections.abc import Awaitable
+from typing import Any, Generic
+from _ros_interfaces import RequestT, ResponseT
+from _ros_interfaces import Service as _ServiceType
+from types import TracebackType
+from typing import Optional
+from typing import Type
+from typing import Union
+from rclpy.type_support import Srv as Srv, SrvRequestT as SrvRequestT, SrvResponseT as SrvResponseT
+from typing_extensions import Self as Self
+from typing_extensions import TypeAlias as TypeAlias
+
+SrvType = TypeVar("SrvType")
+SrvTypeRequest = TypeVar("SrvTypeRequest")
+SrvTypeResponse = TypeVar("SrvTypeResponse")
+
+class Service(BaseService, Generic[RequestT, ResponseT]):
+    def __init__(
+        self,
+        service_impl: Any,
+        srv_type: type[_ServiceType[RequestT, ResponseT]],
+        srv_name: str,
+        callback: Callable[[RequestT, ResponseT], ResponseT | Awaitable[ResponseT]],
+        qos_profile: QoSProfile,
+        *,
+        on_destroy: Optional[Callable[["Service[SrvRequestT, SrvResponseT]"], None]] = None,
+        callback_group: CallbackGroup,
+    ) -> None: ...
+    def send_response(self, response: ResponseT, header: Any) -> None: ...
+    def configure_introspection(
+        self,
+        clock: Clock,
+        service_event_qos_profile: QoSProfile,
+        introspection_state: ServiceIntrospectionState,
+    ) -> None: ...
+    @property
+    def handle(self) -> Any: ...
+    @property
+    def service_name(self) -> str: ...
+    @property
+    def logger_name(self) -> str: ...
+    def destroy(self) -> None: ...
+    srv_type: type[_ServiceType[RequestT, ResponseT]]
+    srv_name: str
+    callback: Callable[[RequestT, ResponseT], ResponseT | Awaitable[ResponseT]]
+    callback_group: CallbackGroup
+    _executor_event: Any
+    qos_profile: QoSProfile
+
+GenericServiceCallback: TypeAlias = Callable[[SrvRequestT, SrvResponseT], SrvResponseT]
+AsyncGenericServiceCallback: TypeAlias = Callable[
+    [SrvRequestT, SrvResponseT], Awaitable[SrvResponseT]
+]
+ServiceCallbackUnion: TypeAlias = Union[
+    GenericServiceCallback[SrvRequestT, SrvResponseT],
+    AsyncGenericServiceCallback[SrvRequestT, SrvResponseT],
+]
+
+class BaseService(Generic[SrvRequestT, SrvResponseT]):
+    def __init__(
+        self,
+        service_impl: _rclpy.Service[SrvRequestT, SrvResponseT],
+        srv_type: type[Srv[SrvRequestT, SrvResponseT]],
+        srv_name: str,
+        callback: ServiceCallbackUnion[SrvRequestT, SrvResponseT],
+        qos_profile: QoSProfile,
+        *,
+        on_destroy: Optional[Callable[["BaseService[SrvRequestT, SrvResponseT]"], None]] = None,
+    ) -> None: ...
+    _send_response: Any
+
+    def configure_introspection(
+        self,
+        clock: Clock,
+        service_event_qos_profile: QoSProfile,
+        introspection_state: ServiceIntrospectionState,
+    ) -> None: ...
+    @property
+    def handle(self) -> _rclpy.Service[SrvRequestT, SrvResponseT]: ...
+    @property
+    def service_name(self) -> str: ...
+    @property
+    def logger_name(self) -> str: ...
+    def destroy(self) -> None: ...
+    _destroy: Any
+
+    def __enter__(self) -> Self: ...
+    def __exit__(
+        self,
+        exc_type: Optional[Type[BaseException]],
+        exc_val: Optional[BaseException],
+        exc_tb: Optional[TracebackType],
+    ) -> None: ...
+    __service: Any
+    srv_type: type[Srv[SrvRequestT, SrvResponseT]]
+    srv_name: str
+    callback: ServiceCallbackUnion[SrvRequestT, SrvResponseT]
+    qos_profile: QoSProfile
+    _on_destroy: Any
+    _destroyed: Any

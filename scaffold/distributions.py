@@ -1,0 +1,175 @@
+"""The distributions of ROS 2: what is known of each, and which one packages are checked for.
+
+What differs between distributions is data in ``scaffold/data/<name>/``. Code asks the target for a
+fact, never for its name.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from typing import Any
+
+from scaffold.errors import InputError
+
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
+ORDER = ("humble", "jazzy", "kilted", "lyrical")
+"""Those with data of their own, oldest first."""
+ALIASES: Mapping[str, str] = {"rolling": "lyrical"}
+"""Those that are the same as another for Python packages, until they move on."""
+NAMES = (*ORDER, *ALIASES)
+DEFAULT = "jazzy"
+
+
+class Distribution:
+    """A distribution.
+
+    Args:
+        name: One of ``NAMES``.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.title = name.capitalize()
+        self._directory = os.path.join(DATA, ALIASES.get(name, name))
+
+    @property
+    def place(self) -> int:
+        """Its place in time: a later distribution has a higher one."""
+        return ORDER.index(ALIASES.get(self.name, self.name))
+
+    def path(self, file: str) -> str:
+        """Return where a file of its data is."""
+        return os.path.join(self._directory, file)
+
+    @cached_property
+    def profile(self) -> Mapping[str, Any]:
+        """The facts of ``profile.toml``."""
+        return read_toml(self.path("profile.toml"))
+
+    @cached_property
+    def python(self) -> tuple[int, int]:
+        """The version of Python that it runs on."""
+        major, minor = self.profile["python"].split(".")
+        return int(major), int(minor)
+
+    @property
+    def python_version(self) -> str:
+        """The same as ``3.12``."""
+        return ".".join(map(str, self.python))
+
+    def fact(self, name: str) -> Any:  # noqa: ANN401  a text, a number, a list
+        """Return a fact of the profile, ``section.name``."""
+        value: Any = self.profile
+        for part in name.split("."):
+            value = value[part]
+        return value
+
+
+def read_toml(path: str) -> dict[str, Any]:
+    """Return a file of data."""
+    import sys
+
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+    with open(path, "rb") as file:
+        return tomllib.load(file)
+
+
+_KNOWN: dict[str, Distribution] = {}
+
+
+def named(name: str, origin: str = "--distro") -> Distribution:
+    """Return a distribution.
+
+    Args:
+        name: What somebody wrote.
+        origin: Where, for the message.
+
+    Raises:
+        InputError: there is none of this name.
+    """
+    if name not in NAMES:
+        raise InputError(f"{origin}: {refusal(name)}")
+    if name not in _KNOWN:
+        _KNOWN[name] = Distribution(name)
+    return _KNOWN[name]
+
+
+def refusal(name: object) -> str:
+    """Return what to say of a name that no known distribution has."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(str(name).lower(), NAMES, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(NAMES)}"
+    return f"no distribution {name!r}; {hint}"
+
+
+def several(text: str, origin: str = "--distro") -> list[Distribution]:
+    """Return distributions named with commas between them, each once, oldest first.
+
+    Raises:
+        InputError: there is none of such a name, or no name at all.
+    """
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    if not words:
+        raise InputError(f"{origin}: no distribution is named; known are {', '.join(NAMES)}")
+    chosen = {word: named(word, origin) for word in words}
+    return sorted(chosen.values(), key=lambda one: NAMES.index(one.name))
+
+
+JAZZY = named(DEFAULT)
+_target = JAZZY
+"""What this process checks for. The verdict on a package is that of one distribution, from the
+first file that is read to the last: what is remembered of packages must not outlive a change."""
+
+
+_origin: Distribution | None = None
+_kept: tuple[Distribution, ...] = ()
+
+
+def origin() -> Distribution | None:
+    """Return the distribution that packages come from, where they are moved to the target."""
+    return _origin
+
+
+def kept() -> tuple[Distribution, ...]:
+    """Return the distributions that packages are to run on besides the target."""
+    return _kept
+
+
+def target() -> Distribution:
+    """Return the distribution that packages are checked for."""
+    return _target
+
+
+@contextmanager
+def targeting(
+    distribution: Distribution,
+    origin: Distribution | None = None,
+    kept: Sequence[Distribution] = (),
+) -> Iterator[None]:
+    """Check for a distribution inside of the block, with packages that are read inside of it.
+
+    Args:
+        distribution: The target.
+        origin: See `origin`.
+        kept: See `kept`.
+    """
+    global _target, _origin, _kept
+    before = (_target, _origin, _kept)
+    _target, _origin, _kept = distribution, origin, tuple(kept)
+    try:
+        yield
+    finally:
+        _target, _origin, _kept = before
+
+
+def titles(distributions: Sequence[Distribution]) -> str:
+    """Return ``Jazzy``, ``Jazzy and Lyrical``, ``Jazzy, Kilted and Lyrical``."""
+    *rest, last = (one.title for one in distributions)
+    return f"{', '.join(rest)} and {last}" if rest else last

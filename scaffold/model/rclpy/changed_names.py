@@ -1,0 +1,211 @@
+"""Uses of names that the target distribution does not have any more, or that will go."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+
+from scaffold.changes import Change, of_kind
+from scaffold.edits import Edit
+from scaffold.model.python.guards import is_handled
+from scaffold.model.python.module import PythonModule
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.file import RclpyFile
+from scaffold.record import NamedTuple
+from scaffold.source import Location
+
+_LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
+_ABOVE = {"ModuleNotFoundError": "ImportError"}
+"""The class above an error."""
+_DECIDING = re.compile(r"hasattr|version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_", re.IGNORECASE)
+"""Matches conditions that ask what there is."""
+
+
+class ChangedUse(NamedTuple):
+    """A use of a name, or a call, that a distribution changed."""
+
+    change: Change
+    location: Location
+    shown: str
+    """The name, as a message calls it."""
+    error: str
+    """What happens where the name is gone."""
+    replacement: str = ""
+    """What takes its place; empty if nothing does."""
+    edits: tuple[Edit, ...] = ()
+    """Put the replacement in its place."""
+
+
+def changed_uses(module: PythonModule, changes: Sequence[Change]) -> Iterator[ChangedUse]:
+    """Yield the uses of names of some changes, where nothing asks for a version first.
+
+    Args:
+        module: The file.
+        changes: Of names.
+    """
+    wanted = [change for change in changes if module.mentions(*map(_word, change.names))]
+    if wanted:
+        search = _Search(module, wanted)
+        yield from search.imports()
+        yield from search.attributes()
+
+
+def _word(name: str) -> str:
+    return name.rpartition(".")[2].rstrip("*")
+
+
+class _Search:
+    def __init__(self, module: PythonModule, changes: Sequence[Change]) -> None:
+        self._module = module
+        self._path = module.source.path
+        self._file = RclpyFile.of(module)
+        self._plain = {
+            name: change for change in changes for name in change.names if not name.endswith("*")
+        }
+        self._patterns = [
+            (name.rstrip("*"), change)
+            for change in changes
+            for name in change.names
+            if name.endswith("*")
+        ]
+
+    def _match(self, name: str) -> tuple[Change, str] | None:
+        """Return the change of a full name, and the last part of what takes its place."""
+        if name in self._plain:
+            change = self._plain[name]
+            return change, change.use
+        for start, change in self._patterns:
+            if name.startswith(start):
+                return change, change.use.replace("*", name.removeprefix(start))
+        return None
+
+    def imports(self) -> Iterator[ChangedUse]:
+        """Yield what imports name."""
+        for node in self._module.walk(ast.ImportFrom):
+            if not node.level and node.module:
+                yield from self._imported_from(node, node.module)
+        for plain in self._module.walk(ast.Import):
+            for alias in plain.names:
+                matched = self._match(alias.name)
+                if matched is not None:
+                    start, end = self._module.span(alias)
+                    last = start + len(alias.name)
+                    old = len(alias.name.rpartition(".")[2])
+                    at = self._module.source.location(start, end)
+                    error = "ModuleNotFoundError"
+                    yield from self._use(plain, at, alias.name, error, matched, (last - old, last))
+
+    def _imported_from(self, node: ast.ImportFrom, name: str) -> Iterator[ChangedUse]:
+        start, _ = self._module.span(node)
+        text = self._module.source.text
+        matched = self._match(name)
+        if matched is not None:
+            begin = text.index(name, start)
+            at = self._module.source.location(begin, begin + len(name))
+            last = (begin + len(name) - len(name.rpartition(".")[2]), begin + len(name))
+            yield from self._use(node, at, name, "ModuleNotFoundError", matched, last)
+        for alias in node.names:
+            full = f"{name}.{alias.name}"
+            matched = self._match(full)
+            if matched is not None:
+                begin, end = self._module.span(alias)
+                at = self._module.source.location(begin, end)
+                is_bound = alias.asname is not None
+                change, use = matched
+                written = use if is_bound or not use else f"{use} as {alias.name}"
+                place = (begin, begin + len(alias.name))
+                yield from self._use(node, at, full, "ImportError", (change, written), place)
+
+    def attributes(self) -> Iterator[ChangedUse]:
+        """Yield attributes of modules, classes and objects."""
+        for node in self._module.walk(ast.Attribute):
+            for name in self._names(node):
+                matched = self._match(name)
+                if matched is None:
+                    continue
+                _, end = self._module.span(node)
+                at = self._module.location(node)
+                place = (end - len(node.attr), end)
+                yield from self._use(node, at, name, "AttributeError", matched, place)
+                break
+
+    def _names(self, node: ast.Attribute) -> Iterator[str]:
+        yield from sorted(self._module.qualified_names(node))
+        if f"{_LOGGER}.{node.attr}" in self._plain and self._is_logger(node.value):
+            yield f"{_LOGGER}.{node.attr}"
+        elif any(name.endswith(f".{node.attr}") for name in self._plain):
+            class_ = class_of(self._file, node.value)
+            if class_ is not None:
+                yield f"{class_}.{node.attr}"
+
+    def _is_logger(self, node: ast.expr) -> bool:
+        """Tell whether an expression is the logger of a node, whatever the node is."""
+        value = self._file.evaluator.single_value(node)
+        match value:
+            case ast.Call(func=ast.Attribute(attr="get_logger", value=of), args=[], keywords=[]):
+                return self._file.uses_rclpy or self._file.owner_of(of) is not None
+        return class_of(self._file, node) == _LOGGER
+
+    def _use(
+        self,
+        node: ast.AST,
+        at: Location,
+        name: str,
+        error: str,
+        matched: tuple[Change, str],
+        place: tuple[int, int],
+    ) -> Iterator[ChangedUse]:
+        """Yield a use, unless the code knows about it."""
+        change, written = matched
+        errors = {error, _ABOVE.get(error, error)}
+        if any(is_handled(self._module, node, one) for one in errors):
+            return
+        if is_asked_for(self._module, node):
+            return
+        old = self._module.source.text[slice(*place)]
+        # Before Python 3.12 nobody knows where in an f-string something is.
+        is_there = old == name.rpartition(".")[2]
+        can_write = bool(written) and change.has_replacement and is_there
+        edits = (Edit(self._path, *place, written),) if can_write else ()
+        replacement = written.partition(" as ")[0]
+        yield ChangedUse(change, at, name, error, replacement, edits)
+
+
+def is_asked_for(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a node is below a condition that asks for a version or a name."""
+    child = node
+    for parent in module.parents(node):
+        match parent:
+            case ast.If(test=test) | ast.IfExp(test=test) if child is not test:
+                if _DECIDING.search(module.text(test)):
+                    return True
+        child = parent
+    return False
+
+
+def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
+    """Yield the calls that mean something else on the target than where the code comes from."""
+    changes = [change for change in of_kind("call") if change.is_changed]
+    if not changes or not module.mentions(*(_word(name) for one in changes for name in one.names)):
+        return
+    file = RclpyFile.of(module)
+    for call in module.walk(ast.Call):
+        called = _called(file, call)
+        given = {word.arg for word in call.keywords}
+        for change in changes:
+            if called.isdisjoint(change.names) or None in given:
+                continue
+            if change.without in given or (change.having and change.having not in given):
+                continue
+            at = module.location(call.func)
+            yield ChangedUse(change, at, change.names[0].rpartition(".")[2], "")
+
+
+def _called(file: RclpyFile, call: ast.Call) -> set[str]:
+    names = set(file.module.qualified_names(call.func))
+    if isinstance(call.func, ast.Attribute):
+        class_ = class_of(file, call.func.value)
+        if class_ is not None:
+            names.add(f"{class_}.{call.func.attr}")
+    return names

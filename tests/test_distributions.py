@@ -1,0 +1,221 @@
+"""The verdict for each distribution of ROS 2, and for several at once."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from scaffold import distributions
+from scaffold.cli.main import main
+from scaffold.distributions import NAMES, ORDER, named
+from scaffold.model.interfaces.definitions import Definitions
+from scaffold.model.manifest import conditions
+from scaffold.model.rclpy.api import names_of
+from scaffold.types.stubs import library_stubs
+
+ROOT = Path(__file__).parent.parent
+DATA = ROOT / "scaffold" / "data"
+_MANIFEST = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>talker</name>
+  <version>0.0.0</version>
+  <description>Says something</description>
+  <maintainer email="ada@example.org">Ada</maintainer>
+  <license>Apache-2.0</license>
+  <exec_depend>rclpy</exec_depend>
+  <exec_depend>geometry_msgs</exec_depend>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+Found = list[tuple[str, str, list[str]]]
+
+
+def write(directory: Path, code: str) -> Path:
+    """Write a package with one module."""
+    package = directory / "talker"
+    (package / "talker").mkdir(parents=True)
+    (package / "package.xml").write_text(_MANIFEST)
+    (package / "talker" / "__init__.py").write_text("")
+    (package / "talker" / "node.py").write_text(code)
+    return package
+
+
+def check(
+    capsys: pytest.CaptureFixture[str], package: Path, distro: str, select: str = "ND,TY,MS,SC"
+) -> Found:
+    """Return code, message and distributions of what is found."""
+    main(["check", str(package), "--distro", distro, "--format", "json", "--select", select])
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    return [(item["code"], item["message"], item["distributions"]) for item in found]
+
+
+NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.get_logger().{}('hello')\n"
+)
+
+
+def test_an_unknown_distribution_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = write(tmp_path, "")
+    for words, hint in (("lyrcal", "did you mean 'lyrical'?"), ("noetic", "known are humble,")):
+        assert main(["check", str(package), "--distro", words]) == 2
+        assert f"--distro: no distribution {words!r}; {hint}" in capsys.readouterr().err
+    assert main(["check", str(package), "--distro", ","]) == 2
+    assert "no distribution is named" in capsys.readouterr().err
+
+
+def test_a_removed_method_is_reported_where_it_is_gone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = write(tmp_path, NODE.format("warn"))
+    assert check(capsys, package, "jazzy") == []
+    (found,) = check(capsys, package, "lyrical")
+    assert "'warn'" in found[1]
+    assert found[2] == ["lyrical"]
+    (same,) = check(capsys, package, "rolling")
+    assert same[2] == ["rolling"]
+
+
+def test_several_distributions_report_each_finding_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = NODE.format("warn") + "        self.get_logger().shout('hello')\n"
+    package = write(tmp_path, code)
+    found = {
+        re.findall("'(warn|shout)'", item[1])[0]: item[2]
+        for item in check(capsys, package, "lyrical,jazzy")
+    }
+    assert found == {"warn": ["lyrical"], "shout": ["jazzy", "lyrical"]}
+    main(["check", str(package), "--distro", "jazzy,lyrical", "--select", "ND,TY"])
+    *lines, summary = capsys.readouterr().out.splitlines()
+    assert sum("(lyrical)" in line for line in lines) == 1
+    assert sum("(jazzy, lyrical)" in line for line in lines) == 1
+    assert summary.startswith("1 package, 3 files for Jazzy and Lyrical: ")
+
+
+def test_a_name_that_is_not_there_yet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    package = write(
+        tmp_path, "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
+    )
+    found = {name: [code for code, *_ in check(capsys, package, name, "ND007")] for name in ORDER}
+    assert found == {"humble": ["ND007"], "jazzy": ["ND007"], "kilted": [], "lyrical": []}
+
+
+def test_arguments_are_those_of_the_target(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = NODE.format("info").replace("'talker'", "'talker', enable_logger_service=True")
+    package = write(tmp_path, code)
+    (found,) = check(capsys, package, "humble")
+    assert "enable_logger_service" in found[1]
+    assert check(capsys, package, "jazzy") == []
+
+
+def test_messages_are_those_of_the_target(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = write(tmp_path, "from geometry_msgs.msg import Pose2D\n\npose = Pose2D()\n")
+    assert check(capsys, package, "kilted") == []
+    (found,) = check(capsys, package, "lyrical")
+    assert found[0] == "MS001"
+
+
+def test_syntax_is_that_of_the_targets_python(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = "def run(work):\n    try:\n        work()\n    except* ValueError:\n        pass\n"
+    package = write(tmp_path, code)
+    (found,) = check(capsys, package, "humble", "SC,E9")
+    assert "3.11" in found[1]
+    assert check(capsys, package, "jazzy", "E9") == []
+
+
+def test_a_shell_for_another_distribution_is_noted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = write(tmp_path, "")
+    monkeypatch.setenv("ROS_DISTRO", "humble")
+    main(["check", str(package), "--select", "ND"])
+    note, summary = capsys.readouterr().out.splitlines()
+    assert note == (
+        "checked for Jazzy, although ROS_DISTRO is 'humble': --distro humble checks for that"
+    )
+    assert " for Jazzy: " in summary
+    main(["check", str(package), "--select", "ND", "--distro", "humble"])
+    assert "ROS_DISTRO" not in capsys.readouterr().out
+
+
+def test_the_configuration_names_targets(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(tmp_path, NODE.format("warn"))
+    (tmp_path / "ros2-scaffold.toml").write_text('[check]\ndistribution = ["jazzy", "lyrical"]\n')
+    monkeypatch.chdir(tmp_path)
+    assert main(["check", "--select", "ND,TY"]) == 1
+    assert "(lyrical)" in capsys.readouterr().out
+    assert main(["check", "--select", "ND,TY", "--distro", "jazzy"]) == 0
+    assert main(["check", "--select", "ND,TY", "--fix"]) == 2
+    assert "--fix works for one distribution at a time" in capsys.readouterr().err
+
+
+def test_what_is_remembered_is_of_one_target(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(tmp_path, NODE.format("warn"))
+    monkeypatch.chdir(tmp_path)
+    configuration = tmp_path / "ros2-scaffold.toml"
+    codes = []
+    for name in ("jazzy", "lyrical", "jazzy"):
+        configuration.write_text(f"[check]\ndistribution = {name!r}\n")
+        codes.append(main(["check", "--select", "ND,TY"]))
+    assert codes == [0, 1, 0]
+    capsys.readouterr()
+
+
+def test_conditions_are_those_of_the_target() -> None:
+    with distributions.targeting(named("humble")):
+        assert conditions.holds("$ROS_DISTRO == humble")
+    assert not conditions.holds("$ROS_DISTRO == humble")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_distribution_has_its_data(name: str) -> None:
+    one = named(name)
+    assert one.python >= (3, 10)
+    assert one.fact("build.package_may_be_installed_twice") in {True, False}
+    assert "create_publisher()" in names_of(one)["rclpy.node.Node"]
+    assert "rclpy/node.pyi" in library_stubs(one)
+    with distributions.targeting(one):
+        definition = Definitions.around(prefixes=()).find("std_msgs/msg/Header")
+    assert definition is not None
+
+
+def test_no_code_asks_for_the_name_of_a_distribution() -> None:
+    pattern = re.compile(r"""[=!]=\s*["'](?:humble|jazzy|kilted|lyrical|rolling)["']""")
+    asking = [
+        str(path.relative_to(ROOT))
+        for top in ("rules", "scaffold")
+        for path in sorted((ROOT / top).rglob("*.py"))
+        if pattern.search(path.read_text()) and "distro" in path.read_text()
+    ]
+    assert asking == []
+
+
+def test_the_data_of_all_distributions_is_small() -> None:
+    others = sum(
+        file.stat().st_size
+        for name in ORDER
+        if name != distributions.DEFAULT
+        for file in (DATA / name).rglob("*")
+        if file.is_file()
+    )
+    assert others < 3_000_000
