@@ -15,6 +15,7 @@ from scaffold.reporters.entries import SEVERITIES
 if TYPE_CHECKING:
     from scaffold.reporters import ReportOptions
 
+
 def summary(results: Sequence[Result], options: ReportOptions) -> str:
     """Return one line: what was checked, the findings, and how many are fixable.
 
