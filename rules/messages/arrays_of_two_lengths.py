@@ -1,0 +1,82 @@
+"""MS028: the arrays of a joint state have one length."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.messages import MessageTypes
+
+_NODE = (
+    "from sensor_msgs.msg import JointState\n\n\n"
+    "def state():\n"
+    "    msg = JointState()\n"
+    "    msg.name = ['left', 'right']\n"
+    "    msg.position = {}\n"
+    "    return msg, JointState(name=['a'], velocity={})\n"
+)
+_PARALLEL: Mapping[str, tuple[str, tuple[str, ...]]] = {
+    "sensor_msgs/msg/JointState": ("name", ("position", "velocity", "effort")),
+    "sensor_msgs/msg/MultiDOFJointState": ("joint_names", ("transforms", "twist", "wrench")),
+    "control_msgs/msg/JointJog": ("joint_names", ("displacements", "velocities")),
+}
+
+
+class ArraysOfTwoLengths(MessageRule):
+    """A message has names of joints, and another number of values for them.
+
+    **Why.** robot_state_publisher ignores it: ``Robot state publisher ignored an invalid
+    JointState message``; others read past the end of the shorter array.
+
+    **Fix.** Give one value for each name, in the same order, or leave the array empty.
+
+    **Source.** ``sensor_msgs/msg/JointState``; robot_state_publisher, ``callbackJointState``.
+    """
+
+    code = "MS028"
+    name = "arrays-of-two-lengths"
+    examples = (
+        Example("one length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
+        Example("not known", {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")}),
+        Example(
+            "two lengths",
+            {"a.py": _NODE.format("[0.0]", "[1.0, 2.0]")},
+            Report(
+                "7:20",
+                "position has 1 values for 2 names: the message is ignored; give one for each",
+            ),
+            Report(
+                "8:49",
+                "velocity has 2 values for 1 names: the message is ignored; give one for each",
+            ),
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        module = types.module
+        given: dict[tuple[ast.AST | None, str, str], dict[str, list[ast.expr]]] = {}
+        for item in types.assigned:
+            if item.owner.name in _PARALLEL:
+                holder = module.text(item.holder)
+                key = (module.enclosing_function(item.holder), holder, item.owner.name)
+                given.setdefault(key, {}).setdefault(item.field.name, []).append(item.value)
+        for (_, _, owner), fields in given.items():
+            names, others = _PARALLEL[owner]
+            count = _length(fields.get(names, []))
+            for name in others:
+                length = _length(fields.get(name, []))
+                if count and length and count != length:
+                    message = (
+                        f"{name} has {length} values for {count} names: the message is ignored; "
+                        "give one for each"
+                    )
+                    yield self.report(module.location(fields[name][0]), message)
+
+
+def _length(values: list[ast.expr]) -> int | None:
+    """Return the length of a list that is written as such, and assigned once."""
+    match values:
+        case [ast.List(elts=items) | ast.Tuple(elts=items)]:
+            return None if any(isinstance(item, ast.Starred) for item in items) else len(items)
+    return None

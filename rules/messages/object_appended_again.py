@@ -1,0 +1,186 @@
+"""MS027: lists of messages hold different objects."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.messages import MessageTypes
+
+_NODE = (
+    "from geometry_msgs.msg import PoseStamped\nfrom nav_msgs.msg import Odometry, Path\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Tracker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('tracker')\n"
+    "        self.path = Path()\n"
+    "        self.pose = PoseStamped()\n"
+    "        self.create_subscription(Odometry, 'odom', self.on_odom, 10)\n\n"
+    "    def on_odom(self, msg):\n"
+    "        {}\n"
+)
+_LOOP = (
+    "from geometry_msgs.msg import Point, PoseArray, Pose\n\n\n"
+    "def row():\n"
+    "    array = PoseArray()\n"
+    "{}"
+    "    return array\n"
+)
+
+
+class ObjectAppendedAgain(MessageRule):
+    """One message object is changed and appended again and again.
+
+    **Why.** A list holds references: all poses of the path are the newest one, and nothing
+    complains.
+
+    **Fix.** Make a new message for each element, inside of the callback or the loop.
+
+    **Source.** Python documentation, "Programming FAQ": names refer to objects.
+    """
+
+    code = "MS027"
+    name = "object-appended-again"
+    examples = (
+        Example(
+            "a new object",
+            {
+                "tracker.py": _NODE.format(
+                    "pose = PoseStamped()\n        pose.pose = msg.pose.pose\n"
+                    "        self.path.poses.append(pose)"
+                )
+            },
+        ),
+        Example(
+            "a list that is new; a copy",
+            {
+                "tracker.py": _NODE.format(
+                    "self.pose.pose = msg.pose.pose\n        path = Path()\n"
+                    "        path.poses.append(self.pose)"
+                ),
+                "b.py": _LOOP.format(
+                    "    pose = Pose()\n    for x in range(3):\n"
+                    "        pose.position.x = float(x)\n"
+                    "        array.poses.append(copy(pose))\n"
+                ),
+            },
+        ),
+        Example(
+            "the same object",
+            {
+                "tracker.py": _NODE.format(
+                    "self.pose.pose = msg.pose.pose\n        self.path.poses.append(self.pose)"
+                )
+            },
+            Report(
+                "15:32",
+                "the same object each time, made in line 10: all elements are the "
+                "last self.pose; make a new one before it is filled",
+            ),
+        ),
+        Example(
+            "in a loop",
+            {
+                "row.py": _LOOP.format(
+                    "    pose = Pose()\n    for x in range(3):\n"
+                    "        pose.position.x = float(x)\n"
+                    "        array.poses.append(pose)\n"
+                )
+            },
+            Report(
+                "9:28",
+                "the same object each time, made in line 6: all elements are the "
+                "last pose; make a new one before it is filled",
+            ),
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for call in types.module.walk(ast.Call):
+            match call:
+                case ast.Call(
+                    func=ast.Attribute(attr="append", value=holder),
+                    args=[ast.Name() | ast.Attribute() as item],
+                ):
+                    made = _made_once(types, call, holder, item)
+                    if made is not None:
+                        text = types.module.text(item)
+                        message = (
+                            f"the same object each time, made in line {made.lineno}: all elements "
+                            f"are the last {text}; make a new one before it is filled"
+                        )
+                        yield self.report(types.module.location(item), message)
+
+
+def _made_once(
+    types: MessageTypes, call: ast.Call, holder: ast.expr, item: ast.Name | ast.Attribute
+) -> ast.expr | None:
+    """Return where an object is made that is changed and appended several times."""
+    module = types.module
+    made = _maker(types, item)
+    if not isinstance(made, ast.Call) or types.class_of(made.func) is None:
+        return None
+    function = module.enclosing_function(call)
+    if isinstance(item, ast.Name):
+        loops = [
+            parent for parent in module.parents(call) if isinstance(parent, ast.For | ast.While)
+        ]
+        if not loops or loops[0] in module.parents(made) or _leaves(loops[0], call):
+            return None
+        return made if _is_changed(types, loops[0], item) else None
+    is_kept = isinstance(holder, ast.Attribute) and module.text(holder).startswith("self.")
+    maker = module.enclosing_function(made)
+    if not is_kept or function is None or maker is function or maker is None:
+        return None
+    if maker.name != "__init__" or _is_emptied(types, function, holder):
+        return None
+    return made if _is_changed(types, function, item) else None
+
+
+def _maker(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:
+    """Return what a name or an attribute of ``self`` is assigned, if that is so once."""
+    if isinstance(item, ast.Name):
+        return types.facts.evaluator.single_value(item)
+    class_ = types.module.enclosing_class(item)
+    text = types.module.text(item)
+    values = [
+        assignment.value
+        for assignment in types.module.walk(ast.Assign)
+        if any(types.module.text(target) == text for target in assignment.targets)
+        and types.module.enclosing_class(assignment) is class_
+    ]
+    return values[0] if len(values) == 1 and text.startswith("self.") else None
+
+
+def _leaves(loop: ast.For | ast.While, call: ast.Call) -> bool:
+    """Tell whether a loop ends after an element is appended."""
+    return any(
+        isinstance(node, ast.Break | ast.Return) and node.lineno > call.lineno
+        for node in ast.walk(loop)
+    )
+
+
+def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
+    """Tell whether a field of an object is assigned in a block."""
+    start = f"{types.module.text(item)}."
+    return any(
+        isinstance(node, ast.Attribute)
+        and isinstance(node.ctx, ast.Store)
+        and types.module.text(node).startswith(start)
+        for node in ast.walk(block)
+    )
+
+
+def _is_emptied(types: MessageTypes, function: ast.AST, holder: ast.expr) -> bool:
+    """Tell whether a list, or what it is in, is made anew in a function."""
+    text = types.module.text(holder)
+    for node in ast.walk(function):
+        if isinstance(node, ast.Attribute):
+            is_made = isinstance(node.ctx, ast.Store)
+            above = types.module.parent(node)
+            is_cleared = isinstance(above, ast.Attribute) and above.attr in {"clear", "pop"}
+            name = types.module.text(node)
+            if (is_made or is_cleared) and (text == name or text.startswith(f"{name}.")):
+                return True
+    return False
