@@ -92,14 +92,14 @@ class ValueImplausible(MessageRule):
         Example(
             "a share times 100; an encoding of one's own; a color",
             {
-                "talker.py": _NODE.format("100.0 * len('a')", "h264", *_GOOD[2:]),
+                "talker.py": _NODE.format("100.0 * width", "h264", *_GOOD[2:]),
                 "b.py": "from std_msgs.msg import ColorRGBA\n\n\n"
                 "def white():\n    return ColorRGBA(r=255.0, a=1.0)\n",
             },
             Report("b.py:5:24", "r is a share from 0 to 1, not 255", severity=Severity.WARNING),
             Report(
                 "talker.py:13:30",
-                "percentage is a share from 0 to 1, not 100",
+                "percentage is a share from 0 to 1, not a percentage; leave out 100",
                 severity=Severity.WARNING,
             ),
         ),

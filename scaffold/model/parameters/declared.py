@@ -12,6 +12,7 @@ from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy.file import rclpy_file, rclpy_files, rclpy_paths
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.model.rclpy.parameters.descriptors import Descriptor
+from scaffold.model.rclpy.parameters.divisors import divisors
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
@@ -40,6 +41,8 @@ class DeclaredParameter(NamedTuple):
     has_descriptor: bool
     descriptor: Descriptor | None
     """``None`` when it is not known what it says."""
+    divides: bool
+    """Whether the node divides by its value, without looking at it."""
 
 
 class Declared(NamedTuple):
@@ -78,6 +81,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
     complete = True
     current: NodeDefinition | None = owner
     while current is not None:
+        divide = divisors(current.facts)
         is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
         for parameter in (*current.parameters, *_from_outside(current, package)):
             name = parameter.name
@@ -87,7 +91,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
             kind = _fixed_type(parameter, may_be_dynamic=is_dynamic)
             types[name] = kind if name not in types or types[name] == kind else None
             if name not in places:
-                places[name] = _place(parameter, package)
+                places[name] = _place(parameter, package, divides=name in divide)
         complete = complete and not current.declares_automatically and not escapes(current)
         complete = complete and all(item.owner is not None for item in current.facts.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
@@ -95,7 +99,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
     return Declared(types, places, complete)
 
 
-def _place(parameter: Parameter, package: Package) -> DeclaredParameter:
+def _place(parameter: Parameter, package: Package, *, divides: bool) -> DeclaredParameter:
     default = parameter.default
     is_plain = isinstance(default, str | int | float) or default == []
     return DeclaredParameter(
@@ -104,6 +108,7 @@ def _place(parameter: Parameter, package: Package) -> DeclaredParameter:
         default if is_plain else UNKNOWN,
         parameter.descriptor_node is not None,
         parameter.descriptor,
+        divides,
     )
 
 

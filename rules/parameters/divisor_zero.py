@@ -1,0 +1,106 @@
+"""PF008: parameters that a node divides by are not zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
+from scaffold.api.launch import nodes_for, started_nodes
+from scaffold.api.parameters import (
+    Declared,
+    declared_by,
+    number_of,
+    own_nodes,
+    parameter_file,
+    parameter_paths,
+    place_of,
+)
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.rate = self.declare_parameter('rate', {}).value\n"
+    "        self.create_timer({}, print)\n"
+)
+_FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
+
+
+class DivisorZero(Rule):
+    """A parameter is zero, and the node divides by it.
+
+    **Why.** ``ZeroDivisionError: float division by zero``: the node ends at start, or in the
+    callback that divides.
+
+    **Fix.** Set another value; in the node, give the parameter a range or look at it first.
+
+    **Source.** Python documentation, "Built-in Exceptions".
+    """
+
+    code = "PF008"
+    name = "divisor-zero"
+    examples = (
+        Example(
+            "another value",
+            {"talker.py": _NODE.format("2.0", "1.0 / self.rate"), "a.yaml": _FILE.format("1.0")},
+        ),
+        Example(
+            "looked at first",
+            {
+                "talker.py": _NODE.format("2.0", "1.0 / self.rate if self.rate else 1.0"),
+                "a.yaml": _FILE.format("0.0"),
+            },
+        ),
+        Example(
+            "zero in a parameter file",
+            {"talker.py": _NODE.format("2.0", "1.0 / self.rate"), "a.yaml": _FILE.format("0.0")},
+            Report(
+                "a.yaml:3:11",
+                "'rate' is 0, and the node (talker.py:7) divides by it: ZeroDivisionError",
+            ),
+        ),
+        Example(
+            "zero as default",
+            {"talker.py": _NODE.format("0.0", "1.0 / self.rate")},
+            Report("7:21", "'rate' is 0 by default, and the node divides by it: ZeroDivisionError"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for name, known, at in _zeros(package):
+            for message in _messages(package, known, name):
+                yield self.report(at, message)
+        for own in own_nodes(package)[0]:
+            for name, place in declared_by(own, package).places.items():
+                is_number = isinstance(place.default, int | float)
+                is_zero = is_number and place.default == 0 and place.default is not False
+                if is_zero and place.divides:
+                    message = (
+                        f"{name!r} is 0 by default, and the node divides by it: ZeroDivisionError"
+                    )
+                    yield self.report(place.location, message)
+
+
+def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:
+    """Yield the parameters that are set to zero, what their nodes declare, and the place."""
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        for section in file.sections if file else ():
+            known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
+            for entry in section.entries:
+                if number_of(entry.value) == 0:
+                    yield entry.name, known, entry.value.location
+    for node in started_nodes(package):
+        owner = node.owner(package)
+        for given in node.parameters if owner is not None else ():
+            if owner is not None and given.value is not None and given.value.number == 0:
+                yield given.name, [declared_by(owner, package)], given.location
+
+
+def _messages(package: Package, known: list[Declared], name: str) -> Iterator[str]:
+    """Yield the message for a parameter that is zero, if its node divides by it."""
+    for declared in known:
+        place = declared.places.get(name)
+        if place is not None and place.divides:
+            where = place_of(place.package, place.location, package)
+            yield f"{name!r} is 0, and the node ({where}) divides by it: ZeroDivisionError"
+            return

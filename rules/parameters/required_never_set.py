@@ -1,0 +1,93 @@
+"""PF009: parameters that are declared with a type alone are set."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, ViewError
+from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api.python import is_handled
+from scaffold.api.rclpy import NodeDefinition, RclpyFile
+
+_NODE = (
+    "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', {})\n"
+    "        self.rate = self.get_parameter('rate').value\n"
+)
+_LAUNCH = (".py", ".launch.xml", ".launch.yaml", ".launch.yml")
+
+
+class RequiredNeverSet(RclpyRule):
+    """A parameter has a type and no value, is read, and no file of the package sets it.
+
+    **Why.** ``ParameterUninitializedException: The parameter 'rate' is not initialized``, as soon
+    as the node is started without it.
+
+    **Fix.** Give a default, ``declare_parameter('rate', 2.0)``, or set it in the parameter file.
+
+    **Source.** ``rclpy/node.py``, ``get_parameter``.
+    """
+
+    code = "PF009"
+    name = "required-never-set"
+    severity = Severity.WARNING
+    examples = (
+        Example("a default", {"talker.py": _NODE.format("2.0")}),
+        Example(
+            "set in a parameter file",
+            {
+                "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
+                "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
+            },
+        ),
+        Example(
+            "a type alone",
+            {"talker.py": _NODE.format("Parameter.Type.DOUBLE")},
+            Report(
+                "9:21",
+                "parameter 'rate' has a type alone (line 8), and no file of the "
+                "package sets it: ParameterUninitializedException; give a default",
+            ),
+        ),
+    )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.nodes:
+            required = {
+                parameter.name: parameter.location.line
+                for parameter in node.parameters
+                if parameter.declared_type is not None and isinstance(parameter.name, str)
+            }
+            for read in node.parameter_reads if required else ():
+                name = read.name
+                if read.method != "get_parameter" or name not in required or read.is_conditional:
+                    continue
+                if is_handled(file.module, read.call, "ParameterUninitializedException"):
+                    continue
+                if isinstance(name, str) and not _is_set(package, node, name):
+                    message = (
+                        f"parameter {name!r} has a type alone (line {required[name]}), and no file "
+                        "of the package sets it: ParameterUninitializedException; give a default"
+                    )
+                    yield self.report(read, message)
+
+
+def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
+    """Tell whether a parameter file or a launch file of a package may set a parameter."""
+    for path in parameter_paths(package):
+        file = parameter_file(package, path)
+        for section in file.sections if file else ():
+            is_of_node = section.is_pattern or section.name == node.node_name
+            is_of_node = is_of_node or not isinstance(node.node_name, str)
+            if is_of_node and any(entry.name == name for entry in section.entries):
+                return True
+    for path in package.files:
+        if path.endswith(_LAUNCH) and "launch" in path.lower():
+            try:
+                if re.search(rf"\b{re.escape(name)}\b", package.source(path).text):
+                    return True
+            except ViewError:
+                continue
+    return False

@@ -1,0 +1,93 @@
+"""TS078: tests assert in their own thread."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api.python import PythonModule
+
+_TEST = (
+    "import threading\n\nimport rclpy\nfrom std_msgs.msg import String\n\n\n"
+    "def test_talker(node):\n"
+    "    {}\n"
+    "    received = []\n\n"
+    "    def check(msg):\n"
+    "        {}\n\n"
+    "    node.create_subscription(String, 'chatter', check, 10)\n"
+    "    wait_for(received)\n"
+)
+_THREAD = "threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()"
+_MAKERS = frozenset({"create_subscription", "create_timer", "create_service", "add_done_callback"})
+
+
+class CallbackAssertionLost(TestRule):
+    """A test asserts in a callback, and another thread spins.
+
+    **Why.** The ``AssertionError`` ends that thread, and pytest never sees it: the test passes,
+    whatever arrives.
+
+    **Fix.** Collect the messages in the callback, and assert in the test itself.
+
+    **Source.** Python documentation, ``threading.excepthook``: exceptions end their thread alone.
+    """
+
+    code = "TS078"
+    name = "callback-assertion-lost"
+    examples = (
+        Example("collected", {"test/test_a.py": _TEST.format(_THREAD, "received.append(msg)")}),
+        Example(
+            "spun by the test itself",
+            {"test/test_a.py": _TEST.format("rclpy.spin_once(node)", "assert msg.data")},
+        ),
+        Example(
+            "asserted in the other thread",
+            {"test/test_a.py": _TEST.format(_THREAD, "assert msg.data == 'hello'")},
+            Report(
+                "12:9",
+                "another thread runs this callback: a failure ends that thread, and "
+                "the test passes; collect what arrives and assert in the test",
+            ),
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if not _spins_in_thread(module):
+            return
+        for call in module.walk(ast.Call):
+            if not (isinstance(call.func, ast.Attribute) and call.func.attr in _MAKERS):
+                continue
+            for argument in (*call.args, *(word.value for word in call.keywords)):
+                for node in _assertions(module, argument):
+                    message = (
+                        "another thread runs this callback: a failure ends that thread, and the "
+                        "test passes; collect what arrives and assert in the test"
+                    )
+                    yield self.report(module.location(node), message)
+
+
+def _spins_in_thread(module: PythonModule) -> bool:
+    """Tell whether a thread spins, and the tests themselves do not."""
+    in_threads: set[ast.AST] = set()
+    for call in module.walk(ast.Call):
+        if module.qualified_name(call.func) == "threading.Thread":
+            for word in call.keywords:
+                if word.arg == "target":
+                    in_threads.update(ast.walk(word.value))
+    spins = [
+        node
+        for node in module.walk(ast.Attribute)
+        if node.attr.startswith("spin") and isinstance(node.ctx, ast.Load)
+    ]
+    return bool(spins) and all(node in in_threads for node in spins)
+
+
+def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
+    """Yield the assertions in a function that is given as a callback."""
+    if not isinstance(argument, ast.Name):
+        return
+    found = module.index.lookup(argument.id, argument)
+    for binding in found[1] if found else ():
+        if isinstance(binding.node, ast.FunctionDef):
+            yield from (node for node in ast.walk(binding.node) if isinstance(node, ast.Assert))

@@ -1,0 +1,150 @@
+"""TS077: computed floats are not compared with ``==``."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Severity, TestRule
+from scaffold.api.python import PythonModule
+
+_CODE = (
+    "import math\n\n\ndef rotation(yaw):\n    return math.sin(yaw / 2.0), math.cos(yaw / 2.0)\n\n\n"
+    "def speed():\n    return 0.3\n"
+)
+_TEST = (
+    "import math\n\nimport pytest\nfrom talker.turn import rotation, speed\n\n\n"
+    "def test_rotation():\n    z, w = rotation(math.pi)\n    assert {}\n"
+)
+_FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "hypot", "exp", "log")
+_ROUNDING = ("math.", "numpy.")
+_DEPTH = 3
+
+
+class FloatComparedExactly(TestRule):
+    """A test compares the result of sines, roots and the like with ``==``.
+
+    **Why.** ``math.cos(math.pi / 2)`` is 6e-17 and not 0.0: the test fails by rounding, here or on
+    another machine.
+
+    **Fix.** ``assert w == pytest.approx(0.0, abs=1e-9)``.
+
+    **Source.** Python tutorial, "Floating-Point Arithmetic: Issues and Limitations".
+    """
+
+    code = "TS077"
+    name = "float-compared-exactly"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "approximately; not computed",
+            {
+                "talker/turn.py": _CODE,
+                "test/test_a.py": _TEST.format("w == pytest.approx(0.0, abs=1e-9)"),
+                "test/test_b.py": _TEST.format("speed() == 0.3 and z > 0.5"),
+            },
+        ),
+        Example(
+            "exactly",
+            {
+                "talker/turn.py": _CODE,
+                "test/test_a.py": _TEST.format("w == 0.0"),
+                "test/test_b.py": _TEST.format("math.sqrt(2.0) ** 2 == 2.0"),
+            },
+            Report(
+                "test/test_a.py:9:12",
+                "w is computed: it may differ by rounding, and the test fails; "
+                "compare with pytest.approx(...)",
+            ),
+            Report(
+                "test/test_b.py:9:12",
+                "math.sqrt(2.0) ** 2 is computed: it may differ by rounding, and "
+                "the test fails; compare with pytest.approx(...)",
+            ),
+        ),
+        Example(
+            "a sum",
+            {"test/test_a.py": _TEST.format("0.1 + 0.2 == 0.3")},
+            Report(
+                "9:12",
+                "0.1 + 0.2 is computed: it may differ by rounding, and the test "
+                "fails; compare with pytest.approx(...)",
+            ),
+        ),
+    )
+
+    def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+        for node in module.walk(ast.Assert):
+            for compare in ast.walk(node.test):
+                match compare:
+                    case ast.Compare(
+                        left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=float())]
+                    ) if _is_computed(package, module, left, 0):
+                        text = module.text(left)
+                        message = (
+                            f"{text} is computed: it may differ by rounding, and the test fails; "
+                            "compare with pytest.approx(...)"
+                        )
+                        yield self.report(module.location(compare), message)
+
+
+def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: int) -> bool:
+    """Tell whether a value comes out of a function that rounds."""
+    parts: tuple[ast.expr | None, ...] = ()
+    match node:
+        case ast.Attribute(value=value) | ast.Subscript(value=value):
+            parts = (value,)
+        case ast.BinOp(left=ast.Constant(), right=ast.Constant()):
+            return _differs(node)
+        case ast.BinOp(left=left, right=right):
+            parts = (left, right)
+        case ast.Name(id=name):
+            found = module.index.lookup(name, node)
+            bindings = found[1] if found else ()
+            values = [item.value or _unpacked(module, item.node) for item in bindings]
+            parts = (values[0],) if len(values) == 1 else ()
+        case ast.Call(func=function):
+            rounds = _rounds(module.qualified_name(function))
+            return rounds or _has_rounding(package, module, function)
+    return depth < _DEPTH and any(
+        part is not None and _is_computed(package, module, part, depth + 1) for part in parts
+    )
+
+
+def _unpacked(module: PythonModule, node: ast.AST) -> ast.expr | None:
+    """Return what a tuple of names is assigned."""
+    for parent in module.parents(node):
+        if isinstance(parent, ast.Assign):
+            return parent.value
+    return None
+
+
+def _differs(node: ast.BinOp) -> bool:
+    """Tell whether a sum of numbers is not exact."""
+    match node:
+        case ast.BinOp(
+            left=ast.Constant(value=float() as left),
+            op=ast.Add(),
+            right=ast.Constant(value=float() as right),
+        ):
+            return len(repr(left + right)) > max(len(repr(left)), len(repr(right))) + 4
+    return False
+
+
+def _rounds(name: str | None) -> bool:
+    return name is not None and name.startswith(_ROUNDING) and name.rpartition(".")[2] in _FUNCTIONS
+
+
+def _has_rounding(package: Package, module: PythonModule, function: ast.expr) -> bool:
+    """Tell whether a function of the package computes with sines, roots and the like."""
+    name = module.qualified_name(function) or ""
+    owner, _, attribute = name.rpartition(".")
+    path = f"{owner.replace('.', '/')}.py"
+    if not owner or not package.has(path):
+        return False
+    home = package.module(path)
+    found = home.functions.get(attribute)
+    return found is not None and any(
+        isinstance(node, ast.Call) and _rounds(home.qualified_name(node.func))
+        for node in ast.walk(found.node)
+    )
