@@ -110,6 +110,18 @@ class Disk:
         self.note({(" ".join(("entries", *starts)), directory): _digest_of(names)})
         return names
 
+    def directories_with(self, directory: str, name: str, most: int) -> list[str]:
+        """Return the names of the directories in one that hold a file; what else there is is open.
+
+        Args:
+            directory: The directory; one that cannot be listed is empty.
+            name: The name of the file, without spaces.
+            most: Directories to look into at most; one with more is taken to hold none.
+        """
+        found = _directories_with(directory, name, most)
+        self.note({(f"with {name} {most}", directory): _digest_of(found)})
+        return found
+
     def exists(self, path: str) -> bool:
         """Tell whether something is there."""
         return bool(self._ask("exists", path))
@@ -242,6 +254,13 @@ def _entries(directory: str, starts: Sequence[str]) -> list[str]:
     return [name for name in names if name.upper().startswith((*starts,))] if starts else names
 
 
+def _directories_with(directory: str, name: str, most: int) -> list[str]:
+    directories = _names(directory)[1]
+    if len(directories) > most:
+        return []
+    return [item for item in directories if os.path.isfile(os.path.join(directory, item, name))]
+
+
 def _digest_of(*names: list[str]) -> str:
     # No name holds these two characters.
     return digest("/".join("\0".join(kind) for kind in names).encode("utf-8", "surrogateescape"))
@@ -315,5 +334,9 @@ _ANSWERS: dict[str, Callable[[str], Answer]] = {
 
 
 def _answer(kind: str, path: str) -> Answer:
-    name, *starts = kind.split(" ")
-    return _digest_of(_entries(path, starts)) if name == "entries" else _ANSWERS[name](path)
+    name, *words = kind.split(" ")
+    if name == "entries":
+        return _digest_of(_entries(path, words))
+    if name == "with":
+        return _digest_of(_directories_with(path, words[0], int(words[1])))
+    return _ANSWERS[name](path)

@@ -125,13 +125,9 @@ def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
 
 def packages_in(disk: Disk, directory: str, *, most: int) -> list[str]:
     """Return the packages side by side in a directory, none if it has too many directories."""
-    names = disk.names(directory)[1]
+    names = disk.directories_with(directory, MANIFEST, most)
     paths = [os.path.join(directory, name) for name in names if not name.startswith(".")]
-    return [
-        path
-        for path in (paths if len(paths) <= most else ())
-        if disk.is_file(os.path.join(path, MANIFEST)) and _is_visible(disk, path)
-    ]
+    return [path for path in paths if _is_visible(disk, path)]
 
 
 def repository_around(disk: Disk, directory: str) -> str | None:

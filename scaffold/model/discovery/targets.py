@@ -156,7 +156,7 @@ def _surroundings(
     """Return the packages next to those given, unless the whole workspace was given.
 
     Without a directory ``src``, the workspace is what lies side by side with a package, in the git
-    repository around it, and below the current directory.
+    repository around it, and in the current directory. More is not searched: it may be a home.
 
     Args:
         disk: Records what was accessed.
@@ -178,7 +178,7 @@ def _surroundings(
             continue
         beside.append(os.path.dirname(item))
         if item.startswith(os.path.join(current, "")):
-            sources.append(current)
+            beside.append(current)
         sources += filter(None, [colcon.repository_around(disk, item)])
 
     def open_(directories: list[str]) -> list[str]:

@@ -147,14 +147,23 @@ def test_packages_side_by_side_without_a_workspace(repository: Path) -> None:
     assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
 
 
-def test_packages_below_the_current_directory(
+def test_packages_in_the_current_directory(
     repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(repository)
-    names = ["bringup", "driver", "more", "msgs"]
-    assert one(repository / "robot/bringup").workspace.names == names
-    monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 4)
-    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
+    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver", "msgs"]
+    monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 3)
+    assert one(repository / "robot/bringup").workspace.names == ["bringup", "msgs"]
+
+
+def test_other_files_next_to_a_package_change_no_verdict(repository: Path) -> None:
+    package = one(repository / "robot/bringup")
+    assert package.workspace.get("driver") is not None
+    (repository / "robot" / "notes").mkdir()
+    (repository / "robot" / "notes.txt").touch()
+    assert holds(package.outside.seen)
+    write(repository, {"robot/new/package.xml": MANIFEST.format(name="new", needs="launch")})
+    assert not holds(package.outside.seen)
 
 
 def test_packages_of_one_repository(repository: Path) -> None:
