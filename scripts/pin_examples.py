@@ -15,13 +15,23 @@ from scaffold.check import registry
 from scaffold.check.examples import reports
 from scaffold.check.rule import Example, Report, Rule
 from scaffold.configuration import content
+from scaffold.errors import ScaffoldError
 
 WIDTH = 100
 INDENT = " " * 12
 
 
 def main(prefixes: Sequence[str]) -> int:
-    """Rewrite the chosen rule files and list those that changed."""
+    """Rewrite the chosen rule files and list those that changed; return the exit status."""
+    try:
+        _pin(prefixes)
+    except ScaffoldError as error:
+        sys.stderr.write(f"error: {error}\n")
+        return 1
+    return 0
+
+
+def _pin(prefixes: Sequence[str]) -> None:
     for rule in registry.load(content.roots("rules")):
         if not prefixes or rule.code.startswith(tuple(prefixes)):
             path = Path(str(sys.modules[rule.__module__].__file__))
@@ -30,7 +40,6 @@ def main(prefixes: Sequence[str]) -> int:
             if after != before:
                 path.write_text(after, encoding="utf-8")
                 sys.stdout.write(f"{rule.code} {path.name}\n")
-    return 0
 
 
 def _pinned(rule: type[Rule], text: str) -> str:

@@ -8,6 +8,7 @@ from scaffold.check import runner
 from scaffold.check.rule import Example, Report, Rule
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Safety
+from scaffold.errors import ContentError
 from scaffold.files.tree import MemoryTree
 from scaffold.model.package import Package
 from scaffold.model.workspace.rosdep import RosdepKeys
@@ -29,9 +30,18 @@ def package_of(example: Example) -> Package:
 
 
 def reports(rule: type[Rule], example: Example) -> list[Report]:
-    """Return what a rule reports about an example, in reading order."""
+    """Return what a rule reports about an example, in reading order.
+
+    Raises:
+        ContentError: the rule crashes on the example, or cannot read a file of it.
+    """
     with example.targeting():
-        return [_report(rule, one) for one in runner.check(package_of(example), [rule()])]
+        diagnostics = runner.check(package_of(example), [rule()])
+    for diagnostic in diagnostics:
+        if diagnostic.code != rule.code:
+            where = f"{rule.code}, example {example.title!r}"
+            raise ContentError(f"{where}: {diagnostic.code} {diagnostic.message}")
+    return [_report(rule, diagnostic) for diagnostic in diagnostics]
 
 
 def _report(rule: type[Rule], diagnostic: Diagnostic) -> Report:
