@@ -77,7 +77,7 @@ def suite_of(name: str, cases: Sequence[ET.Element], seconds: float = 0) -> ET.E
     suite = ET.Element("testsuite", name=name, tests=str(len(cases)))
     suite.set("failures", str(sum(case.find("failure") is not None for case in cases)))
     suite.set("errors", str(sum(case.find("error") is not None for case in cases)))
-    suite.set("skipped", "0")
+    suite.set("skipped", str(sum(case.find("skipped") is not None for case in cases)))
     suite.set("time", f"{seconds:.3f}" if seconds else "0")
     suite.extend(cases)
     return suite

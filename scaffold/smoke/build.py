@@ -20,6 +20,8 @@ from scaffold.smoke.result import Build
 _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")
 """What needs a compiler, or is made into something that does."""
 
+_INCLUDES = Path(__file__).with_name("embedded") / "includes.cmake"
+
 _JOB = re.compile(
     r"\[(?P<time>[\d.]+)\] \((?P<name>[^)]*)\) "
     r"Job(?P<what>Queued|Started|Ended|Skipped)(?P<rest>.*)"
@@ -52,6 +54,7 @@ async def build(
     *,
     origin: Origin,
     timeout: float,
+    with_tests: bool = False,
 ) -> dict[str, Build]:
     """Build packages; return what became of each, by name.
 
@@ -64,13 +67,14 @@ async def build(
         scratch: A directory for the output of colcon itself.
         origin: The run that it belongs to.
         timeout: Seconds after which the build is given up.
+        with_tests: Whether tests are built as well.
     """
     deadline = time.monotonic() + timeout
     done: dict[str, Build] = {}
     left = list(packages)
     while left:
         said, exit_code, left_running = await _run(
-            command(environment, left, layout),
+            command(environment, left, layout, with_tests=with_tests),
             variables(environment, scratch),
             scratch / "colcon",
             origin,
@@ -110,7 +114,13 @@ async def _run(
     )
 
 
-def command(environment: Environment, packages: Sequence[Source], layout: Layout) -> list[str]:
+def command(
+    environment: Environment,
+    packages: Sequence[Source],
+    layout: Layout,
+    *,
+    with_tests: bool = False,
+) -> list[str]:
     """Return the command line of colcon."""
     merged = layout.install / ".colcon_install_layout"
     is_merged = merged.is_file() and merged.read_text(encoding="utf-8").strip() == "merged"
@@ -128,7 +138,7 @@ def command(environment: Environment, packages: Sequence[Source], layout: Layout
         *(["--merge-install"] if is_merged else []),
         "--continue-on-error",
         "--cmake-args",
-        "-DBUILD_TESTING=OFF",
+        f"-DBUILD_TESTING={'ON' if with_tests else 'OFF'}",
         *_cmake_arguments(environment, packages),
     ]
 
@@ -153,6 +163,8 @@ def _cmake_arguments(environment: Environment, packages: Sequence[Source]) -> It
         # Their CMake is newer than Jazzy's and would warn of what Jazzy's accepts.
         yield "-DCMAKE_WARN_DEPRECATED=OFF"
     if any(path.endswith(_COMPILED) for package in packages for path in package.files):
+        if environment.kind == "wheels":
+            yield f"-DCMAKE_PROJECT_INCLUDE={_INCLUDES}"
         return
     # `project(name)` asks for two compilers that a package of Python never calls.
     stand_in = shutil.which("true") or "true"

@@ -218,6 +218,40 @@ class Build:
 
 
 @dataclass(frozen=True)
+class TestCase:
+    """A test of a package."""
+
+    name: str
+    outcome: str
+    """``passed``, ``failed`` or ``skipped``."""
+    message: tuple[str, ...] = ()
+    """The first lines of why it failed."""
+
+    __test__ = False  # no test of pytest
+
+
+@dataclass(frozen=True)
+class Tests:
+    """What ``colcon test`` has run of a package."""
+
+    cases: tuple[TestCase, ...] = ()
+    error: str = ""
+    """Why colcon itself did not get to the end."""
+
+    __test__ = False  # likewise
+
+    @property
+    def failed(self) -> tuple[TestCase, ...]:
+        """The tests that failed."""
+        return tuple(case for case in self.cases if case.outcome == "failed")
+
+    @property
+    def ok(self) -> bool:
+        """Tell whether all passed or were skipped."""
+        return not self.failed and not self.error
+
+
+@dataclass(frozen=True)
 class PackageResult:
     """One package."""
 
@@ -228,10 +262,14 @@ class PackageResult:
     """Its package.xml, as the repository knows it."""
     is_dependency: bool = False
     """It was built for others, and not run."""
+    tests: Tests | None = None
+    """``None`` if they were not run."""
 
     @property
     def ok(self) -> bool:
         """Tell whether it was built and all its executables are as they should be."""
+        if self.tests is not None and not self.tests.ok:
+            return False
         return self.build.ok and all(executable.ok for executable in self.executables)
 
 

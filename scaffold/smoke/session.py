@@ -24,11 +24,12 @@ from scaffold.smoke.cleanup import leftovers
 from scaffold.smoke.cleanup.interruption import Interruption
 from scaffold.smoke.cleanup.leftovers import Run
 from scaffold.smoke.cleanup.workspace_lock import WAIT, locked
+from scaffold.smoke.embedded.interfaces import provide
 from scaffold.smoke.environment import Environment
 from scaffold.smoke.expectation import Expectation, compare, wrong_rates
 from scaffold.smoke.isolation.station import Stations
 from scaffold.smoke.processes import process, supervisor
-from scaffold.smoke.result import Build, Executable, PackageResult, Problem, Smoke
+from scaffold.smoke.result import Build, Executable, PackageResult, Problem, Smoke, Tests
 from scaffold.smoke.run import NodeRun, RunSettings
 from scaffold.smoke.scenario import verdicts
 from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
@@ -65,6 +66,9 @@ class Options:
     run_only: frozenset[str] | None = None
     """The packages whose executables are run; the others are built, as those need them."""
 
+    test: bool = False
+    """Whether the tests of the packages are run as well."""
+
     def runs(self, package: str) -> bool:
         """Tell whether the executables of a package are run."""
         return self.run_only is None or package in self.run_only
@@ -97,6 +101,7 @@ def smoke(
     begun = time.monotonic()
     stated = {source.name: _scenarios(source) for source in sources}
     interruption = interruption or Interruption()
+    tell = announce or (lambda _: None)
     with ExitStack() as stack:
         stack.enter_context(interruption)
         stack.enter_context(interruption.later())
@@ -104,14 +109,13 @@ def smoke(
         with interruption.at_once():
             leftovers.sweep()
             if options.workspace is not None:
-                tell = announce or (lambda _: None)
                 stack.enter_context(locked(options.workspace, options.workspace_wait, tell))
         run = stack.enter_context(leftovers.recorded_run(keep=options.keep))
         with interruption.at_once():
             selected = environments.select(
                 os.environ if variables is None else variables, origin=run.origin
             )
-        session = _Session(selected, run, options, progress, stated)
+        session = _Session(selected, run, options, progress, stated, tell)
         packages = interruption.run(lambda: session.run(sources))
         stack.close()
         interruption.check()
@@ -163,7 +167,9 @@ class _Session:
         options: Options,
         progress: Progress | None,
         scenarios: Mapping[str, Mapping[str, Scenario]],
+        announce: Progress,
     ) -> None:
+        self._announce = announce
         self._environment = environment
         self._scenarios = scenarios
         self._scratch = run.scratch
@@ -178,6 +184,7 @@ class _Session:
 
     async def run(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
         try:
+            await self._provide_interfaces(sources)
             builds = await self._build(sources) if sources else {}
             built = [
                 source
@@ -185,6 +192,7 @@ class _Session:
                 if builds[source.name].ok and self._options.runs(source.name)
             ]
             executables = await self._run_all(built) if built else {}
+            tests = await self._test(built) if built and self._options.test else {}
         finally:
             await self._stations.close()
         return tuple(
@@ -194,8 +202,20 @@ class _Session:
                 executables.get(source.name, ()),
                 in_repository(source, MANIFEST),
                 is_dependency=not self._options.runs(source.name),
+                tests=tests.get(source.name),
             )
             for source in sources
+        )
+
+    async def _provide_interfaces(self, sources: Sequence[Source]) -> None:
+        self._environment = await provide(
+            self._environment,
+            sources,
+            self._scratch,
+            origin=self._origin.below("interfaces"),
+            timeout=self._options.build_timeout,
+            tell=self._tell,
+            announce=self._announce,
         )
 
     async def _build(self, sources: Sequence[Source]) -> dict[str, Build]:
@@ -209,6 +229,7 @@ class _Session:
                 self._scratch,
                 origin=self._origin.below("build"),
                 timeout=self._options.build_timeout,
+                with_tests=self._options.test,
             )
         )
         await asyncio.sleep(0)  # the build begins first
@@ -245,6 +266,19 @@ class _Session:
         for (name, _), executable in zip(runs, done, strict=True):
             result.setdefault(name, []).append(executable)
         return {name: tuple(executables) for name, executables in result.items()}
+
+    async def _test(self, built: Sequence[Source]) -> dict[str, Tests]:
+        from scaffold.smoke.testing import run_tests
+
+        self._tell(f"testing {', '.join(source.name for source in built)}")
+        return await run_tests(
+            self._environment,
+            built,
+            self._layout,
+            self._scratch,
+            origin=self._origin.below("test"),
+            timeout=self._options.build_timeout,
+        )
 
     async def _sourced(self) -> dict[str, str]:
         """Return the variables with the built packages in them."""

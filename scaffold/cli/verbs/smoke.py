@@ -54,6 +54,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="REV",
         help="run the packages that differ from a commit of git, and those that depend on them",
     )
+    parser.add_argument(
+        "--test",
+        action="store_true",
+        help="run `colcon test` as well: a test or linter that fails is a problem",
+    )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--output-file",
@@ -154,6 +159,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 keep=options.keep,
                 jobs=options.jobs,
                 run_only=run_only,
+                test=options.test,
             ),
             progress=progress,
             announce=_announce,

@@ -46,6 +46,9 @@ def _annotations(package: PackageResult) -> Iterator[str]:
     if not package.build.ok:
         properties = {"file": package.manifest, "title": f"{package.name} does not build"}
         yield command("error", _plain(properties), _lines(package.build.errors))
+    for case in package.tests.failed if package.tests else ():
+        properties = {"file": package.manifest, "title": f"{package.name}: {case.name} failed"}
+        yield command("error", _plain(properties), _lines(case.message))
     for executable in package.executables:
         title = f"{package.name} {executable.name}"
         properties = {"file": executable.source or package.manifest, "title": title}

@@ -32,6 +32,7 @@ def as_data(result: Smoke) -> dict[str, Any]:
 
 def _package(package: PackageResult) -> dict[str, Any]:
     build = package.build
+    tests = package.tests
     return {
         "name": package.name,
         "dependency": package.is_dependency,
@@ -42,6 +43,16 @@ def _package(package: PackageResult) -> dict[str, Any]:
             "warnings": list(build.warnings),
         },
         "executables": [_executable(executable) for executable in package.executables],
+        "tests": None
+        if tests is None
+        else {
+            "ok": tests.ok,
+            "error": tests.error,
+            "cases": [
+                {"name": case.name, "outcome": case.outcome, "message": "\n".join(case.message)}
+                for case in tests.cases
+            ],
+        },
     }
 
 

@@ -23,6 +23,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
 def _suite(package: PackageResult, *, verbose: bool) -> ET.Element:
     cases = [_build(package)]
     cases += [_executable(package, one, verbose=verbose) for one in package.executables]
+    cases += _tests(package)
     seconds = sum(float(case.get("time", "0")) for case in cases)
     return junit.suite_of(package.name, cases, seconds)
 
@@ -45,6 +46,19 @@ def _executable(package: PackageResult, executable: Executable, *, verbose: bool
     case.set("time", f"{executable.seconds:.3f}")
     ET.SubElement(case, "system-out").text = "\n".join(_seen(executable, verbose=verbose))
     return case
+
+
+def _tests(package: PackageResult) -> Iterator[ET.Element]:
+    if package.tests is None:
+        return
+    if package.tests.error:
+        yield junit.case_of(package.name, "colcon test", [package.tests.error], "error")
+    for item in package.tests.cases:
+        outcome = "failure" if item.outcome == "failed" else ""
+        case = junit.case_of(package.name, f"test {item.name}", item.message, outcome)
+        if item.outcome == "skipped":
+            ET.SubElement(case, "skipped")
+        yield case
 
 
 def _seen(executable: Executable, *, verbose: bool) -> Iterator[str]:

@@ -10,7 +10,7 @@ from typing import TextIO, TypeVar, cast
 from scaffold.printable import printable
 from scaffold.smoke.reports import details
 from scaffold.smoke.reports.details import count
-from scaffold.smoke.result import Executable, PackageResult, Problem, Smoke, Topic
+from scaffold.smoke.result import Executable, PackageResult, Problem, Smoke, Tests, Topic
 from scaffold.smoke.run import ending
 
 _SHOWN_MESSAGES = 2
@@ -89,6 +89,23 @@ def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator
         yield "  no executables"
     for executable in package.executables:
         yield from _indented(_executable(executable, paint, verbose=verbose), 2)
+    if package.tests is not None:
+        yield from _indented(_tests(package.tests, paint), 2)
+
+
+def _tests(tests: Tests, paint: Paint) -> Iterator[str]:
+    failed = len(tests.failed)
+    verdict = paint(f"{failed} failed", _RED) if failed else paint("ok", _GREEN)
+    if tests.error and not failed:
+        verdict = paint("not ok", _RED)
+    if not tests.cases and not tests.error:
+        verdict = "none ran"
+    yield f"{count(len(tests.cases), 'test')}: {verdict}"
+    if tests.error:
+        yield f"  {paint('problem:', _RED)} {tests.error}"
+    for case in tests.failed:
+        yield f"  {paint('failed:', _RED)} {case.name}"
+        yield from _indented(case.message, 6)
 
 
 def _captioned(caption: str, lines: tuple[str, ...]) -> Iterator[str]:
@@ -174,6 +191,8 @@ def summary(result: Smoke, paint: Paint = _plain) -> str:
     bad = [executable.name for executable in executables if not executable.ok]
     parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
     parts += [f"{_listed(bad)} not ok"] if bad else []
+    failed = [item.name for item in result.packages if item.tests and not item.tests.ok]
+    parts += [f"tests of {_listed(failed)} failed"] if failed else []
     return f"{said}: {paint('; '.join(parts), _RED)} {seconds}"
 
 

@@ -1,0 +1,155 @@
+"""Interface packages that the ROS wheels lack: built once, and remembered between runs."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from glob import glob
+from pathlib import Path
+
+from scaffold.files import home
+from scaffold.model.package import Package
+from scaffold.programs import installation
+from scaffold.smoke.build import Layout, build
+from scaffold.smoke.embedded.sources import Bundle
+from scaffold.smoke.environment import Environment
+from scaffold.smoke.processes.process import Origin
+from scaffold.smoke.result import Build
+from scaffold.smoke.selection import needed_by
+
+PLACE = "interfaces"
+"""Below the cache; a directory for each environment, and in it one for each package."""
+
+_GENERATOR = "share/rosidl_generator_py/package.xml"
+_INTERFACES = (".msg", ".srv", ".action", ".idl")
+_COMPILERS = ("c++", "g++", "clang++")
+
+
+async def provide(
+    environment: Environment,
+    packages: Sequence[Package],
+    scratch: Path,
+    *,
+    origin: Origin,
+    timeout: float,
+    tell: Callable[[str], None],
+    announce: Callable[[str], None],
+) -> Environment:
+    """Return an environment that also has the interfaces that packages need, if they can be had.
+
+    Args:
+        environment: The one of the ROS wheels; others are complete, and returned as they are.
+        packages: Those to build.
+        scratch: The directory of the run.
+        origin: The run that it belongs to.
+        timeout: Seconds for the build.
+        tell: Called with what is going on.
+        announce: Called with what cannot be had, and why.
+    """
+    if environment.kind != "wheels":
+        return environment
+    bundle = Bundle()
+    own = {package.name for package in packages}
+    needed = {name for package in packages for name in needed_by(package)} - own
+    missing = bundle.closure(needed, [*own, *_packages_in(environment.prefix)])
+    if not missing:
+        return environment
+    complete = any(path.endswith(_INTERFACES) for package in packages for path in package.files)
+    place = _place(environment, bundle, complete=complete)
+    remembered = [] if place is None else [name for name in missing if (place / name).is_dir()]
+    begun = place or scratch / PLACE
+    ready = with_prefixes(environment, [begun / name for name in remembered])
+    new = [name for name in missing if name not in remembered]
+    if not new:
+        return ready
+    reason = _obstacle(environment)
+    if reason:
+        announce(f"{', '.join(new)}: not among the ROS wheels, and not built: {reason}")
+        return ready
+    tell(f"building {', '.join(new)}, which the ROS wheels lack; they are remembered")
+    layout = Layout.below(scratch / PLACE)
+    sources = []
+    for name in new:
+        directory = scratch / PLACE / "src" / name
+        bundle.write(name, directory, complete=complete)
+        sources.append(Package.at(str(directory)))
+    builds = await build(ready, sources, layout, scratch, origin=origin, timeout=timeout)
+    for line in _failures(builds):
+        announce(line)
+    built = [name for name in new if builds[name].ok]
+    prefixes = [_kept(layout.install / name, place) for name in built]
+    return with_prefixes(ready, prefixes)
+
+
+def with_prefixes(environment: Environment, prefixes: Sequence[Path]) -> Environment:
+    """Return an environment that finds what is in prefixes: definitions, modules and libraries."""
+    variables = dict(environment.variables)
+    for prefix in prefixes:
+        _prepend(variables, "AMENT_PREFIX_PATH", str(prefix))
+        _prepend(variables, "LD_LIBRARY_PATH", str(prefix / "lib"))
+        for modules in glob(f"{prefix}/lib/python3*/site-packages"):
+            _prepend(variables, "PYTHONPATH", modules)
+    return replace(environment, variables=variables)
+
+
+def _prepend(variables: dict[str, str], name: str, path: str) -> None:
+    variables[name] = os.pathsep.join(filter(None, (path, variables.get(name))))
+
+
+def _packages_in(prefix: str) -> list[str]:
+    index = os.path.join(prefix, "share/ament_index/resource_index/packages")
+    return os.listdir(index) if os.path.isdir(index) else []
+
+
+def _place(environment: Environment, bundle: Bundle, *, complete: bool) -> Path | None:
+    """Return where packages are remembered; ``None`` without a home directory."""
+    cache = home.cache()
+    if cache is None:
+        return None
+    digest = hashlib.sha256(bundle.content + bytes([complete]))
+    for path in (environment.python, os.path.join(environment.prefix, _GENERATOR)):
+        with suppress(OSError):
+            status = os.stat(path)
+            digest.update(f"{os.path.realpath(path)} {status.st_mtime_ns}\n".encode())
+    return Path(cache, PLACE, digest.hexdigest()[:16])
+
+
+def _obstacle(environment: Environment) -> str:
+    if not os.path.exists(os.path.join(environment.prefix, _GENERATOR)):
+        return f"the generators are missing; run: {installation.command('ros')}"
+    path = environment.variables.get("PATH")
+    has_compiler = environment.variables.get("CXX") or any(
+        shutil.which(name, path=path) for name in _COMPILERS
+    )
+    return "" if has_compiler else "there is no C++ compiler; run: sudo apt install g++"
+
+
+def _failures(builds: Mapping[str, Build]) -> Iterator[str]:
+    for name, outcome in builds.items():
+        if not outcome.ok:
+            last = outcome.errors[-1] if outcome.errors else "no message"
+            yield f"{name}: not among the ROS wheels, and cannot be built: {last}"
+
+
+def _kept(built: Path, place: Path | None) -> Path:
+    """Move a package to where it is remembered; return where it is."""
+    if place is None:
+        return built
+    kept = place / built.name
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+        aside = tempfile.mkdtemp(dir=place, prefix=".new-")
+    except OSError:
+        return built
+    try:
+        shutil.copytree(built, aside, symlinks=True, dirs_exist_ok=True)
+        os.chmod(aside, 0o755)  # noqa: S103  as colcon makes it
+        os.rename(aside, kept)
+    except OSError:
+        shutil.rmtree(aside, ignore_errors=True)  # another run was first, or the disk is full
+    return kept if kept.is_dir() else built
