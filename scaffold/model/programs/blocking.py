@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.package import mentions
@@ -56,20 +56,27 @@ def blocks_node(file: RclpyFile, executed: Executed) -> bool:
     return blocks_others(file, executed.entity)
 
 
-def in_callbacks(file: RclpyFile) -> Iterator[Executed]:
-    """Yield the functions that callbacks of timers, topics and services run, each once."""
-    yield from _run_by(file, (Timer, Subscription, Synchronizer, Service))
+def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
+    """Return the functions that callbacks of timers, topics and services run, each once."""
+    return _run_by(file, (Timer, Subscription, Synchronizer, Service))
 
 
-def in_goal_callbacks(file: RclpyFile) -> Iterator[Executed]:
-    """Yield the functions that the callbacks of action servers run to work on goals, each once.
+def in_goal_callbacks(file: RclpyFile) -> Sequence[Executed]:
+    """Return the functions that the callbacks of action servers run to work on goals, each once.
 
     They belong to no callback group: an executor with many threads runs them next to all others.
     """
-    yield from _run_by(file, (ActionServer,))
+    return _run_by(file, (ActionServer,))
 
 
-def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Executed]:
+def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Sequence[Executed]:
+    if kinds not in file.executed:
+        file.executed[kinds] = tuple(_find_run_by(file, kinds))
+    found: Sequence[Executed] = file.executed[kinds]
+    return found
+
+
+def _find_run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Executed]:
     seen: set[ast.AST] = set()
     for entity, callback in file.callbacks:
         function = callback.function
@@ -83,8 +90,15 @@ def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Execut
                 yield Executed(reached, origin, entity)
 
 
-def in_constructors(file: RclpyFile) -> Iterator[Executed]:
-    """Yield the functions that constructors of nodes run, each once."""
+def in_constructors(file: RclpyFile) -> Sequence[Executed]:
+    """Return the functions that constructors of nodes run, each once."""
+    if "constructors" not in file.executed:
+        file.executed["constructors"] = tuple(_find_in_constructors(file))
+    found: Sequence[Executed] = file.executed["constructors"]
+    return found
+
+
+def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:
     seen: set[ast.AST] = set()
     for node in file.classes:
         for reached in file.reached(node.constructor, seen) if node.constructor else ():

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from scaffold.model import reads
 from scaffold.model.python.module import PythonModule, is_in_tests
@@ -122,6 +122,8 @@ class RclpyFile:
         """Kept by `api.class_of`."""
         self.thread_facts: dict[str, bool] = {}
         """Kept by `programs.threads`."""
+        self.executed: dict[object, Any] = {}
+        """Kept by `programs.blocking`."""
         self._creation = Creation(self)
         self._owners: dict[ast.expr, NodeDefinition | None] = {}
         self._callbacks: dict[ast.expr, Callback] = {}
