@@ -10,7 +10,7 @@ from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import GOAL_HANDLE, ActionServer, RclpyFile, class_of
 
-_WAITING = frozenset({"sleep", "wait", "join", "sleep_for", "sleep_until"})
+_WAITING = frozenset({"sleep", "wait", "sleep_for", "sleep_until"})
 _NODE = (
     "import time\n\nfrom example_interfaces.action import Fibonacci\nimport rclpy\n"
     "from rclpy.action import ActionServer, CancelResponse\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_callbacks
 from scaffold.api.python import FunctionNode, conditions_on
 from scaffold.api.rclpy import RclpyFile, Service
@@ -48,6 +48,7 @@ class MadeInCallback(RclpyRule):
 
     code = "ND124"
     name = "made-in-callback"
+    other_severities = {Severity.WARNING: "it is kept, or a client"}
     examples = (
         Example("once", {"talker.py": _NODE.format("        self.timer.cancel()\n")}),
         Example(
@@ -57,6 +58,16 @@ class MadeInCallback(RclpyRule):
                 "11:21",
                 "callback 'tick' makes a publisher each time: what it publishes at "
                 "once reaches nobody; make it in the constructor",
+            ),
+        ),
+        Example(
+            "each time, and kept",
+            {"talker.py": _NODE.format("").replace("        publisher", "        self.publisher")},
+            Report(
+                "11:26",
+                "callback 'tick' makes a publisher each time: what it publishes at "
+                "once reaches nobody; make it in the constructor",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -86,7 +97,9 @@ class MadeInCallback(RclpyRule):
                     f"{executed.origin} makes {what} each time: {happens}; make it in the "
                     "constructor"
                 )
-                yield self.report(file.module.location(call), message)
+                _, variable = file.stored_in(call)
+                severity = None if variable and what in _USES else Severity.WARNING
+                yield self.report(file.module.location(call), message, severity=severity)
 
 
 def _name(call: ast.Call) -> str:

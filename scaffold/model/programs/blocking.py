@@ -72,8 +72,8 @@ def in_goal_callbacks(file: RclpyFile) -> Sequence[Executed]:
 def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Sequence[Executed]:
     if kinds not in file.executed:
         file.executed[kinds] = tuple(_find_run_by(file, kinds))
-    found: Sequence[Executed] = file.executed[kinds]
-    return found
+    functions: Sequence[Executed] = file.executed[kinds]
+    return functions
 
 
 def _find_run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Executed]:
@@ -94,8 +94,8 @@ def in_constructors(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions that constructors of nodes run, each once."""
     if "constructors" not in file.executed:
         file.executed["constructors"] = tuple(_find_in_constructors(file))
-    found: Sequence[Executed] = file.executed["constructors"]
-    return found
+    functions: Sequence[Executed] = file.executed["constructors"]
+    return functions
 
 
 def _find_in_constructors(file: RclpyFile) -> Iterator[Executed]:

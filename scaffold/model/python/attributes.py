@@ -180,8 +180,8 @@ class AttributeEvaluator(Evaluator):
             values = self.values(node)
         if not values or depth > _DEEPEST:
             return (node,)
-        found = [item for value in values for item in self.origins(value, depth + 1)]
-        return list(dict.fromkeys(found))
+        sources = [item for value in values for item in self.origins(value, depth + 1)]
+        return list(dict.fromkeys(sources))
 
     def _follow(self, node: ast.expr) -> ast.expr:
         for _ in range(10):

@@ -51,8 +51,8 @@ def _clock_of(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
     function = file.callback(node.func).function
     if isinstance(function, ast.FunctionDef) and not function.decorator_list:
         values = [statement.value for statement in returned(function)]
-        found = [_only(clocks_of(file, x, depth + 1)) if x else None for x in values]
-        return found[0] if found and len({*found}) == 1 else None
+        kinds = [_only(clocks_of(file, x, depth + 1)) if x else None for x in values]
+        return kinds[0] if kinds and len({*kinds}) == 1 else None
     return None
 
 
