@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from scaffold.model.interfaces.sources import BUNDLE, BundleSource, KnownPackage
+from scaffold import distributions
+from scaffold.model.interfaces.sources import BundleSource, KnownPackage
 from scaffold.model.interfaces.syntax import SECTIONS
 
 _ALL_GENERATORS = ("rosidl_default_generators",)
@@ -57,7 +58,7 @@ class Bundle:
     @property
     def content(self) -> bytes:
         """All of it, to tell whether it has changed."""
-        return Path(BUNDLE).read_bytes()
+        return Path(distributions.target().path("interfaces.txt")).read_bytes()
 
     def closure(self, names: Iterable[str], available: Iterable[str]) -> list[str]:
         """Return the packages that have to be built for some to be there, sorted.
