@@ -157,5 +157,5 @@ def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
     if isinstance(node, ast.Name):
         bound = file.module.index.lookup(node.id, node)
         if bound is not None and len(bound[1]) > 1:
-            return f"{node.id} in line {node.lineno}, column {node.col_offset}"
+            return f"{node.id}@{node.lineno}:{node.col_offset}"
     return ast.unparse(file.evaluator.single_value(node))

@@ -79,6 +79,18 @@ class RateAsPeriod(RclpyRule):
             ),
         ),
         Example(
+            "a period for a Rate",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\n"
+                "class Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talker')\n"
+                "        period = 0.1\n"
+                "        self.rate = self.create_rate(period)\n"
+            },
+            Report("8:38", "a period where the rate belongs; write 1.0 / period"),
+        ),
+        Example(
             "a period that is called a rate",
             {"talker.py": _NODE.format("rate").replace("'rate', 20.0", "'rate', 0.05")},
         ),

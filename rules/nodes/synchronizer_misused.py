@@ -57,6 +57,22 @@ class SynchronizerMisused(MessageRule):
             ),
         ),
         Example(
+            "a filter that nobody reads",
+            {
+                "viewer.py": "from message_filters import Subscriber\n"
+                "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
+                "class Viewer(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('viewer')\n"
+                "        self.image = Subscriber(self, Image, 'image')\n"
+            },
+            Report(
+                "9:22",
+                "no callback is registered, and no synchronizer gets this filter: "
+                "its messages are dropped; call registerCallback()",
+            ),
+        ),
+        Example(
             "messages without a header",
             {"viewer.py": _NODE.format("String", "10, 0.1", _REGISTER)},
             Report(

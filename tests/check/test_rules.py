@@ -123,7 +123,8 @@ def _lines_executed(rule: type[Rule]) -> set[int]:
     sys.settrace(trace)
     try:
         for example in rule.examples:
-            runner.check(package_of(example), [rule()])
+            with example.targeting():
+                runner.check(package_of(example), [rule()])
     finally:
         sys.settrace(before)
     return executed
