@@ -46,6 +46,7 @@ COMMON_FILES = {
     "package.xml",
     "talker/__init__.py",
     "talker/minimal_publisher.py",
+    "test/conftest.py",
     "test/test_minimal_publisher.py",
 }
 FILES = {
@@ -814,6 +815,7 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
                 __init__.py                makes the directory a Python package
                 minimal_publisher.py       the node
             test/
+                conftest.py                what the tests of all nodes share
                 test_minimal_publisher.py  starts the node, receives messages, stops it
 
         Next:

@@ -28,6 +28,10 @@ from scaffold.model.launch.files import launch_files
 from scaffold.model.package import Package
 
 _TESTS = "test"
+_FIXTURES = "conftest.py"
+"""What the tests of nodes share."""
+_OWN_TESTS = "nodes"
+"""The directory for tests where fixtures of the package's own are in the way."""
 EXTRAS = "extras"
 """The question for extras."""
 LAUNCH = "launch/"
@@ -107,11 +111,38 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
     part = {parts.KIND: wanted.template.name, "name": wanted.name}
     composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
     composed.context["is_added"] = True
-    rendered = _rendered(target, composed, _only(composed, PARTS), layout)
+    scopes = _only(composed, PARTS)
+    rendered = _rendered(target, composed, scopes, layout)
+    if _is_foreign(target.package, old, f"{layout.tests}/{_FIXTURES}", rendered):
+        layout = layout._replace(tests=f"{layout.tests}/{_OWN_TESTS}")
+        rendered = _rendered(target, composed, scopes, layout)
+    rendered = _without_existing_fixtures(target.package, rendered, layout)
     addition = _of_part(target, composed, layout, rendered)
     if wanted.launch:
         addition = addition._replace(launch=_launch_file(target.package, wanted.launch))
     return Piece(wanted.template, composed, rendered, addition)
+
+
+def _is_foreign(package: Package, old: Provenance | None, path: str, rendered: Rendered) -> bool:
+    """Tell whether a package has fixtures of its own where those of a part would be."""
+    if path not in rendered.files or not package.has(path):
+        return False
+    is_ours = old is not None and path in old.rendered
+    return not is_ours and _body(package.source(path).text) != _body(rendered.files[path])
+
+
+def _without_existing_fixtures(package: Package, rendered: Rendered, layout: Layout) -> Rendered:
+    """Leave out the fixtures if the package has them already, under whatever license."""
+    path = f"{layout.tests}/{_FIXTURES}"
+    if not package.has(path):
+        return rendered
+    files = {name: text for name, text in rendered.files.items() if name != path}
+    return rendered._replace(files=files)
+
+
+def _body(text: str) -> str:
+    """Return a Python file without the header of its license."""
+    return text[text.find('"""') :]
 
 
 def _launch_file(package: Package, given: str) -> str:

@@ -15,6 +15,10 @@ from scaffold.generate.questions.names import header_name
 from scaffold.record import NamedTuple
 
 
+_PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
+"""An assignment of the usual time from one message to the next."""
+
+
 class Payload(NamedTuple):
     """How a node fills one message and how its test judges it."""
 
@@ -72,6 +76,16 @@ class Payload(NamedTuple):
     def requested(self, topic: str) -> str:
         """Return the usual quality of service of who subscribes to them on a topic."""
         return conventions.of_topic(self.type, topic).requested
+
+    @property
+    def period(self) -> str:
+        """The field with the time from one message to the next; empty if there is none."""
+        fields = [match[2] for line in self.statements if (match := _PERIOD.match(line))]
+        return fields[0] if fields else ""
+
+    def statements_at(self, rate: str) -> list[str]:
+        """Return the statements of a node that publishes at a rate, an expression."""
+        return [_PERIOD.sub(rf"\1 = 1.0 / {rate}", line) for line in self.statements]
 
     @property
     def effects(self) -> Effects:
@@ -137,6 +151,16 @@ class SectionPayload(NamedTuple):
     def check_imports(self) -> tuple[str, ...]:
         """Import statements that the checks need, except the one of the interface."""
         return _needed(self.imports, self.checks)
+
+    @property
+    def period(self) -> str:
+        """The field with the time from one message to the next; empty if there is none."""
+        fields = [match[2] for line in self.statements if (match := _PERIOD.match(line))]
+        return fields[0] if fields else ""
+
+    def statements_at(self, rate: str) -> list[str]:
+        """Return the statements of a node that publishes at a rate, an expression."""
+        return [_PERIOD.sub(rf"\1 = 1.0 / {rate}", line) for line in self.statements]
 
     @property
     def effects(self) -> Effects:

@@ -319,6 +319,35 @@ def test_a_node_joins_the_readme_above_the_programs(tmp_path: Path) -> None:
 # -- packages of others
 
 
+# -- fixtures that tests share
+
+
+def test_the_tests_of_all_nodes_share_their_fixtures(demo: Path) -> None:
+    assert add(demo, "publisher", "talker") == 0
+    fixtures = (demo / "test" / "conftest.py").read_text()
+    assert add(demo, "timer", "ticker", "--copyright-holder", "Somebody Else") == 0
+    assert (demo / "test" / "conftest.py").read_text() == fixtures
+    assert "Somebody Else" in (demo / "test" / "test_ticker.py").read_text()
+    assert "def run(" not in (demo / "test" / "test_ticker.py").read_text()
+
+
+def test_fixtures_of_the_package_stay_as_they_are(demo: Path) -> None:
+    own = "import pytest\n\n\n@pytest.fixture\ndef run():\n    return None\n"
+    write(demo, {"test/conftest.py": own})
+    for _ in range(2):
+        assert add(demo, "publisher", "talker") == 0
+        assert add(demo, "timer", "ticker") == 0
+        assert (demo / "test" / "conftest.py").read_text() == own
+        assert {file.name for file in (demo / "test" / "nodes").iterdir()} == {
+            "conftest.py",
+            "test_talker.py",
+            "test_ticker.py",
+        }
+    if (demo / "CMakeLists.txt").exists():
+        assert "test_talker test/nodes/test_talker.py" in (demo / "CMakeLists.txt").read_text()
+
+
+
 def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = read(demo)
     assert add(demo, "publisher", "talker", "--diff") == 0
