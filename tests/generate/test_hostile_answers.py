@@ -595,6 +595,11 @@ ADDRESSES = (
     ),
 )
 
+FRAMES = (
+    *("base_link", "map", "robot_1/base_link", "A", "_", "f" * 40, "true", "null", "on"),
+    *("", "/", "/map", "map/", "a//b", "1a", "a b", "a-b", "ä", "f" * 41, "a\n", "{{ a }}", "a'b"),
+)
+
 POOLS: dict[str, tuple[Any, ...]] = {
     "text": TEXTS,
     "person": PERSONS,
@@ -606,6 +611,7 @@ POOLS: dict[str, tuple[Any, ...]] = {
     "topic": TOPICS,
     "service_name": TOPICS,
     "action_name": TOPICS,
+    "frame": FRAMES,
     "message": MESSAGES,
     "service": SERVICES,
     "action": ACTIONS,

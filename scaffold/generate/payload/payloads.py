@@ -14,7 +14,6 @@ from scaffold.generate.payload.processing import Process
 from scaffold.generate.questions.names import header_name
 from scaffold.record import NamedTuple
 
-
 _PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
 """An assignment of the usual time from one message to the next."""
 

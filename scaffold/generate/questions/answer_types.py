@@ -215,6 +215,7 @@ TYPES: Mapping[str, Callable[[object, str], object]] = {
     "node": _anywhere(lambda given: names.node_name(_string(given))),
     "topic": _anywhere(lambda given: names.topic(_string(given))),
     "service_name": _anywhere(lambda given: names.topic(_string(given), "service")),
+    "frame": _anywhere(lambda given: names.frame(_string(given))),
     "action_name": _anywhere(lambda given: names.topic(_string(given), "action")),
     "interface": _anywhere(lambda given: names.interface_name(_string(given))),
     "program": _anywhere(lambda given: names.program_name(_string(given))),

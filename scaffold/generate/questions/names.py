@@ -17,6 +17,8 @@ MAX_LENGTH = 48
 """Characters of a package or a node: a CMake line with two of them has its limit at 140."""
 MAX_TOPIC = 64
 """Limit on a fully qualified topic, which is on one line with its type."""
+MAX_FRAME = 40
+"""Limit on a coordinate frame, which is on one line with its parameter."""
 
 _NAME = r"[a-z][a-z0-9]*(_[a-z0-9]+)*"
 _CMAKE_TARGETS = frozenset(
@@ -196,6 +198,26 @@ def topic(text: str, what: str = "topic") -> str:
         raise InputError(f"the {what} {text!r} has two underscores in a row, which ROS reserves")
     if resolve(text, "node") in _RESERVED_TOPICS:
         raise InputError(f"the {what} {text!r} is used by ROS itself")
+    return text
+
+
+def frame(text: str) -> str:
+    """Return the name of a coordinate frame.
+
+    Raises:
+        InputError: tf2 refuses it, or no tool could name it.
+    """
+    if len(text) > MAX_FRAME:
+        raise InputError(
+            f"the frame {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_FRAME}"
+        )
+    if text.startswith("/"):
+        raise InputError(f"the frame {text!r} starts with '/', which tf2 refuses")
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*", text):
+        raise InputError(
+            f"the frame {text!r} must be words of letters, digits and underscores joined by '/', "
+            "the first not starting with a digit, such as base_link"
+        )
     return text
 
 

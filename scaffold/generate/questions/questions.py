@@ -289,7 +289,7 @@ def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: A
         chosen = (choose(word, question.choices, given.origin) for word in _words(given.value))
         return tuple(dict.fromkeys(chosen))
     if question.choices:
-        return choose(given.value, question.choices, given.origin)
+        given = given._replace(value=choose(given.value, question.choices, given.origin))
     try:
         return TYPES[question.type](given.value, where)
     except InputError as error:

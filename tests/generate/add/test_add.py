@@ -347,7 +347,6 @@ def test_fixtures_of_the_package_stay_as_they_are(demo: Path) -> None:
         assert "test_talker test/nodes/test_talker.py" in (demo / "CMakeLists.txt").read_text()
 
 
-
 def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = read(demo)
     assert add(demo, "publisher", "talker", "--diff") == 0
