@@ -154,7 +154,7 @@ def compose(
     comments = _answer("comments", asked, given)
     renderer = Renderer(roots, templates, is_tutorial=comments == "tutorial")
     existing = existing or Existing()
-    settled = {**existing.answers, "contents": parts.contents(order.requests)}
+    settled = {**existing.answers, "contents": _contents(order)}
     answers = questions.resolve(
         [question for question in asked if question.name not in settled],
         given,
@@ -177,6 +177,14 @@ def compose(
         context,
         renderer,
         {**_without(answers.written, "node_kind"), parts.ADD: written},
+    )
+
+
+def _contents(order: Order) -> str:
+    """Return in words what is in a package: its parts, or the extras that it consists of."""
+    alone = [layer.summary for layer in order.layers if layer.is_alone]
+    return parts.contents(order.requests) or " and ".join(
+        f"{summary[0].lower()}{summary[1:]}" for summary in alone
     )
 
 
@@ -217,12 +225,20 @@ def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Ord
     """
     base = templates[BASE]
     build = _template("build_type", Role.BUILD_TYPE, templates, given)
-    wanted = _requests(templates, given)
     extras = [templates[name] for name in _several("extras", base.questions, given)]
+    is_whole = any(extra.is_alone for extra in extras) and not any(
+        extra.needs_nodes for extra in extras
+    )
+    has_parts = parts.ADD in given or bool(_NODE & given.keys())
+    wanted = _requests(templates, given) if has_parts or not is_whole else []
     for extra in extras:
         parts.refuse_build_type(extra, build.name)
     kinds = {request.template.name: request.template for request in wanted}
     return Order([base, build, *kinds.values(), *extras], wanted)
+
+
+_NODE = frozenset({"node_kind", "node_name"})
+"""The questions for the only node of a package."""
 
 
 def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> list[Request]:
@@ -231,7 +247,7 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
         node = _template("node_kind", Role.NODE, templates, given)
         name = node.name_question
         return [Request(node, {name: given[name]} if name in given else {}, "--node-kind")]
-    for name in ("node_kind", "node_name"):
+    for name in sorted(_NODE):
         if name in given and given[name].origin.startswith("--"):
             raise InputError(
                 f"{given[name].origin}: does not apply with {questions.flag(parts.ADD)}"

@@ -84,7 +84,7 @@ def test_changed_and_new_files_are_reported(
         assert note.endswith(
             ": 2 changed files; 1 older finding in other files hidden, 1 in files that git ignores"
         )
-        assert summary.startswith("1 package, 14 files for Jazzy: ")
+        assert summary.startswith("1 package, 15 files for Jazzy: ")
     (workspace / "third" / "third" / "old.py").write_text(f"{OLD}import re\n")
     code, lines = check(capsys, "HEAD", "--select", "F")
     assert [line.split(": ")[0] for line in lines[:-2]] == [

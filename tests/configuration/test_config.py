@@ -70,7 +70,7 @@ def test_pyproject_configures_like_a_file_of_its_own(
     (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
     assert check(capsys, "talker")[0] == 1
     (workspace / "pyproject.toml").write_text('[tool.ros2-scaffold.check]\nselect = ["CM"]\n')
-    assert check(capsys, "talker") == (0, "1 package, 12 files for Jazzy: no findings\n")
+    assert check(capsys, "talker") == (0, "1 package, 13 files for Jazzy: no findings\n")
     (workspace / "talker" / "pyproject.toml").write_text("[tool.black]\nline-length = 99\n")
     assert check(capsys, "talker")[0] == 0, "a pyproject.toml without the table does not count"
     (workspace / "talker" / "ros2-scaffold.toml").write_text('[check]\nselect = ["F"]\n')
@@ -186,14 +186,14 @@ def test_excluded_packages_and_files_are_left_out_and_counted(
     assert code == 1
     assert [line.split()[0] for line in findings] == ["listener/listener/extra.py:1:1:"]
     assert note == "excluded by ros2-scaffold.toml: 1 package"
-    assert summary.startswith("1 package, 12 files for Jazzy: ")
+    assert summary.startswith("1 package, 13 files for Jazzy: ")
     configuration.write_text('[check]\nexclude = ["./third_party/", "listener/*/extra.py"]\n')
     for _ in range(2):
         assert check(capsys, *words) == (
             0,
             """\
 excluded by ros2-scaffold.toml: 1 package, 1 file
-1 package, 11 files for Jazzy: no findings
+1 package, 12 files for Jazzy: no findings
 """,
         )
     code, output = check(capsys, *words, "third_party/talker", "listener/listener/extra.py")

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 import yaml
+from lxml import etree
 
 from scaffold.check import registry
 from scaffold.check.selection import Selection
@@ -218,3 +219,36 @@ def test_the_settings_of_type_checkers_find_the_types(
             node.write_text(text)
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             assert done.returncode == code, done.stdout
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+def test_a_package_may_be_the_description_of_a_robot(build_type: str) -> None:
+    files = make(package="rover_description", build_type=build_type, extras="description")
+    programs = {path for path in files if path.startswith("rover_description/")}
+    assert programs <= {"rover_description/__init__.py"}
+    assert {"launch/description.launch.py", "rviz/robot.rviz"} < set(files)
+    urdf = etree.fromstring(files["urdf/robot.urdf.xacro"].encode())
+    assert urdf.get("name") == "rover"
+
+
+def test_a_launch_file_for_nodes_needs_one_next_to_a_description() -> None:
+    files = make(package="rover", extras=["description", "launch"])
+    assert {"rover/minimal_publisher.py", "launch/rover.launch.py"} < set(files)
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+def test_add_describes_the_robot_of_a_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, build_type: str
+) -> None:
+    new = ["new", "rover", "--build-type", build_type, "--maintainer-name", "Ada"]
+    assert main([*new, "--destination-directory", str(tmp_path)]) == 0
+    monkeypatch.chdir(tmp_path / "rover")
+    assert main(["add", "description"]) == 0
+    assert check(tmp_path / "rover") == []
+    if build_type == "ament_cmake":
+        cmake = (tmp_path / "rover" / "CMakeLists.txt").read_text()
+        assert "ament_add_pytest_test(test_description test/test_description.py" in cmake
+        assert " urdf" in cmake
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    assert main(["add", "description"]) == 0
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before

@@ -216,14 +216,14 @@ class Workspace(NamedTuple):
 
 
 def missing(kind: str) -> list[str]:
-    """Return the libraries that nodes of a kind need and this machine lacks."""
+    """Return the libraries that a template needs and this machine lacks."""
     needed = TEMPLATES[kind].depends.get("exec", ())
     if Path("/opt/ros").exists():
         return []
     return [name for name in needed if "{" not in name and find_spec(name) is None]
 
 
-NOT_INSTALLED = sorted({name for kind in KINDS for name in missing(kind)})
+NOT_INSTALLED = sorted({name for kind in (*KINDS, "description") for name in missing(kind)})
 MORE_KINDS = [{"kind": kind} for kind in KINDS if missing(kind)]
 """They are built, and tested where their libraries are installed."""
 ALL_KINDS = [
@@ -258,9 +258,14 @@ BUILT: Mapping[str, Mapping[str, object]] = {
     "python_int": {"message_type": "std_msgs/UInt8", "license": "BSL-1.0", "rate": 0.5},
     "cmake_kinds": {"add": ALL_KINDS, "comments": "tutorial", "license": "BSD-2-Clause"},
     "python_kinds": {"add": ALL_KINDS, "license": "LGPL-3.0-only"},
+    "cmake_description": {"add": [], "extras": ["description"]},
+    "python_description": {"add": [], "extras": ["description"]},
     **({"cmake_more": {"add": MORE_KINDS}} if MORE_KINDS else {}),
 }
-TESTED = ("cmake_float", "cmake_kinds", "python_bool", "python_kinds")
+TESTED = [
+    *("cmake_float", "cmake_kinds", "python_bool", "python_kinds"),
+    *([] if missing("description") else ["cmake_description", "python_description"]),
+]
 
 
 @pytest.fixture(scope="module")
@@ -283,7 +288,7 @@ def test_colcon_builds_without_a_word_on_stderr(workspace: Workspace) -> None:
     for name in BUILT:
         assert workspace.log("build", name, "stderr.log") == ""
         assert "warning" not in workspace.log("build", name, "stdout_stderr.log").lower()
-        installed = os.listdir(workspace.root / "install" / name / "lib" / name)
+        installed = list((workspace.root / "install" / name / "lib" / name).glob("*"))
         nodes = BUILT[name].get("add")
         assert len(installed) == (len(nodes) if isinstance(nodes, list) else 1)
 
@@ -320,9 +325,10 @@ def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_pa
     assert counts(build / "python_kinds" / "pytest.xml") == (ran + 3, 0)
 
 
-@pytest.mark.skipif(bool(MORE_KINDS), reason=f"not installed: {', '.join(NOT_INSTALLED)}")
+@pytest.mark.skipif(bool(NOT_INSTALLED), reason=f"not installed: {', '.join(NOT_INSTALLED)}")
 def test_the_tests_of_every_kind_are_run() -> None:
     assert not MORE_KINDS
+    assert "cmake_description" in TESTED
 
 
 @pytest.mark.build

@@ -49,7 +49,9 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "action_type": "control_msgs/action/FollowJointTrajectory",
         },
     ]
-    directory = write(root, package="typed_package", add=parts, extras=["launch", "types"])
+    directory = write(
+        root, package="typed_package", add=parts, extras=["description", "launch", "types"]
+    )
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(directory)
         patch.delenv("AMENT_PREFIX_PATH", raising=False)

@@ -98,6 +98,10 @@ class Template(NamedTuple):
     """What the package is a member of, for package.xml."""
     installs: Sequence[str]
     """Directories that are installed to ``share/<package>``."""
+    tests: Sequence[str]
+    """The tests of an extra; those of nodes are known by the names of the nodes."""
+    is_alone: bool
+    """Whether a package may consist of the extra, without any part."""
     include: Mapping[str, str]
     """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
     executable: Sequence[str]
@@ -117,6 +121,11 @@ class Template(NamedTuple):
         return [*reversed(self.overrides), self.directory]
 
     @property
+    def needs_nodes(self) -> bool:
+        """Whether it writes nothing into a package without nodes."""
+        return self.include.get("*") == "nodes"
+
+    @property
     def name_question(self) -> str:
         """The question for the name of a part: ``node_name``, ``interface_name`` ..."""
         return f"{self.role.value}_name"
@@ -132,6 +141,8 @@ _KEYS: Mapping[str, type[Any]] = {
     "depends": dict,
     "groups": list,
     "installs": list,
+    "tests": list,
+    "alone": bool,
     "include": dict,
     "executable": list,
     "repository": list,
@@ -143,13 +154,20 @@ _INNER: Mapping[str, Any] = {
     "depends": list,
     "groups": str,
     "installs": str,
+    "tests": str,
     "include": (str, bool),
     "executable": str,
     "notes": str,
     "examples": dict,
 }
 """The types of what is in a value."""
-_WORDS: Mapping[object, str] = {str: "text", dict: "mapping", list: "list", (str, bool): "text"}
+_WORDS: Mapping[object, str] = {
+    str: "text",
+    dict: "mapping",
+    list: "list",
+    bool: "flag",
+    (str, bool): "text",
+}
 _DEFINITIONS = frozenset({"msg", "srv", "action"})
 _QUESTION_KEYS = frozenset(
     {"type", "help", "default", "choices", "positional", "metavar", "direction"}
@@ -289,6 +307,8 @@ def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]
         depends=manifest.get("depends", {}),
         groups=manifest.get("groups", []),
         installs=manifest.get("installs", []),
+        tests=manifest.get("tests", []),
+        is_alone=manifest.get("alone", False),
         include=manifest.get("include", {}),
         executable=manifest.get("executable", []),
         repository=manifest.get("repository", []),

@@ -68,7 +68,7 @@ def test_the_check_is_clean_afterwards_and_a_second_run_changes_nothing(
     assert main(["check", "--add-noqa"]) == 0
     captured = capsys.readouterr()
     assert captured.err.startswith("noqa added to ")
-    assert captured.out == "1 package, 13 files for Jazzy: no findings\n"
+    assert captured.out == "1 package, 14 files for Jazzy: no findings\n"
     after = {path: path.read_text() for path in before}
     changed = sorted(path.name for path in before if before[path] != after[path])
     assert changed == ["CMakeLists.txt", "extra.py", "other.py", "package.xml"]
