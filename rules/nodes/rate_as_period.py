@@ -78,6 +78,7 @@ class RateAsPeriod(RclpyRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example("one call in 500 seconds", {"talker.py": _NODE.format("1.0 / 0.002")}),
         Example(
             "a period for a Rate",
             {
@@ -117,6 +118,8 @@ class RateAsPeriod(RclpyRule):
                     yield self.report(at, message)
             elif words & _RATES and name == "create_timer" and not words & _PERIODS:
                 yield from self._check_period(file, given, words, number)
+            elif isinstance(given, ast.BinOp) and isinstance(given.op, ast.Div):
+                continue  # a period that follows from a rate may be as long
             elif name == "create_timer" and number is not None and _is_milliseconds(number):
                 message = (
                     f"the period is {number} seconds; write {number / 1000:g} for "

@@ -252,3 +252,28 @@ def test_add_describes_the_robot_of_a_package(
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
     assert main(["add", "description"]) == 0
     assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.parametrize("build_type", BUILD_TYPES)
+@pytest.mark.parametrize("extras", [["launch_test"], ["launch", "launch_test"]])
+def test_a_test_launches_all_nodes_together(build_type: str, extras: list[str]) -> None:
+    add = ["publisher:talker", "subscriber:listener"]
+    files = make(package="duo", build_type=build_type, add=add, extras=extras)
+    text = files["test/test_launch.py"]
+    assert "NODES = {\n    'talker',\n    'listener',\n}\n" in text
+    assert ("'launch', 'duo.launch.py'" in text) is ("launch" in extras)
+    assert ("executable='" in text) is ("launch" not in extras)
+    if build_type == "ament_cmake":
+        assert "ament_add_pytest_test(test_launch test/test_launch.py" in files["CMakeLists.txt"]
+    assert "<test_depend>launch_testing_ros</test_depend>" in files["package.xml"]
+
+
+def test_add_writes_a_test_that_launches_the_nodes_of_a_package(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    new = ["new", "rover", "--maintainer-name", "Ada", "--node-name", "wheels"]
+    assert main([*new, "--destination-directory", str(tmp_path)]) == 0
+    monkeypatch.chdir(tmp_path / "rover")
+    assert main(["add", "launch_test"]) == 0
+    assert check(tmp_path / "rover") == []
+    assert "'wheels'," in (tmp_path / "rover" / "test" / "test_launch.py").read_text()

@@ -50,7 +50,10 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
         },
     ]
     directory = write(
-        root, package="typed_package", add=parts, extras=["description", "launch", "types"]
+        root,
+        package="typed_package",
+        add=parts,
+        extras=["description", "launch", "launch_test", "types"],
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(directory)

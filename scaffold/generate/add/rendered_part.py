@@ -181,8 +181,8 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
             "installs no node that is known"
         )
     addition = _described(composed, template, context, package.name, rendered)
-    if template.tests:
-        addition = addition._replace(test=template.tests[0])
+    tests = filter(None, (composed.renderer.text(text, context) for text in template.tests))
+    addition = addition._replace(test=next(tests, None))
     readme = f"{template.name}/{_OF_README}{ENDING}"
     if composed.renderer.has(readme):
         macro = f"{{% import '{readme}' as readme with context %}}{{{{ readme.run() }}}}"
