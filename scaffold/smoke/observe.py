@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 from scaffold.smoke.expectation import Offer
 from scaffold.smoke.processes import output, process
@@ -46,6 +46,17 @@ _OF_EVERY_NODE = (
 _ACTION_SERVICE = "/_action/send_goal"
 _ACTION_TYPE = "_SendGoal"
 _ACTION = "/_action/"
+
+
+class Watched(Protocol):
+    """What is observed; the observation ends with it."""
+
+    @property
+    def exit_code(self) -> int | None:
+        """``None`` while it runs."""
+
+    async def wait(self) -> None:
+        """Wait for its end."""
 
 
 class ObserverError(Exception):
@@ -129,7 +140,7 @@ class Observer:
         return offer.name + ending in self._services
 
     async def wait_for(
-        self, condition: Callable[[], bool], timeout: float, running: process.Running
+        self, condition: Callable[[], bool], timeout: float, running: Watched
     ) -> bool:
         """Wait until the condition holds after an event, the executable ends, or time is up.
 
@@ -148,11 +159,11 @@ class Observer:
             ended.cancel()
         return True
 
-    async def pause(self, seconds: float, running: process.Running) -> None:
+    async def pause(self, seconds: float, running: Watched) -> None:
         """Go on observing for a while, or until the executable ends."""
         await self.wait_for(lambda: False, seconds, running)
 
-    async def settle(self, seconds: float, timeout: float, running: process.Running) -> None:
+    async def settle(self, seconds: float, timeout: float, running: Watched) -> None:
         """Wait until nothing has been added for a while: then it has made all it needs."""
         deadline = time.monotonic() + timeout
         while running.exit_code is None:
@@ -177,7 +188,7 @@ class Observer:
             rate=stimulus.rate_hz,
         )
 
-    async def call(self, call: Call, timeout: float, running: process.Running) -> Answer:
+    async def call(self, call: Call, timeout: float, running: Watched) -> Answer:
         """Call a service or an action; return its answer.
 
         Raises:

@@ -264,13 +264,20 @@ class PackageResult:
     """It was built for others, and not run."""
     tests: Tests | None = None
     """``None`` if they were not run."""
+    together: Executable | None = None
+    """What came of all executables in one domain; ``None`` if that was not tried."""
+
+    @property
+    def runs(self) -> tuple[Executable, ...]:
+        """The executables, and all of them together."""
+        return (*self.executables, *([self.together] if self.together else []))
 
     @property
     def ok(self) -> bool:
         """Tell whether it was built and all its executables are as they should be."""
         if self.tests is not None and not self.tests.ok:
             return False
-        return self.build.ok and all(executable.ok for executable in self.executables)
+        return self.build.ok and all(executable.ok for executable in self.runs)
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ from scaffold.smoke.scenario import verdicts
 from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
 from scaffold.smoke.scenario.reader import scenarios
 from scaffold.smoke.scenario.verdicts import overridden
+from scaffold.smoke.together import run_together
 
 Result = TypeVar("Result")
 
@@ -68,6 +69,9 @@ class Options:
 
     test: bool = False
     """Whether the tests of the packages are run as well."""
+
+    together: bool = False
+    """Whether all executables of a package are also run in one domain."""
 
     def runs(self, package: str) -> bool:
         """Tell whether the executables of a package are run."""
@@ -170,6 +174,7 @@ class _Session:
         announce: Progress,
     ) -> None:
         self._announce = announce
+        self._plan: RunSettings | None = None
         self._environment = environment
         self._scenarios = scenarios
         self._scratch = run.scratch
@@ -192,6 +197,7 @@ class _Session:
                 if builds[source.name].ok and self._options.runs(source.name)
             ]
             executables = await self._run_all(built) if built else {}
+            together = await self._run_together(built) if self._options.together else {}
             tests = await self._test(built) if built and self._options.test else {}
         finally:
             await self._stations.close()
@@ -203,6 +209,7 @@ class _Session:
                 in_repository(source, MANIFEST),
                 is_dependency=not self._options.runs(source.name),
                 tests=tests.get(source.name),
+                together=together.get(source.name),
             )
             for source in sources
         )
@@ -249,15 +256,7 @@ class _Session:
         return await building
 
     async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
-        plan = RunSettings(
-            variables=await self._sourced(),
-            stations=self._stations,
-            install=self._layout.install,
-            scratch=self._scratch,
-            origin=self._origin,
-            duration=self._options.duration,
-            timeout=self._options.timeout,
-        )
+        plan = await self._settings()
         runs = [
             (source.name, item) for source in sources for item in self._of_package(plan, source)
         ]
@@ -266,6 +265,35 @@ class _Session:
         for (name, _), executable in zip(runs, done, strict=True):
             result.setdefault(name, []).append(executable)
         return {name: tuple(executables) for name, executables in result.items()}
+
+    async def _settings(self) -> RunSettings:
+        if self._plan is None:
+            self._plan = RunSettings(
+                variables=await self._sourced(),
+                stations=self._stations,
+                install=self._layout.install,
+                scratch=self._scratch,
+                origin=self._origin,
+                duration=self._options.duration,
+                timeout=self._options.timeout,
+            )
+        return self._plan
+
+    async def _run_together(self, built: Sequence[Source]) -> dict[str, Executable]:
+        """Run the executables of each package in one domain, if there are several."""
+        plan = await self._settings()
+        result: dict[str, Executable] = {}
+        for source in built:
+            stated = self._scenarios[source.name]
+            paths = [
+                path
+                for path in installed(source.name, plan.variables) or ()
+                if not stated.get(path.name, NOTHING).skip
+            ]
+            if len(paths) > 1:
+                self._tell(f"running all of {source.name} together")
+                result[source.name] = await run_together(plan, source.name, paths, stated)
+        return result
 
     async def _test(self, built: Sequence[Source]) -> dict[str, Tests]:
         from scaffold.smoke.testing import run_tests

@@ -123,7 +123,7 @@ def test_good_publisher(packages: dict[str, Result], package: str, name: str) ->
 
 def test_schema(packages: dict[str, Result]) -> None:
     package = packages["good_py"]
-    assert set(package) == {"name", "dependency", "build", "executables", "tests"}
+    assert set(package) == {"name", "dependency", "build", "executables", "together", "tests"}
     assert set(package["build"]) == {"ok", "seconds", "errors", "warnings"}
     found = executable(packages, "good_py", "talker")
     assert set(found) == {

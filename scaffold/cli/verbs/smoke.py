@@ -55,6 +55,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="run the packages that differ from a commit of git, and those that depend on them",
     )
     parser.add_argument(
+        "--together",
+        action="store_true",
+        help="also run all executables of a package in one domain, and find what keeps their "
+        "nodes from connecting: types, quality of service, names",
+    )
+    parser.add_argument(
         "--test",
         action="store_true",
         help="run `colcon test` as well: a test or linter that fails is a problem",
@@ -160,6 +166,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 jobs=options.jobs,
                 run_only=run_only,
                 test=options.test,
+                together=options.together,
             ),
             progress=progress,
             announce=_announce,

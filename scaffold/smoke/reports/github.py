@@ -49,7 +49,7 @@ def _annotations(package: PackageResult) -> Iterator[str]:
     for case in package.tests.failed if package.tests else ():
         properties = {"file": package.manifest, "title": f"{package.name}: {case.name} failed"}
         yield command("error", _plain(properties), _lines(case.message))
-    for executable in package.executables:
+    for executable in package.runs:
         title = f"{package.name} {executable.name}"
         properties = {"file": executable.source or package.manifest, "title": title}
         for problem in executable.problems:
@@ -70,7 +70,7 @@ def _rows(package: PackageResult) -> Iterator[str]:
     if not build.ok:
         first = cell(next(iter(build.errors), ""))
         yield f"| {code(package.name)} | | does not build | {first} |"
-    for executable in package.executables:
+    for executable in package.runs:
         topics = [
             f"{code(topic.name)} {count(topic.count, 'message')}"
             + ("" if topic.rate_hz is None else f", {topic.rate_hz:.2f} Hz")

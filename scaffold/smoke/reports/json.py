@@ -43,6 +43,7 @@ def _package(package: PackageResult) -> dict[str, Any]:
             "warnings": list(build.warnings),
         },
         "executables": [_executable(executable) for executable in package.executables],
+        "together": None if package.together is None else _executable(package.together),
         "tests": None
         if tests is None
         else {

@@ -87,7 +87,7 @@ def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator
         yield from _indented(build.errors, 2)
     if build.ok and not package.executables and not package.is_dependency:
         yield "  no executables"
-    for executable in package.executables:
+    for executable in package.runs:
         yield from _indented(_executable(executable, paint, verbose=verbose), 2)
     if package.tests is not None:
         yield from _indented(_tests(package.tests, paint), 2)
@@ -183,12 +183,13 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
 def summary(result: Smoke, paint: Paint = _plain) -> str:
     """Return one line: how much was run, and what is not ok."""
     executables = [executable for package in result.packages for executable in package.executables]
+    runs = [executable for package in result.packages for executable in package.runs]
     said = f"{count(len(result.packages), 'package')}, {count(len(executables), 'executable')}"
     seconds = f"in {result.seconds:.1f} s"
     if result.ok:
         return f"{said}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
-    bad = [executable.name for executable in executables if not executable.ok]
+    bad = [executable.name for executable in runs if not executable.ok]
     parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
     parts += [f"{_listed(bad)} not ok"] if bad else []
     failed = [item.name for item in result.packages if item.tests and not item.tests.ok]

@@ -1,0 +1,136 @@
+"""``smoke --together``: nodes of a package in one domain, and what keeps them from connecting."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scaffold.smoke.result import Endpoint, Observation, Topic
+from scaffold.smoke.together import connections
+from tests.smoke.smoke_packages import ONCE, python_package, talker
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, variables
+
+STRING = "std_msgs/msg/String"
+
+
+def quality(**changes: object) -> dict[str, Any]:
+    return {
+        "reliability": "reliable", "durability": "volatile", "history": "unknown", "depth": 0,
+        "deadline": None, "lifespan": None, "liveliness": "automatic", **changes,
+    }  # fmt: skip
+
+
+def topic(name: str, *endpoints: Endpoint) -> Topic:
+    kinds = [endpoint.kind for endpoint in endpoints]
+    return Topic(
+        name,
+        endpoints[0].type,
+        kinds.count("publisher"),
+        kinds.count("subscription"),
+        endpoints=endpoints,
+    )
+
+
+def publisher(kind: str = STRING, **changes: object) -> Endpoint:
+    return Endpoint("publisher", "/talker", kind, quality(**changes))
+
+
+def subscription(kind: str = STRING, **changes: object) -> Endpoint:
+    return Endpoint("subscription", "/listener", kind, quality(**changes))
+
+
+@pytest.mark.parametrize(
+    ("offered", "wanted", "reason"),
+    [
+        (publisher(), subscription(), None),
+        (publisher(), subscription(reliability="best_effort"), None),
+        (publisher(durability="transient_local"), subscription(), None),
+        (publisher(deadline=1.0), subscription(deadline=2.0), None),
+        (
+            publisher(),
+            subscription("std_msgs/msg/Bool"),
+            "it publishes std_msgs/msg/String, the other subscribes to std_msgs/msg/Bool",
+        ),
+        (
+            publisher(reliability="best_effort"),
+            subscription(),
+            "it publishes best effort, the other wants reliable",
+        ),
+        (
+            publisher(),
+            subscription(durability="transient_local"),
+            "it publishes volatile, the other wants transient local",
+        ),
+        (
+            publisher(),
+            subscription(deadline=2.0),
+            "the other wants a deadline of 2 s, which it does not promise",
+        ),
+        (
+            publisher(),
+            subscription(liveliness="manual_by_topic"),
+            "its liveliness is automatic, the other wants manual by topic",
+        ),
+    ],
+)
+def test_quality_of_service(offered: Endpoint, wanted: Endpoint, reason: str | None) -> None:
+    found = [str(item) for item in connections(Observation(topics=(topic("/t", offered, wanted),)))]
+    expected = f"/t: /listener gets nothing from /talker: {reason}"
+    assert found == ([expected] if reason else [])
+
+
+def test_names_that_differ_by_a_slip() -> None:
+    seen = Observation(topics=(topic("/chatter", publisher()), topic("/chater", subscription())))
+    assert [str(item) for item in connections(seen)] == [
+        (
+            "nothing publishes /chater, to which /listener subscribes; /talker publishes "
+            "/chatter, to which nobody does"
+        )
+    ]
+
+
+@pytest.mark.parametrize(
+    "other", [topic("/input", subscription()), topic("/chater", subscription("std_msgs/msg/Bool"))]
+)
+def test_topics_that_are_for_others(other: Topic) -> None:
+    assert list(connections(Observation(topics=(topic("/chatter", publisher()), other)))) == []
+
+
+LISTENER = talker(
+    "/unused",
+    node="listener",
+    begin="""\
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    self.heard = self.create_subscription(String, '/numbers', print, qos)
+    """,
+)
+
+
+@pytest.mark.build
+@NEEDS_ROS
+def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
+    modules = {"talker": talker("/numbers"), "listener": LISTENER, "once": ONCE}
+    package = python_package(tmp_path / "src", "pair", modules)
+    done = subprocess.run(
+        command_line(package, "--together", "--duration", "2", "--format", "json"),
+        env=variables(tmp_path),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (1, "")
+    (result,) = json.loads(done.stdout)["packages"]
+    assert all(executable["ok"] for executable in result["executables"])
+    together = result["together"]
+    assert set(together["nodes"]) == {"/listener", "/talker"}
+    assert together["problems"] == [
+        (
+            "/numbers: /listener gets nothing from /talker: it publishes volatile, the other wants "
+            "transient local"
+        )
+    ]
