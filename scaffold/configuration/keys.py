@@ -204,7 +204,7 @@ KEYS = (
         FOREIGN_KINDS,
         [*FOREIGN],
         "Leave out what is not yours to change: submodules of git, files that git ignores, "
-        "vendored code, copies that editors and synchronization make.",
+        "vendored code, copies made by editors and file synchronization.",
     ),
     Key(
         "check",
@@ -219,8 +219,8 @@ KEYS = (
         "line-length",
         NUMBER,
         99,
-        "The characters that a line may have (E501) in packages whose tests do not run "
-        "`ament_flake8`; the others say it themselves.",
+        "The maximum line length (E501) in packages whose tests do not run "
+        "`ament_flake8`; the others configure it there.",
     ),
     Key(
         "check",
@@ -234,8 +234,8 @@ KEYS = (
         "implicit-dependencies",
         STRINGS,
         [],
-        "Packages, rosdep keys and Python modules that are there without being declared: nobody is "
-        "asked to declare them.",
+        "Packages, rosdep keys and Python modules that are always installed and need not be "
+        "declared.",
     ),
     Key(
         "check",
