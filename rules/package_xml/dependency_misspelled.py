@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.catalog import OTHER_NAMES, similar_package
+from scaffold.api.catalog import OTHER_NAMES, similar_key, similar_package
 
 
 class DependencyMisspelled(Rule):
@@ -20,7 +20,9 @@ class DependencyMisspelled(Rule):
 
     code = "PX022"
     name = "dependency-misspelled"
-    other_severities = {Severity.WARNING: "a name that other packages suggest: rclpy_action"}
+    other_severities = {
+        Severity.WARNING: "a name that other packages suggest: rclpy_action; a key of Python"
+    }
     release_refused = "bloom finds no rule of rosdep for the name"
     examples = (
         Example(
@@ -37,6 +39,24 @@ class DependencyMisspelled(Rule):
                 "2:11", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
+        ),
+        Example(
+            "a key of rosdep with a letter too many",
+            {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
+            Report(
+                "2:11",
+                "no rosdep key 'python3-opencvv' is known; closest: 'python3-opencv'",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a key of rosdep that resembles another one",
+            {"package.xml": "<package>\n  <depend>python3-scapy</depend>\n</package>\n"},
+        ),
+        Example(
+            "a key that this machine knows",
+            {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
+            rosdep_keys=("python3-opencvv",),
         ),
         Example(
             "a name that was never one",
@@ -56,8 +76,18 @@ class DependencyMisspelled(Rule):
             if other is not None:
                 message = f"no package {name!r} is known; use {other!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
+            key = similar_key(name)
+            if key is not None and not _is_known(package, name):
+                message = f"no rosdep key {name!r} is known; closest: {key!r}"
+                yield self.report(dependency, message, severity=Severity.WARNING)
             closest = similar_package(name)
             if closest is not None:
                 message = f"no package {name!r} is known; closest: {closest!r}"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
                 yield self.report(dependency, message, Fix(f"write {closest}", (edit,)))
+
+
+def _is_known(package: Package, name: str) -> bool:
+    """Tell whether rosdep's cache, where there is one, has a rule for a name."""
+    rosdep = package.workspace.rosdep
+    return rosdep is not None and rosdep.resolves(name) is not False

@@ -11,6 +11,7 @@ from scaffold.api.catalog import (
     ROS1_PACKAGES,
     ROS_PACKAGES,
     module_of_key,
+    similar_key,
     similar_package,
 )
 
@@ -113,7 +114,12 @@ def _is_known(package: Package, name: str) -> bool:
     """Tell whether a name is that of a package, or has another rule that speaks of it."""
     if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
-    if similar_package(name) or module_of_key(name) or package.workspace.get(name) is not None:
+    if (
+        similar_package(name)
+        or similar_key(name)
+        or module_of_key(name)
+        or package.workspace.get(name) is not None
+    ):
         return True
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     marker = os.path.join("share/ament_index/resource_index/packages", name)

@@ -9,6 +9,7 @@ from scaffold.model.catalog import (
     ROS_PACKAGES,
     keys_of_module,
     module_of_key,
+    similar_key,
     similar_package,
     transitive_dependencies,
 )
@@ -20,6 +21,7 @@ __all__ = [
     "ROS_PACKAGES",
     "keys_of_module",
     "module_of_key",
+    "similar_key",
     "similar_package",
     "transitive_dependencies",
 ]

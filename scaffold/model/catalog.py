@@ -257,6 +257,27 @@ def module_keys() -> frozenset[str]:
     return frozenset(key for keys in _OTHER_MODULES.values() for key in keys.split())
 
 
+def similar_key(key: str) -> str | None:
+    """Return the key of a Python module that a misspelled one means, if it is near enough."""
+    if not key.startswith(_PYTHON) or key in _OF_DEBIAN or key in module_keys():
+        return None
+    name = key.removeprefix(_PYTHON)
+    near = (
+        other
+        for other in sorted(module_keys())
+        if other.startswith(_PYTHON) and is_near(name, other.removeprefix(_PYTHON))
+    )
+    return next(near, None)
+
+
+_PYTHON = "python3-"
+_OF_DEBIAN = frozenset(
+    f"{_PYTHON}{name}"
+    for name in ("gwebsockets", "network", "opengv", "pykml", "scapy", "simpy", "unicorn")
+) | {f"{_PYTHON}websocketd"}
+"""Packages of Debian with names that resemble those of keys."""
+
+
 def module_of_key(key: str) -> str | None:
     """Return the module that a key of Python's package index names, if rosdep calls it otherwise.
 
