@@ -82,6 +82,7 @@ docs: $(VENV)/rules.stamp
 	$(SCAFFOLD) rules --write-docs docs/rules
 	$(BIN)/python scripts/document_api.py
 	$(BIN)/python scripts/document_configuration.py
+	$(BIN)/python scripts/document_distributions.py
 
 # Packages to measure: as many as the argument of seq says.
 build/benchmark: $(VENV)/test.stamp

@@ -2,7 +2,7 @@
 
 Usage:
 
-    python scripts/bundle_distribution.py NAME SOURCES
+    python -m scripts.bundle_distribution NAME SOURCES
 
 ``SOURCES/jazzy`` and ``SOURCES/NAME`` hold released packages, one directory each: what
 ``git archive release/NAME/PACKAGE`` gives in the release repositories (``ros2-gbp/*-release``).
@@ -240,7 +240,11 @@ def with_modules(text: str, path: str, old: Collection[str], new: Collection[str
     start = f"{package}."
     for node in own[:1]:
         aliases = [alias for alias in node.names if start + alias.name not in gone]
-        names = sorted(name.removeprefix(start) for name in added if name.count(".") == 1)
+        names = sorted(
+            name.removeprefix(start)
+            for name in added
+            if name.startswith(start) and "." not in name.removeprefix(start)
+        )
         aliases += [ast.alias(name, name) for name in names]
         if len(aliases) != len(node.names) or names:
             node.names = aliases
@@ -438,14 +442,24 @@ def _of(table: Mapping[str, set[str]], path: str) -> dict[str, set[str]]:
 
 
 def interfaces(sources: Path, name: str) -> str:
-    """Return the common interfaces."""
+    """Return the common interfaces; packages that are released elsewhere are those of the base."""
+    known = _bundled_packages()
     with tempfile.TemporaryDirectory() as prefix:
         os.symlink(sources.resolve() / name, os.path.join(prefix, "share"))
         definitions = Definitions([PrefixSource([prefix])])
-        known = [package for package in PACKAGES if (sources / name / package).is_dir()]
-        head = HEAD.replace("Jazzy", name.capitalize()).replace("installed", "released")
-        text = head + "".join(bundled(definitions, prefix, package) for package in known)
+        text = HEAD.replace("Jazzy", name.capitalize()).replace("installed", "released")
+        for package in PACKAGES:
+            if (sources / name / package).is_dir():
+                text += bundled(definitions, prefix, package)
+            elif not (sources / BASE / package).is_dir():
+                text += known.get(package, "")
     return text.rstrip("\n") + "\n"
+
+
+def _bundled_packages() -> dict[str, str]:
+    """Return the interfaces of the base by package."""
+    chunks = (DATA / BASE / "interfaces.txt").read_text().split("\n@ ")[1:]
+    return {chunk.partition(" ")[0]: f"@ {chunk.rstrip()}\n" for chunk in chunks}
 
 
 def main() -> int:

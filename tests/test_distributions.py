@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -208,6 +210,14 @@ def test_no_code_asks_for_the_name_of_a_distribution() -> None:
         if pattern.search(path.read_text()) and "distro" in path.read_text()
     ]
     assert asking == []
+
+
+def test_the_pages_are_current(tmp_path: Path) -> None:
+    script = ROOT / "scripts" / "document_distributions.py"
+    subprocess.run([sys.executable, str(script), str(tmp_path)], check=True, cwd=ROOT)
+    pages = {file.name: file.read_text() for file in tmp_path.iterdir()}
+    stored = {file.name: file.read_text() for file in (ROOT / "docs" / "distributions").iterdir()}
+    assert pages == stored, "`make docs`"
 
 
 def test_the_data_of_all_distributions_is_small() -> None:

@@ -1,4 +1,4 @@
-from launch import actions as actions
+from launch import actions as actions, some_actions_type as some_actions_type
 from launch import conditions as conditions
 from launch import descriptions as descriptions
 from launch import event_handlers as event_handlers

@@ -3,7 +3,7 @@ from launch.launch_context import LaunchContext
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
-from launch.utilities import type_utils as type_utils
+from launch.utilities import type_utils as type_utils, create_future_impl as create_future_impl
 from .class_tools_impl import (
     is_a as is_a,
     is_a_subclass as is_a_subclass,

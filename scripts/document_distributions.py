@@ -1,0 +1,133 @@
+"""Write docs/distributions from the data of each distribution.
+
+``python scripts/document_distributions.py [DIRECTORY]``; ``make docs`` calls it.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from scaffold import changes, distributions
+from scaffold.changes import Change
+from scaffold.distributions import ALIASES, DEFAULT, ORDER, Distribution, named
+
+DOCS = Path(__file__).parent.parent / "docs" / "distributions"
+FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher"})
+"""What rules of their own fix."""
+KINDS = ("name", "call", "command", "launch")
+_INTRODUCTION = """\
+# Distributions
+
+`check --distro NAME` checks packages for a distribution, `migrate --to NAME` moves them to one.
+`make docs` writes these pages from the data that both use.
+
+| | supported | Python | CMake | NumPy | setuptools | rclpy |
+|---|---|---|---|---|---|---|
+"""
+
+
+def main(directory: Path) -> int:
+    """Write the pages."""
+    directory.mkdir(exist_ok=True)
+    rows = "".join(f"{_row(named(name))}\n" for name in ORDER)
+    aliases = "".join(
+        f"\n{name.capitalize()} is checked like [{of.capitalize()}]({of}.md): for Python packages "
+        "they are the same so far.\n"
+        for name, of in ALIASES.items()
+    )
+    (directory / "README.md").write_text(f"{_INTRODUCTION}{rows}{aliases}")
+    for name in ORDER:
+        (directory / f"{name}.md").write_text("\n".join(_page(named(name))) + "\n")
+    return 0
+
+
+def _row(one: Distribution) -> str:
+    facts = ("support", "python", "cmake", "numpy", "setuptools", "rclpy")
+    cells = [f"[{one.title}]({one.name}.md)", *(str(one.fact(fact)) for fact in facts)]
+    return f"| {' | '.join(cells)} |"
+
+
+def _page(one: Distribution) -> Iterator[str]:
+    yield f"# {one.title}"
+    yield ""
+    facts = ("CMake", "NumPy", "setuptools", "rclpy")
+    versions = ", ".join(f"{fact} {one.fact(fact.lower())}" for fact in facts)
+    yield f"Supported {one.fact('support')}; Python {one.python_version}, {versions}."
+    yield ""
+    yield from _build(one)
+    with distributions.targeting(one):
+        yield from _table("Removed", [item for item in _changes() if item.is_removed])
+        yield from _table("Deprecated", [item for item in _changes() if item.is_deprecated])
+    changed = [item for item in _changes() if item.changed and one.place >= item.changed.place]
+    yield from _table("Changed", changed)
+    yield from _interfaces(one)
+
+
+def _build(one: Distribution) -> Iterator[str]:
+    stops = one.fact("build.cmake_minimum_error_below")
+    if stops:
+        warns = one.fact("build.cmake_minimum_warning_below")
+        yield f"- CMake stops at a `cmake_minimum_required` below {stops}, and warns below {warns}."
+    both = one.fact("build.package_may_be_installed_twice")
+    yield (
+        "- A package may generate interfaces and install a Python package of its own name."
+        if both
+        else "- Interfaces and a Python package of the same name are packages of their own."
+    )
+    if one.fact("wheels.available"):
+        yield "- There are wheels for Python, which need no installation of ROS 2."
+    yield ""
+
+
+def _changes() -> Iterator[Change]:
+    for kind in KINDS:
+        yield from changes.of_kind(kind)
+
+
+def _table(title: str, found: list[Change]) -> Iterator[str]:
+    if not found:
+        return
+    yield f"## {title}"
+    yield ""
+    yield "| name | since | what to do | fixed | decided in |"
+    yield "|---|---|---|---|---|"
+    for item in found:
+        first = item.removed if title == "Removed" else item.deprecated or item.changed
+        since = first.title if first is not None else ""
+        instead = f"`{item.use}`" if item.use else item.advice
+        later = "" if item.since.name == changes.EARLIEST else f" (from {item.since.title} on)"
+        fixed = "yes" if item.use or item.names[0] in FIXED else ""
+        names = "<br>".join(f"`{name}`" for name in item.names)
+        yield f"| {names} | {since} | {instead}{later} | {fixed} | {item.source} |"
+    yield ""
+
+
+def _interfaces(one: Distribution) -> Iterator[str]:
+    """Yield which interfaces differ from those of the distribution that is the default."""
+    base, own = _definitions(named(DEFAULT)), _definitions(one)
+    gone, added = sorted(base.keys() - own.keys()), sorted(own.keys() - base.keys())
+    other = sorted(name for name in base.keys() & own.keys() if base[name] != own[name])
+    rows = (("not there", gone), ("only there", added), ("other fields or constants", other))
+    if any(names for _, names in rows):
+        yield f"## Interfaces, compared with {DEFAULT.capitalize()}"
+        yield ""
+        for what, names in rows:
+            if names:
+                yield f"- {what}: {', '.join(f'`{name}`' for name in names)}"
+
+
+def _definitions(one: Distribution) -> dict[str, str]:
+    result: dict[str, str] = {}
+    text = Path(one.path("interfaces.txt")).read_text()
+    for chunk in text.split("\n@ ")[1:]:
+        head, *definitions = chunk.rstrip("\n").split("\n= ")
+        for definition in definitions:
+            title, _, fields = definition.partition("\n")
+            result[f"{head.partition(' ')[0]}/{title.replace(' ', '/')}"] = fields.rstrip("\n")
+    return result
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]) if sys.argv[1:] else DOCS))
