@@ -48,6 +48,7 @@ NODES: Mapping[str, Mapping[str, str]] = {
     "wheels": {"node_kind": "parameters"},
     "switch": {"node_kind": "service_server", "service_type": "std_srvs/srv/SetBool"},
     "switcher": {"node_kind": "service_client", "service_type": "std_srvs/srv/SetBool"},
+    "guard": {"node_kind": "service_relay", "service_type": "std_srvs/srv/SetBool"},
     "numbers": {"node_kind": "action_server", "action_type": "test_msgs/action/Fibonacci"},
     "asker": {"node_kind": "action_client", "action_type": "test_msgs/action/Fibonacci"},
 }
@@ -69,6 +70,8 @@ SUBSTITUTIONS = (
     (r"except ParameterException", "except KeyError"),
     (r"(\d+\.\d+)(  #.*)?$", r"7.0 * \1\2"),
     (r"min\(", "max("),
+    (r"ReentrantCallbackGroup\(\)", "MutuallyExclusiveCallbackGroup()"),
+    (r"await future", "future.result()"),
     (r" \+ ", " - "),
     (r"return SetParametersResult\(successful=False", "return SetParametersResult(successful=True"),
     (r"return GoalResponse\.REJECT", "return GoalResponse.ACCEPT"),
