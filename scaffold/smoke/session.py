@@ -197,7 +197,7 @@ class _Session:
                 if builds[source.name].ok and self._options.runs(source.name)
             ]
             executables = await self._run_all(built) if built else {}
-            together = await self._run_together(built) if self._options.together else {}
+            together = await self._run_together(built) if built and self._options.together else {}
             tests = await self._test(built) if built and self._options.test else {}
         finally:
             await self._stations.close()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import statistics
 import struct
 import subprocess
@@ -14,6 +15,8 @@ from typing import Any
 import pytest
 
 from scaffold.smoke.probe import messages
+from scaffold.smoke.probe.building import fill
+from scaffold.smoke.probe.fields import Field
 from scaffold.smoke.probe.statistics import MOST_POINTS, Moments, Spread, stamp
 from scaffold.smoke.probe.topics import QUEUE_BYTES, QUEUE_DEPTH, Topic
 from scaffold.smoke.reports import report
@@ -167,6 +170,61 @@ def test_queue_of_large_messages_is_shorter_once_they_wait(
     assert late.fitting_depth() == 4
     late.take(bytes(2 * QUEUE_BYTES), info(990.0, 2), kind)
     assert late.fitting_depth() == 1
+
+
+class Reading:
+    """What a field is looked for in."""
+
+    def __init__(self, value: object) -> None:
+        self.inner = [self]
+        self.value = value
+
+
+@pytest.mark.parametrize(
+    ("values", "least", "greatest"),
+    [((2.0, 1.0, 3.0), 1.0, 3.0), ((1.0, float("nan")), None, None), (("a", "b"), None, None)],
+)
+def test_values_of_a_field(
+    values: tuple[object, ...], least: float | None, greatest: float | None
+) -> None:
+    field = Field("inner[0].value")
+    for value in values:
+        field.take(Reading(value))
+    data = field.as_data()
+    assert (data["least"], data["greatest"]) == (least, greatest)
+    assert (data["count"], data["changes"]) == (len(values), len(values) - 1)
+
+
+def test_field_that_is_not_there() -> None:
+    field = Field("inner[1]")
+    field.take(Reading(1))
+    assert (field.as_data()["count"], field.as_data()["error"]) == (0, "no field 'inner[1]'")
+
+
+@needs_messages
+def test_message_is_made_of_plain_data() -> None:
+    data = {"layout": {"dim": [{"label": "x", "size": 2}]}, "data": [1, 2.5]}
+    message = fill(messages.find_type("std_msgs/msg/Float32MultiArray")(), data)
+    assert messages.as_data(message) == {
+        "layout": {"dim": [{"label": "x", "size": 2, "stride": 0}], "data_offset": 0},
+        "data": [1.0, 2.5],
+    }
+    byte = fill(messages.find_type("std_msgs/msg/Byte")(), {"data": 7})
+    assert byte.data == b"\x07"
+
+
+@needs_messages
+@pytest.mark.parametrize(
+    ("values", "reason"),
+    [
+        ({"date": 1}, "no field 'date'; there are data"),
+        ({"data": "one"}, "'data' cannot be 'one': "),
+        ({"data": 2**70}, "'data' cannot be "),
+    ],
+)
+def test_message_that_cannot_be_made(values: dict[str, object], reason: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(reason)):
+        fill(messages.find_type("std_msgs/msg/Int32")(), values)
 
 
 # -- text

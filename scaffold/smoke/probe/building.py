@@ -21,6 +21,8 @@ def fill(message: Ros, values: dict[str, Ros]) -> Ros:
         ValueError: a field does not exist, or cannot have the value.
     """
     kinds = message.get_fields_and_field_types()
+    if hasattr(message, "_check_fields"):
+        message._check_fields = True  # noqa: SLF001  a wrong value would crash the serialization
     for name, value in values.items():
         if name not in kinds:
             raise ValueError(f"no field {name!r}; there are {', '.join(kinds) or 'none'}")

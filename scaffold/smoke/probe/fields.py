@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from .building import field_of
@@ -27,6 +28,7 @@ class Field:
         self._least: float | None = None
         self._greatest: float | None = None
         self._error = ""
+        self._is_finite = True
 
     def take(self, message: Ros) -> None:
         """Take in the value in a message."""
@@ -42,7 +44,9 @@ class Field:
             self._first = shown
         self._last = shown
         self._count += 1
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if isinstance(value, float) and not math.isfinite(value):
+            self._is_finite = False
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
             self._least = value if self._least is None else min(self._least, value)
             self._greatest = value if self._greatest is None else max(self._greatest, value)
 
@@ -53,7 +57,7 @@ class Field:
             "changes": self._changes,
             "first": self._first,
             "last": self._last,
-            "least": plain(self._least),
-            "greatest": plain(self._greatest),
+            "least": self._least if self._is_finite else None,
+            "greatest": self._greatest if self._is_finite else None,
             "error": self._error,
         }
