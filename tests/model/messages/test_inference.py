@@ -127,6 +127,27 @@ def test_other_mistakes_are_not_tolerated() -> None:
     assert not types.is_tolerated(wrong)
 
 
+def test_a_synchronizer_passes_a_message_of_each_topic() -> None:
+    text = (
+        "from message_filters import Subscriber, TimeSynchronizer\n"
+        "from rclpy.node import Node\nfrom sensor_msgs.msg import CameraInfo, Image\n\n\n"
+        "class Viewer(Node):\n"
+        "    def __init__(self):\n"
+        "        super().__init__('viewer')\n"
+        "        image = Subscriber(self, Image, 'image')\n"
+        "        filters = [image, Subscriber(self, CameraInfo, 'info')]\n"
+        "        sync = TimeSynchronizer(filters, 10)\n"
+        "        sync.registerCallback(self.view)\n\n"
+        "    def view(self, image, info):\n"
+        "        return image, info\n"
+    )
+    types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
+    (last,) = types.module.walk(ast.Return)
+    assert isinstance(last.value, ast.Tuple)
+    names = [getattr(types.type_of(element), "name", None) for element in last.value.elts]
+    assert names == ["sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"]
+
+
 def test_values_are_found_once_and_in_order() -> None:
     text = (
         "from std_msgs.msg import Header, String\n\nheader = Header(frame_id='a')\n"

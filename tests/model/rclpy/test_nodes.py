@@ -14,15 +14,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.model.programs.publishing import publish_calls, publish_rates
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import UNKNOWN, Unknown
-from scaffold.model.rclpy.creation import _SIGNATURES
+from scaffold.model.rclpy.creation import _FILTERS, _SIGNATURES
 from scaffold.model.rclpy.entities import Publisher, Qos, parameter_type
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.model.rclpy.qos import PROFILES
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
+from scaffold.types.stubs import library_stubs
 from tests import PATIENCE
 
 TALKER = '''\
@@ -968,6 +970,17 @@ def test_signatures_are_those_of_rclpy(rclpy_says: Any) -> None:  # noqa: ANN401
     for name, parameters in _SIGNATURES.items():
         if name != "create_lifecycle_publisher":  # takes *args and hands them on
             assert positional[name] == list(parameters), name
+
+
+@pytest.mark.parametrize("class_", sorted(_FILTERS))
+def test_signatures_of_message_filters_are_those_of_the_stubs(class_: str) -> None:
+    tree = ast.parse(library_stubs(distributions.JAZZY)["message_filters/__init__.pyi"])
+    (definition,) = (x for x in ast.walk(tree) if isinstance(x, ast.ClassDef) and x.name == class_)
+    (constructor,) = (
+        x for x in definition.body if isinstance(x, ast.FunctionDef) and x.name == "__init__"
+    )
+    arguments = [*constructor.args.posonlyargs, *constructor.args.args]
+    assert [argument.arg for argument in arguments[1:]] == list(_FILTERS[class_])
 
 
 def test_profiles_are_those_of_rclpy(rclpy_says: Any) -> None:  # noqa: ANN401
