@@ -25,7 +25,10 @@ class _Record(tuple):  # type: ignore[type-arg]  # what is in it, each class say
         return cls(*values)
 
     def _replace(self, **changes: Any) -> _Record:  # noqa: ANN401  the fields are of any type
-        return type(self)(**{**self._asdict(), **changes})
+        values = [*map(changes.pop, self._fields, self)]
+        if changes:
+            raise TypeError(f"no field is called {' or '.join(changes)}")
+        return type(self)(*values)
 
     def _asdict(self) -> dict[str, Any]:
         return dict(zip(self._fields, self, strict=True))

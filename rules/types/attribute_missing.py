@@ -5,7 +5,18 @@ from __future__ import annotations
 import ast
 import re
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Safety, TypeRule, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Safety,
+    TypeRule,
+    closest_name,
+    fact,
+)
 from scaffold.api.types import (
     TypeFinding,
     class_in,
@@ -92,7 +103,7 @@ class AttributeMissing(TypeRule):
             is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
             if not isinstance(node.ctx, ast.Load) and not is_message:
                 return None  # an object of rclpy takes any attribute
-            if not is_message and _is_set(finding, name):
+            if not is_message and _is_set(finding.package, name):
                 return None
         closest = closest_name(finding.package, name, names, 0.6)
         hint = f"; did you mean {closest!r}?" if closest else ""
@@ -103,10 +114,10 @@ class AttributeMissing(TypeRule):
         return self.report(finding, message, _fix(finding, node, closest) if closest else None)
 
 
-def _is_set(finding: TypeFinding, name: str) -> bool:
+@fact
+def _is_set(package: Package, name: str) -> bool:
     """Tell whether some code of the package sets an attribute of this name."""
     pattern = re.compile(rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode())
-    package = finding.package
     return any(pattern.search(package.data(path)) for path in package.python_files)
 
 

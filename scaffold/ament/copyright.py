@@ -10,6 +10,7 @@ from functools import lru_cache
 from scaffold.ament.files import broken_links, lintable
 from scaffold.configuration import content
 from scaffold.files.disk import LargeFileError
+from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -59,21 +60,32 @@ def _headers(package: Package) -> list[Header]:
     for path in lintable(package):
         if os.path.splitext(path)[1] not in EXTENSIONS or path == "setup.py":
             continue
-        try:
-            data = package.bytes_of(path)
-        except LargeFileError:
-            with suppress(ViewError):
-                package.data(path)  # which makes it known as too large
-            continue
-        except OSError:
-            continue  # SC001, if a rule needs the file
-        if data:
-            result.append(read(path, data))
+        header = _header(package, path) if path.endswith(".py") else _read(package, path)
+        if header is not None:
+            result.append(header)
     for path in broken_links(package):
         if os.path.splitext(path)[1] in EXTENSIONS:
             at = Location.start_of(path)
             result.append(Header(path, at, unreadable="broken symbolic link"))
     return result
+
+
+@fact
+def _header(package: Package, path: str) -> Header | None:
+    return _read(package, path)
+
+
+def _read(package: Package, path: str) -> Header | None:
+    """Return the header of a source file, ``None`` for one that is empty or cannot be read."""
+    try:
+        data = package.bytes_of(path)
+    except LargeFileError:
+        with suppress(ViewError):
+            package.data(path)  # which makes it known as too large
+        return None
+    except OSError:
+        return None  # SC001, if a rule needs the file
+    return read(path, data) if data else None
 
 
 def read(path: str, data: bytes) -> Header:

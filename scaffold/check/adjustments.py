@@ -29,11 +29,12 @@ class Adjustments(NamedTuple):
 
     def apply(self, package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """Yield what is to be reported of a package, with its severity."""
+        excluded: dict[str, bool] = {}
         for diagnostic in diagnostics:
-            if (
-                self.excludes(package, diagnostic.location.path)
-                and diagnostic.code != RuleCrashed.code
-            ):
+            path = diagnostic.location.path
+            if path not in excluded:
+                excluded[path] = self.excludes(package, path)
+            if excluded[path] and diagnostic.code != RuleCrashed.code:
                 continue
             if (
                 self.has_own_style_only

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import multiprocessing
+import gc
 import os
 import signal
 from collections.abc import Iterator, Mapping, Sequence
@@ -94,7 +94,9 @@ def run(
                 style.setdefault(at, {}).update(styles)
             is_complete = number == len(tasks) or tasks[number].has_rules
             for at in sorted(rules) if is_complete else ():
-                yield session.result(targets[at], rules.pop(at), style.pop(at, {}))
+                result = session.result(targets[at], rules.pop(at), style.pop(at, {}))
+                targets[at].package.forget()
+                yield result
 
 
 def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
@@ -148,11 +150,15 @@ def _start_pool(workers: int) -> Iterator[Pool]:
     A worker that died of it could hold the lock of the queue, which the first process waits for.
     Processes and threads inherit what is blocked when they are started.
     """
+    import multiprocessing  # slow to import, and not needed for little work
+
+    gc.freeze()  # so that workers look for garbage among their own objects only
     with _no_interruption():
         pool = multiprocessing.get_context("fork").Pool(workers)
     try:
         yield pool
     finally:
+        gc.unfreeze()
         with _no_interruption():
             pool.terminate()
 
@@ -179,7 +185,9 @@ def _run(number: int) -> _Done:
             rules[at] = session.check_rules(package, earlier.get(package.directory))
         style[at] = backend.by_file(package) if backend else {}
         package.forget()
-    return _Done(rules, style, list(worker_reads.take(packages)))
+    done = _Done(rules, style, list(worker_reads.take(packages)))
+    gc.collect()  # what was parsed holds itself, and Python would let it grow with the workspace
+    return done
 
 
 def _all_packages(targets: Sequence[Target]) -> list[Package]:

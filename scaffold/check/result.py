@@ -39,6 +39,8 @@ class Verdict(NamedTuple):
     """The files that could not be read, each with the reason."""
     facts: Mapping[FactId, StoredFact]
     """The facts that the parts depend on, also through others."""
+    types: Mapping[str, Part] = {}
+    """What types show in files, by path, before anything is suppressed."""
     configuring: frozenset[str] = frozenset()
     """The files that say by what style is judged, by ``Package.full_path``."""
 

@@ -31,6 +31,13 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
     return Check(package).run(rules)
 
 
+def kept(package: Package, earlier: Earlier) -> frozenset[str]:
+    """Return the keys of the parts of an earlier verdict that hold."""
+    check = Check(package, earlier)
+    check.end()
+    return frozenset(check.parts)
+
+
 class Check:
     """The rules at work on one package.
 
@@ -46,8 +53,6 @@ class Check:
         self._diagnostics: dict[str, list[Diagnostic]] = {}
         self._unparsable: list[Diagnostic] = []
         self._earlier_facts: EarlierFacts | None = None
-        self._facts: dict[FactId, Fact] = {}
-        """The facts of the package: what files there are to check may depend on them."""
         self._is_whole = True
         """Whether each finding belongs to a part."""
         if earlier is not None:
@@ -75,9 +80,6 @@ class Check:
                 continue
             for key, part_diagnostics in self._run(rule).items():
                 self._diagnostics.setdefault(key, []).extend(part_diagnostics)
-        self._facts = {fact.id: fact for fact in self._package.facts}
-        if self._earlier_facts is not None:
-            self._earlier_facts.end()
         self._unparsable = [*dict.fromkeys([*self._unparsable, *_unparsable(self._package)])]
         diagnostics = [item for part in self._kept.values() for item in part.diagnostics]
         diagnostics += [
@@ -85,6 +87,16 @@ class Check:
         ]
         diagnostics = [*dict.fromkeys([*diagnostics, *self._unparsable])]
         return sorted(diagnostics, key=lambda diagnostic: diagnostic.sort_key)
+
+    def end(self) -> None:
+        """Drop the facts of the package, so that it finds them out by itself again."""
+        if self._earlier_facts is not None:
+            self._earlier_facts.end()
+
+    @property
+    def parts(self) -> Mapping[str, Part]:
+        """What is taken over."""
+        return self._kept
 
     def verdict(self, style: Mapping[str, Sequence[Diagnostic]]) -> Verdict | None:
         """Return what was found in parts, ``None`` if it cannot be taken apart.
@@ -96,7 +108,8 @@ class Check:
         if exhausted_here or not self._is_whole:
             return None  # files may have been refused because of others
         parts = dict(self._kept)
-        facts = dict(self._facts)
+        # What files there are to check may depend on any fact that was asked for.
+        facts = {fact.id: fact for fact in self._package.facts}
         for key, reads in self._reads.items():
             files, used = reads.all()
             facts.update((fact.id, fact) for fact in used)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from scaffold.ament.settings import settings_of
-from scaffold.check import conflicts, runner, suppression, type_rules
+from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.engine_rules import (
@@ -18,7 +19,7 @@ from scaffold.check.engine_rules import (
     TooManyFindings,
     UnparsableFile,
 )
-from scaffold.check.result import Earlier, Part, Result, Verdict
+from scaffold.check.result import Earlier, Result, Verdict
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
@@ -32,15 +33,11 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.ament import StyleCheck
-    from scaffold.types.check import TypeCheck
+    from scaffold.check.type_findings import TypeFindings
 
 
 WORTH_PARTS = 2
 """Python files from which on it pays to keep findings in parts; others are checked anew."""
-
-
-_TYPES = "types"
-"""The part of a verdict that says which files its types depend on."""
 
 
 class Ruled(NamedTuple):
@@ -84,6 +81,7 @@ class Session:
         self._line_length = line_length
         self.selection = selection
         self.adjustments = adjustments or Adjustments()
+        self._wants = lru_cache(maxsize=None)(selection.wants)
         self._areas = {rule.code[:2] for rule in all_rules(rules)}
         wanted: list[type[Rule]] = [*rules, *AMENT_RULES, LicenseNotAllowed]
         selected = [rule() for rule in wanted if selection.wants(rule.code)]
@@ -91,7 +89,7 @@ class Session:
         self._ran = {rule.code for rule in self._rules}
         self._type_rules = [rule for rule in selected if isinstance(rule, TypeRule)]
         self._has_types = has_types
-        self._types: TypeCheck | None = None
+        self._types: TypeFindings | None = None
         self.types_failure = ""
         """Why types were not checked; empty if they were, or were not to be."""
         self.after_rule: Callable[[], None] = _do_nothing
@@ -108,7 +106,7 @@ class Session:
         """
         from scaffold.check.parallel import run
 
-        self._types = self._start_types(targets)
+        self._types = self._start_types(targets, earlier or {})
         try:
             yield from run(self, targets, earlier or {})
         finally:
@@ -130,7 +128,7 @@ class Session:
         previous = earlier or {}
         is_first = self._types is None
         if is_first:
-            self._types = self._start_types(targets)
+            self._types = self._start_types(targets, previous)
         try:
             return self._run_batch(targets, style, previous)
         finally:
@@ -154,14 +152,16 @@ class Session:
     ) -> Result:
         """Combine the findings of rules, types and style in a package."""
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
-        types = self._check_types(target.package, rules.found)
+        typed = self._types.of(target.package) if self._types is not None else None
         styles = (item for path in sorted(everything) for item in everything[path])
-        diagnostics = [*rules.found, *types, *styles]
+        diagnostics = [*rules.found, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
-        if verdict is not None and self._types is not None:
-            # Without findings: what is found is remembered file by file.
-            part = Part(self._types.needed_by(target.package), frozenset(), ())
-            verdict = verdict._replace(parts={**verdict.parts, _TYPES: part})
+        if typed is not None:
+            places = {item.location[:2] for item in rules.found}
+            diagnostics += [item for item in typed.diagnostics if item.location[:2] not in places]
+            if verdict is not None:
+                facts = {**verdict.facts, **typed.facts}
+                verdict = verdict._replace(types=typed.parts, facts=facts)
         diagnostics = self._report(target, diagnostics)
         if target.only is not None:
             return Result(target.package, len(target.only), diagnostics, verdict)
@@ -228,11 +228,13 @@ class Session:
             line_length=None if self._is_reference else self._line_length,
         )
 
-    def _start_types(self, targets: Sequence[Target]) -> TypeCheck | None:
+    def _start_types(
+        self, targets: Sequence[Target], earlier: Mapping[str, Earlier]
+    ) -> TypeFindings | None:
         """Start the type checker, unless nobody asks for types."""
         if not self._has_types or not self._type_rules:
             return None
-        from scaffold.types.check import TypeCheck
+        from scaffold.check.type_findings import TypeFindings
 
         only = {id(target.package): target.only for target in targets}
 
@@ -241,27 +243,14 @@ class Session:
             is_left_out = self.adjustments.excludes(package, path) or _of_ros1(package)
             return not is_left_out and (chosen is None or path in chosen)
 
-        return TypeCheck([target.package for target in targets], is_wanted)
+        packages = [target.package for target in targets]
+        return TypeFindings(self._type_rules, packages, is_wanted, earlier)
 
     def _end_types(self) -> None:
         if self._types is not None:
             self.types_failure = self.types_failure or self._types.failure
             self._types.close()
             self._types = None
-
-    def _check_types(self, package: Package, others: Sequence[Diagnostic]) -> list[Diagnostic]:
-        """Return the findings about types, except where another rule reports the same place."""
-        if self._types is None:
-            return []
-        reported = self._types.by_file(package)
-        if self._types.failure or not (reported or self._types.may_suppress(package)):
-            return []
-        type_rules.give(package, reported)
-        diagnostics = runner.check(package, self._type_rules)
-        result = suppression.apply(package, diagnostics, {rule.code for rule in self._type_rules})
-        package.forget()
-        places = {item.location[:2] for item in others}
-        return [item for item in result if item.location[:2] not in places]
 
     def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
         """Run the rules over a package."""
@@ -277,6 +266,7 @@ class Session:
         verdict = None
         if len(package.python_files) >= WORTH_PARTS and not of_ros1:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
+        check.end()
         if verdict is not None:
             tests = settings_of(package).tests
             verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
@@ -305,8 +295,13 @@ class Session:
             for d in _bounded([*dict.fromkeys(diagnostics)])
             if not (d.code in unreadable and d.location.path in reported)
             and (target.only is None or d.location.path in target.only)
-            and (d.code == RuleCrashed.code or self.selection.wants(d.code))
-            and self.selection.wants_at(d.code, self._paths(target.package, d.location.path))
+            and (d.code == RuleCrashed.code or self._wants(d.code))
+            and not (
+                self.selection.per_path
+                and not self.selection.wants_at(
+                    d.code, self._paths(target.package, d.location.path)
+                )
+            )
         ]
         named = [*conflicts.named(target.package, wanted)]
         return sorted(self.adjustments.apply(target.package, named), key=lambda d: d.sort_key)

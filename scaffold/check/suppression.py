@@ -8,12 +8,15 @@ suppressed by the style backend, in flake8's and pydocstyle's own ways.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import suppress
 
 from scaffold.check.engine_rules import UnusedSuppression
 from scaffold.check.renamed_codes import renamed_codes
 from scaffold.diagnostic import Diagnostic
+from scaffold.model.facts import fact
 from scaffold.model.package import Package
+from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
 
 COMMENT = r"(?:#|<!--)\s*noqa(?![a-z])(?::\s*(?P<codes>[A-Z]+[0-9]+(?:[\s,]+[A-Z]+[0-9]+)*))?"
@@ -47,52 +50,64 @@ def apply(
 
 def _codes_on(package: Package, path: str, line: int) -> list[str] | None:
     """Return the codes of the ``noqa`` on a line, ``[]`` for all, ``None`` without one."""
-    try:
-        source = package.source(path)
-    except ViewError:
-        return None
-    has_any = package.remember(("noqa", path), lambda: "noqa" in source.text.lower())
-    if not has_any or line > len(source.lines):
-        return None
-    matched = re.search(COMMENT, source.lines[line - 1], re.IGNORECASE)
-    return re.findall(_CODE, (matched["codes"] or "").upper()) if matched else None
+    comment = next((item for item in _comments(package, path) if item.line == line), None)
+    return None if comment is None else [code.upper() for code, _ in comment.codes]
 
 
 def _unused(
     package: Package, used: Collection[tuple[str, int, str]], ran: Collection[str]
-) -> list[Diagnostic]:
+) -> Iterator[Diagnostic]:
     rule = UnusedSuppression()
-    diagnostics: list[Diagnostic] = []
-    for path in package.files:
-        for source, line, code, start in _suppressions(package, path):
-            if code.upper() in ran and (path, line, code.upper()) not in used:
-                message = f"noqa: {code} suppresses nothing on this line"
-            elif code.upper() not in ran and code.upper() in renamed_codes():
-                message = (
-                    f"noqa: {code} suppresses nothing: renamed to {renamed_codes()[code.upper()]}"
-                )
-            else:
-                continue
-            diagnostics.append(rule.report(source.location(start, start + len(code)), message))
-    return diagnostics
-
-
-def _suppressions(package: Package, path: str) -> Iterable[tuple[Source, int, str, int]]:
-    if not _may_hold_suppression(path):
-        return
-    try:
-        source = package.source(path)
-    except ViewError:
-        return
-    if "noqa:" not in source.text.lower():
-        return
-    for number, line in enumerate(source.lines, 1):
-        comment = re.search(COMMENT, line, re.IGNORECASE)
-        if comment and comment["codes"]:
-            start = source.offset(number) + comment.start("codes")
-            for code in re.finditer(_CODE, comment["codes"], re.IGNORECASE):
-                yield source, number, code[0], start + code.start()
+    for path in filter(_may_hold_suppression, package.files):
+        for comment in _comments(package, path):
+            for code, start in comment.codes:
+                message = f"noqa: {code} suppresses nothing"
+                if code.upper() not in ran and code.upper() in renamed_codes():
+                    message = f"{message}: renamed to {renamed_codes()[code.upper()]}"
+                elif code.upper() in ran and (path, comment.line, code.upper()) not in used:
+                    message = f"{message} on this line"
+                else:
+                    continue
+                at = package.source(path).location(start, start + len(code))
+                yield rule.report(at, message)
 
 
 def _may_hold_suppression(path: str) -> bool:
     return path.endswith(_MAY_HOLD)
+
+
+class _Comment(NamedTuple):
+    """A ``noqa``."""
+
+    line: int
+    codes: tuple[tuple[str, int], ...]
+    """Each with the offset where it begins; none where the comment covers the whole line."""
+
+
+def _comments(package: Package, path: str) -> tuple[_Comment, ...]:
+    """Return the comments of a file, none of one that cannot be read."""
+    with suppress(ViewError):
+        if path.endswith(".py"):
+            return _comments_in_python(package, path)
+        return package.remember(("noqa", path), lambda: _comments_in(package.source(path)))
+    return ()
+
+
+@fact
+def _comments_in_python(package: Package, path: str) -> tuple[_Comment, ...]:
+    return _comments_in(package.source(path))
+
+
+def _comments_in(source: Source) -> tuple[_Comment, ...]:
+    if "noqa" not in source.text.lower():
+        return ()
+    result: list[_Comment] = []
+    for number, line in enumerate(source.lines, 1):
+        comment = re.search(COMMENT, line, re.IGNORECASE)
+        if comment:
+            start = source.offset(number) + comment.start("codes")
+            codes = re.finditer(_CODE, comment["codes"] or "", re.IGNORECASE)
+            result.append(
+                _Comment(number, tuple((code[0], start + code.start()) for code in codes))
+            )
+    return tuple(result)

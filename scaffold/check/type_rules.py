@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar
 
-from scaffold.check.rule import Rule
+from scaffold.check.file_rules import FileRule
 from scaffold.diagnostic import Diagnostic
 from scaffold.source import ViewError
 
@@ -19,22 +20,22 @@ if TYPE_CHECKING:
 _KEY = "reported by the type checker"
 
 
-class TypeRule(Rule):
+class TypeRule(FileRule):
     """Judges what the type checker reports; a subclass has ``judge``."""
 
     kinds: ClassVar[frozenset[str]]
     """The rules of the type checker that it is made of."""
 
-    def check(self, package: Package) -> Iterator[Diagnostic]:
-        """Yield what is wrong in any of the files."""
-        for path, items in _reported(package).items():
-            for item in items:
-                if item.kind not in self.kinds:
-                    continue
-                try:
+    def paths(self, package: Package) -> Sequence[str]:
+        """Return the files that something is reported about."""
+        return [*_reported(package)]
+
+    def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file."""
+        for item in _reported(package).get(path, ()):
+            if item.kind in self.kinds:
+                with suppress(ViewError):
                     yield from self._judged(package, path, item)
-                except ViewError:
-                    continue
 
     def _judged(self, package: Package, path: str, item: TyDiagnostic) -> Iterator[Diagnostic]:
         from scaffold.types.finding import TypeFinding

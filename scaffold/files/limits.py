@@ -28,6 +28,11 @@ MOST_WORDS_OF_DECLARATIONS = 20_000
 _CODE = (".py", ".cfg", "CMakeLists.txt")
 _DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
 
+_SPACE = b" \t\r"
+_WORD = b"\\_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+_KINDS = bytes(ord(" " if byte in _SPACE else "w" if byte in _WORD else ".") for byte in range(256))
+"""Of each byte: whether it is space, part of a word, or a sign of its own."""
+
 
 def why_unread(path: str, data: bytes) -> str:
     """Return why a file is not read, empty if it is: the bounds are far above what people write.
@@ -57,9 +62,8 @@ def too_large(size: int, path: str) -> str:
 
 def _words(data: bytes) -> int:
     """Count the tokens of code, as time and memory depend on these and not on bytes."""
-    import re
-
-    return len(re.findall(rb"[\w\\]+|[^\w\\ \t\r]", data))
+    kinds = b" " + data.translate(_KINDS)
+    return kinds.count(b".") + kinds.count(b" w") + kinds.count(b".w")
 
 
 def most_bytes(path: str) -> int:

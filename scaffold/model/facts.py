@@ -40,19 +40,20 @@ class Fact:
     Args:
         directory: The package.
         key: The provider and its arguments.
-        encoded: The value as an earlier run stored it.
+        known: The same as an earlier run stored it.
     """
 
-    __slots__ = ("_encoded", "_value", "directory", "error", "key", "reads")
+    __slots__ = ("_encoded", "_known", "_value", "directory", "error", "key", "reads")
 
-    def __init__(self, directory: str, key: Key, encoded: object = _UNSET) -> None:
+    def __init__(self, directory: str, key: Key, known: StoredFact | None = None) -> None:
         self.directory = directory
         self.key = key
         self.error: ViewError | None = None
         """Why there is no value."""
         self.reads = Reads()
         self._value: object = _UNSET
-        self._encoded = encoded
+        self._known = known
+        self._encoded = _UNSET if known is None else known.encoded
 
     @property
     def id(self) -> FactId:
@@ -77,6 +78,8 @@ class Fact:
 
     def stored(self) -> tuple[StoredFact, Iterable[Fact]]:
         """Return what a later run may know of it, and the facts that it was made of."""
+        if self._known is not None:
+            return self._known, self.reads.facts
         files, facts = self.reads.all()
         return StoredFact(files, tuple(fact.id for fact in facts), self.encoded), facts
 

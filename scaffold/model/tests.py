@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -188,10 +188,7 @@ def settings_or_tests_mention(package: Package, words: Sequence[str]) -> bool:
     if any(word in text for text in texts for word in words):
         return True
     return any(
-        word.encode() in data
-        for path, data in _python_data(package)
-        if is_in_tests(path)
-        for word in words
+        word.encode() in data for data in _data(package, files_of_tests(package)) for word in words
     )
 
 
@@ -204,8 +201,9 @@ def may_start(package: Package, name: str) -> bool:
     """
     return any(
         name.encode() in data or b"'launch_test'" in data
-        for path, data in _python_data(package)
-        if path.rpartition("/")[2] != name
+        for data in _data(
+            package, (path for path in package.python_files if path.rpartition("/")[2] != name)
+        )
     )
 
 
@@ -214,11 +212,11 @@ def is_named_elsewhere(package: Package, name: str) -> bool:
     return package.occurrences(name) > 1
 
 
-def _python_data(package: Package) -> Iterator[tuple[str, bytes]]:
-    """Yield the bytes of the Python files; a name in them needs no parser."""
-    for path in package.python_files:
+def _data(package: Package, paths: Iterable[str]) -> Iterator[bytes]:
+    """Yield the bytes of Python files; a name in them needs no parser."""
+    for path in paths:
         with suppress(ViewError):
-            yield path, package.data(path)
+            yield package.data(path)
 
 
 def constructed_class(module: PythonModule, node: ast.expr) -> str:

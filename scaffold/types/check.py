@@ -75,7 +75,9 @@ class TypeCheck:
         self._scratch = ""
         self._run: ty.Run | None = None
         self._files: dict[int, list[_File]] = {}
-        self._needed: dict[int, set[str]] = {}
+        """Until what is reported about them is collected; by the number of the package."""
+        self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
+        self._reached: dict[int, dict[str, frozenset[str]]] = {}
         self._suppressing: set[int] = set()
         self._packages = list(packages)  # so that no other gets its number
         try:
@@ -85,6 +87,14 @@ class TypeCheck:
             self.close()
 
     def _start(self, is_wanted: Callable[[Package, str], bool]) -> None:
+        wanted = [
+            (package, path)
+            for package in self._packages
+            for path in package.python_files
+            if is_wanted(package, path)
+        ]
+        if not wanted:
+            return
         home = self._environment()
         target = distributions.target()
         entries = os.listdir(os.path.join(home, environment.packages(target)))
@@ -95,24 +105,25 @@ class TypeCheck:
         )
         sources = Sources()
         asked: list[_File] = []
-        for package in self._packages:
-            files = self._files[id(package)] = list[_File]()
-            for path in package.python_files:
-                source = sources.get(package, path) if is_wanted(package, path) else None
-                if source is None:
-                    continue
-                if _SUPPRESSION.search(source.data):
-                    self._suppressing.add(id(package))
-                reached = sources.reached(source)
-                roots = frozenset[str]().union(*(item.roots for item in reached.values()))
-                if not _is_relevant(roots, stubbed) or _is_shadowed(source, stubbed):
-                    continue
-                self._note_needs(package, reached)
-                key = self._cache.key(source, reached)
-                file = _File(source, reached, key, self._cache.get(key))
-                files.append(file)
-                if file.diagnostics is None:
-                    asked.append(file)
+        for package, path in wanted:
+            source = sources.get(package, path)
+            if source is None:
+                continue
+            reached = sources.reached(source)
+            if _SUPPRESSION.search(source.data):
+                self._suppressing.add(id(package))
+            else:
+                self._reached.setdefault(id(package), {})[path] = frozenset(
+                    item.package.full_path(item.path) for item in reached.values() if item.path
+                )
+            roots = frozenset[str]().union(*(item.roots for item in reached.values()))
+            if not _is_relevant(roots, stubbed) or _is_shadowed(source, stubbed):
+                continue
+            key = self._cache.key(source, reached)
+            file = _File(source, reached, key, self._cache.get(key))
+            self._files.setdefault(id(package), []).append(file)
+            if file.diagnostics is None:
+                asked.append(file)
         if asked:
             self._home = home
             self._run = self._started("project", asked, _annotated)
@@ -126,10 +137,6 @@ class TypeCheck:
         _write(project, {place: content(source) for place, source in mirrored.items()})
         return ty.Run(project, self._home, [file.source.place for file in asked])
 
-    def _note_needs(self, package: Package, reached: Mapping[str, Source]) -> None:
-        needed = self._needed.setdefault(id(package), set())
-        needed.update(item.package.full_path(item.path) for item in reached.values() if item.path)
-
     def _environment(self) -> str:
         return environment.directory(distributions.target(), self._directory)
 
@@ -138,9 +145,13 @@ class TypeCheck:
             self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
         return os.path.join(self._scratch, name)
 
-    def needed_by(self, package: Package) -> frozenset[str]:
-        """Return the files that the verdict on a package depends on, by ``Package.full_path``."""
-        return frozenset(self._needed.get(id(package), ()))
+    def reached_by(self, package: Package) -> Mapping[str, frozenset[str]]:
+        """Return what the reports about each file depend on, by ``Package.full_path``.
+
+        Files with a comment that names a code of types are left out: whether it suppresses
+        anything is to be found out in each run.
+        """
+        return self._reached.get(id(package), {})
 
     def may_suppress(self, package: Package) -> bool:
         """Tell whether a comment in a package names a code of types."""
@@ -148,11 +159,16 @@ class TypeCheck:
 
     def by_file(self, package: Package) -> dict[str, list[TyDiagnostic]]:
         """Return what the type checker reported about the files of a package, by path."""
-        self._collect()
+        if self._files:
+            self._collect()
+            for number, files in self._files.items():
+                self._diagnostics[number] = {
+                    file.source.path: file.diagnostics for file in files if file.diagnostics
+                }
+            self._files.clear()  # with the texts of all files
         if self.failure:
             return {}
-        files = self._files.get(id(package), ())
-        return {file.source.path: file.diagnostics for file in files if file.diagnostics}
+        return self._diagnostics.get(id(package), {})
 
     def _collect(self) -> None:
         if self._run is None:

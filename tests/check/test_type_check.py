@@ -12,8 +12,11 @@ import pytest
 
 from scaffold.cli.main import main
 from scaffold.files import cache
+from scaffold.model.package import Package
 from scaffold.programs import bundled
 from scaffold.types import ty
+from scaffold.types.finding import TypeFinding
+from scaffold.types.ty import TyDiagnostic
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">
@@ -283,6 +286,32 @@ def test_an_unchanged_file_is_not_checked_again(
     (package / "talker/more.py").write_text("import rclpy\n\nrclpy.init()\n")
     assert check("talker") == before
     assert asked == [["more.py"]]
+
+
+def test_an_edit_leaves_what_the_types_of_other_files_show(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    accepted = NODE.replace("wait=True)", "wait=True)  # noqa: TY004")
+    files = {
+        "talker/talk.py": NODE,
+        "talker/quiet.py": accepted,
+        "talker/more.py": "import rclpy\n",
+    }
+    package = make_package(source, "talker", files)
+    before = check("talker")
+    judged: list[str] = []
+    start = TypeFinding.__init__
+
+    def watched(finding: TypeFinding, package: Package, path: str, reported: TyDiagnostic) -> None:
+        judged.append(path)
+        start(finding, package, path, reported)
+
+    monkeypatch.setattr(TypeFinding, "__init__", watched)
+    (package / "talker/more.py").write_text("import rclpy\n\nrclpy.init()\n")
+    assert check("talker") == before == [f"talker/{FOUND}"]
+    assert set(judged) == {"talker/quiet.py"}  # whether a comment suppresses is asked each time
+    (package / "talker/more.py").write_text("import rclpy\n\nrclpy.initialize()\n")
+    assert check("talker") == ["talker/talker/more.py:3:TY003", *before]
 
 
 @pytest.mark.parametrize("damage", ["clean", "edit", "remove"])

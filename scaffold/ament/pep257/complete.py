@@ -15,7 +15,6 @@ from scaffold.ament.finding import FLAKE8, PEP257, Finding
 from scaffold.ament.flake8.options import PROPERTIES
 from scaffold.ament.pep257 import codes
 from scaffold.ament.pep257 import form as docstrings
-from scaffold.ament.pep257.reference import load
 from scaffold.ament.python_text.text import PythonText
 
 if TYPE_CHECKING:
@@ -66,6 +65,8 @@ def _of_flake8(text: PythonText, options: Options) -> Places | None:
 
 def _places(text: PythonText, **options: object) -> Places | None:
     """Return what pydocstyle reports; ``None`` when it fails."""
+    from scaffold.ament.pep257.reference import load
+
     pydocstyle = load()
     source = "".join(text.lines)
     try:

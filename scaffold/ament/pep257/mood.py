@@ -81,8 +81,15 @@ class _Stemmer(Protocol):
 @lru_cache(maxsize=1)
 def _stemmer() -> _Stemmer:
     from importlib import import_module
+    from importlib.util import find_spec
+    from types import ModuleType
 
-    stemmer: _Stemmer = import_module("snowballstemmer").stemmer("english")
+    # The package itself imports the stemmers of all languages.
+    spec = find_spec("snowballstemmer")
+    package = ModuleType("scaffold_snowball")
+    package.__path__ = [*(spec.submodule_search_locations or ())] if spec else []
+    sys.modules[package.__name__] = package
+    stemmer: _Stemmer = import_module(f"{package.__name__}.english_stemmer").EnglishStemmer()
     return stemmer
 
 

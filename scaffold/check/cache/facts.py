@@ -61,7 +61,7 @@ class EarlierFacts:
         facts = [item for item in used if item is not None]
         if len(facts) < len(used):
             return None
-        result = Fact(*wanted, stored.encoded)
+        result = Fact(*wanted, stored)
         result.reads.files |= stored.files
         result.reads.facts.update(facts)
         return result

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import marshal
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from scaffold import edits as kinds
 from scaffold.check.cache.runs import CachedRun, CacheEntry
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Earlier, Part, Result, Verdict
 from scaffold.diagnostic import Diagnostic, Severity
-from scaffold.edits import Change, Fix, Safety
+from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
 from scaffold.model.facts import StoredFact
@@ -43,9 +43,11 @@ class _Record(NamedTuple):
     needs: tuple[int, ...] | None
     """Places of the packages that the verdict depends on; ``None`` for all."""
     files: int
-    diagnostics: tuple[Any, ...]
-    verdict: tuple[Any, ...] | None
-    """The same in parts; see ``_encode_verdict``."""
+    findings: bytes
+    """The diagnostics, and the same in parts, as marshal wrote them; see ``_encode_verdict``.
+
+    As a whole they would take ten times the memory, and of most packages nobody needs them.
+    """
     foreign: tuple[str, ...]
     """Of the files that are not the user's, what makes them so."""
 
@@ -53,12 +55,19 @@ class _Record(NamedTuple):
 class ResultCache:
     """The results of packages from the last run of the same command line."""
 
-    def __init__(self, run: CachedRun | None, targets: Sequence[Target]) -> None:
+    def __init__(
+        self, run: CachedRun | None, targets: Sequence[Target], *, is_saved: bool = True
+    ) -> None:
         self._targets = targets
+        self._is_saved = is_saved
+        self._results: dict[int, bytes] = {}
+        """By place, the findings of this run; see ``_Record``."""
         self._records: dict[int, _Record] = {}
         """By place, the packages whose findings are the same."""
         self._earlier: dict[str, Earlier] = {}
         """By directory, those of which some findings are the same."""
+        self._coders: dict[str, _Coder] = {}
+        """By directory, what decoded the earlier findings."""
         self._needed: dict[int, tuple[int, ...] | None] = {}
         """Which packages the rest of those needed."""
         self._trees: dict[int, Seen] = {}
@@ -103,14 +112,15 @@ class ResultCache:
 
     def _remember(self, run: CachedRun, at: int, record: _Record, edited: frozenset[str]) -> None:
         package = self._targets[at].package
-        if not edited or _is_unaffected(package, record, edited):
+        _, verdict = marshal.loads(record.findings) if edited else ((), None)  # noqa: S302  own files
+        if not edited or _is_unaffected(package, verdict, edited):
             self._records[at] = record
             self._trees[at] = run.trees[at] or {}
-        elif record.verdict is not None and not _configures(package, record.verdict, edited):
+        elif verdict is not None and not _configures(package, verdict, edited):
             self._needed[at] = record.needs
-            self._earlier[package.directory] = Earlier.of(
-                package, _decode_verdict(record.verdict), edited
-            )
+            coder = self._coders[package.directory] = _Coder()
+            decoded = _decode_verdict(verdict, coder.decode)
+            self._earlier[package.directory] = Earlier.of(package, decoded, edited)
             full = {("content", path) for path in edited}
             seen = (run.trees[at] or {}).items()
             self._trees[at] = {asked: answer for asked, answer in seen if asked not in full}
@@ -126,10 +136,15 @@ class ResultCache:
         for at, target in enumerate(self._targets):
             record = self._records.get(at)
             if record is None:
-                yield next(checked)
+                result = next(checked)
+                if self._is_saved:
+                    coder = self._coders.pop(target.package.directory, None) or _Coder()
+                    self._results[at] = _encode_findings(result, coder.encode)
+                yield result._replace(verdict=None)
             else:
-                result = [_decode(diagnostic) for diagnostic in record.diagnostics]
-                yield Result(target.package, record.files, result, None, record.foreign)
+                stored, _ = marshal.loads(record.findings)  # noqa: S302  own files
+                diagnostics = [*map(_decode, stored)]
+                yield Result(target.package, record.files, diagnostics, None, record.foreign)
 
     def save(
         self,
@@ -163,32 +178,34 @@ class ResultCache:
         records: list[tuple[object, ...]] = []
         for at, (target, result) in enumerate(zip(self._targets, results, strict=True)):
             needed = needs.of(target.package, self._needed.get(at, ()))
-            record = self._records.get(at) or _new(target, result, needed)
+            record = self._records.get(at) or _new(target, result, needed, self._results[at])
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             records.append(tuple(record))
         slot.save(CachedRun(disk.seen, trees, records, code, output, (*warnings,)))
 
 
-def _new(target: Target, result: Result, needed: tuple[int, ...] | None) -> _Record:
-    encode = _Encoder()
-    return _Record(
-        *_asked(target),
-        (*target.package.identity,),
-        needed,
-        result.files,
-        tuple(map(encode, result.diagnostics)),
-        _encode_verdict(result.verdict, encode) if result.verdict else None,
-        result.foreign,
-    )
+def _new(
+    target: Target, result: Result, needed: tuple[int, ...] | None, findings: bytes
+) -> _Record:
+    identity = (*target.package.identity,)
+    return _Record(*_asked(target), identity, needed, result.files, findings, result.foreign)
 
 
-def _is_unaffected(package: Package, record: _Record, edited: frozenset[str]) -> bool:
+def _encode_findings(result: Result, encode: _Encode) -> bytes:
+    diagnostics = tuple(map(encode, result.diagnostics))
+    verdict = _encode_verdict(result.verdict, encode) if result.verdict else None
+    return marshal.dumps((diagnostics, verdict))
+
+
+def _is_unaffected(
+    package: Package, verdict: tuple[Any, ...] | None, edited: frozenset[str]
+) -> bool:
     """Tell whether no finding in a package depends on the edited files."""
-    if record.verdict is None or any(path.startswith(package.full_path("")) for path in edited):
+    if verdict is None or any(path.startswith(package.full_path("")) for path in edited):
         return False
-    paths, parts, *_, facts, _ = record.verdict
+    paths, parts, types, *_, facts, _ = verdict
     places = {at for at, path in enumerate(paths) if path in edited}
-    made_of = [files for _, files, *_ in (*parts, *facts)]
+    made_of = [files for _, files, *_ in (*parts, *types, *facts)]
     return all(map(places.isdisjoint, made_of))
 
 
@@ -250,22 +267,34 @@ class Needs:
         return tuple(sorted(needed))
 
 
-class _Encoder:
-    """Makes of diagnostics what marshal can write, of each once."""
+class _Coder:
+    """Makes of diagnostics what marshal can write, and the other way, of each once."""
 
     def __init__(self) -> None:
-        self._made: dict[int, tuple[Any, ...]] = {}
+        self._stored: dict[int, tuple[Any, ...]] = {}
         self._kept: list[Diagnostic] = []
 
-    def __call__(self, diagnostic: Diagnostic) -> tuple[Any, ...]:
+    def encode(self, diagnostic: Diagnostic) -> tuple[Any, ...]:
         """Return a diagnostic as a tuple."""
-        if id(diagnostic) not in self._made:
-            self._kept.append(diagnostic)  # so that no other gets its number
-            self._made[id(diagnostic)] = _encode(diagnostic)
-        return self._made[id(diagnostic)]
+        return self._stored.get(id(diagnostic)) or self._note(diagnostic, _encode(diagnostic))
+
+    def decode(self, stored: tuple[Any, ...]) -> Diagnostic:
+        """Return the diagnostic that a tuple was made of."""
+        diagnostic = _decode(stored)
+        self._note(diagnostic, stored)
+        return diagnostic
+
+    def _note(self, diagnostic: Diagnostic, stored: tuple[Any, ...]) -> tuple[Any, ...]:
+        self._kept.append(diagnostic)  # so that no other gets its number
+        self._stored[id(diagnostic)] = stored
+        return stored
 
 
-def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
+_Encode = Callable[[Diagnostic], "tuple[Any, ...]"]
+_Decode = Callable[["tuple[Any, ...]"], Diagnostic]
+
+
+def _encode_verdict(verdict: Verdict, encode: _Encode) -> tuple[Any, ...]:
     """Return a verdict as a tuple; its paths are places in the first item."""
     paths: dict[str, int] = {}
 
@@ -282,6 +311,10 @@ def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
         for key, part in verdict.parts.items()
         if part != _NOTHING
     ]
+    types = [
+        (path, places(part.files), numbered(part.facts), tuple(map(encode, part.diagnostics)))
+        for path, part in verdict.types.items()
+    ]
     silent = " ".join(key for key, part in verdict.parts.items() if part == _NOTHING)
     style = [(path, tuple(map(encode, item))) for path, item in verdict.style.items()]
     facts = [
@@ -290,11 +323,11 @@ def _encode_verdict(verdict: Verdict, encode: _Encoder) -> tuple[Any, ...]:
     ]
     unparsable = tuple(map(encode, verdict.unparsable))
     configuring = places(sorted(verdict.configuring))
-    return tuple(paths), parts, silent, style, unparsable, facts, configuring
+    return tuple(paths), parts, types, silent, style, unparsable, facts, configuring
 
 
-def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
-    paths, parts, silent, style, unparsable, facts, configuring = stored
+def _decode_verdict(stored: tuple[Any, ...], decode: _Decode) -> Verdict:
+    paths, parts, types, silent, style, unparsable, facts, configuring = stored
     names = [wanted for wanted, *_ in facts]
 
     def files(places: Iterable[int]) -> frozenset[str]:
@@ -303,18 +336,21 @@ def _decode_verdict(stored: tuple[Any, ...]) -> Verdict:
     def ids(numbers: Iterable[int]) -> Iterator[FactId]:
         return (names[number] for number in numbers)
 
-    return Verdict(
-        {
-            key: Part(files(read), frozenset(ids(used)), tuple(map(_decode, item)))
+    def decoded(parts: Iterable[tuple[Any, ...]]) -> dict[str, Part]:
+        return {
+            key: Part(files(read), frozenset(ids(used)), tuple(map(decode, item)))
             for key, read, used, item in parts
         }
-        | dict.fromkeys(silent.split(), _NOTHING),
-        {path: list(map(_decode, item)) for path, item in style},
-        list(map(_decode, unparsable)),
+
+    return Verdict(
+        decoded(parts) | dict.fromkeys(silent.split(), _NOTHING),
+        {path: list(map(decode, item)) for path, item in style},
+        list(map(decode, unparsable)),
         {
             wanted: StoredFact(files(read), tuple(ids(used)), encoded)
             for wanted, read, used, encoded in facts
         },
+        decoded(types),
         files(configuring),
     )
 
@@ -340,9 +376,16 @@ def _encode_fix(fix: Fix) -> tuple[Any, ...]:
 def _decode(stored: tuple[Any, ...]) -> Diagnostic:
     code, name, severity, location, message, fix, cause = stored
     made = _decode_fix(*fix) if fix else None
-    return Diagnostic(code, name, Severity(severity), Location(*location), message, made, cause)
+    return Diagnostic(code, name, _SEVERITIES[severity], Location(*location), message, made, cause)
 
 
 def _decode_fix(title: str, changes: Sequence[tuple[Any, ...]], safety: str) -> Fix:
-    made: list[Change] = [getattr(kinds, kind)(*fields) for kind, *fields in changes]
-    return Fix(title, tuple(made), Safety(safety))
+    made = tuple([_CHANGES[kind](*fields) for kind, *fields in changes])
+    return Fix(title, made, _SAFETIES[safety])
+
+
+_SEVERITIES = {item.value: item for item in Severity}
+_SAFETIES = {item.value: item for item in Safety}
+_CHANGES: Mapping[str, Callable[..., Change]] = {
+    kind.__name__: kind for kind in (Edit, CreateFile, MakeExecutable, Remove)
+}

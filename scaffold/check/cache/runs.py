@@ -44,7 +44,7 @@ ENVIRONMENT = (
 )
 """The variables that a verdict, or how it is shown, depends on."""
 
-_MAGIC = b"scaffold-run-4\n"
+_MAGIC = b"scaffold-run-6\n"
 
 
 class CachedRun:

@@ -237,7 +237,7 @@ def _run(
     slot = None if is_forgotten else _slot(options, targets)
     change = since.Since(directory, options.since, targets) if options.since else None
     targets = change.targets() if change else targets
-    memory = ResultCache(slot.last if slot else None, targets)
+    memory = ResultCache(slot.last if slot else None, targets, is_saved=slot is not None)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     options.notes += _foreign_note(session, results)
     _note_types(session)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
 from scaffold.model.cmake.ament import has_unknown_commands, programs
 from scaffold.model.facts import fact
+from scaffold.model.package import mentions
 from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
 from scaffold.source import ViewError
@@ -101,7 +102,7 @@ def intended_module(package: Package, path: str, name: str) -> str:
     intended = file_of(package, f"{own}.{name}")
     if path in installed and intended and intended not in installed:
         others = [install for install in package.cmake.installs if install.kind == "FILES"]
-        changes_path = b"sys.path" in package.data(path) or bool(others)
+        changes_path = mentions(package, path, "sys.path") or bool(others)
         return "" if changes_path else f"{own}.{name}"
     return ""
 
@@ -112,7 +113,7 @@ def uninstalled_import(package: Package, where: str, name: str) -> str:
     It is next to the program, or named from the root of the package. Empty where the module may be
     installed in another way, or come from elsewhere.
     """
-    if package.build_type != "ament_cmake" or b"sys.path" in package.data(where):
+    if package.build_type != "ament_cmake" or mentions(package, where, "sys.path"):
         return ""
     paths = package.remember(
         "program_paths", lambda: frozenset(program.path for program in programs(package))
@@ -155,7 +156,7 @@ def _lacks_package(package: Package, path: str, own: str, name: str) -> bool:
         return False
     if package.has_directory(root) or package.has(f"{root}.py"):
         return False
-    changes_path = b"sys.path" in package.data(path)
+    changes_path = mentions(package, path, "sys.path")
     changes_path |= "-packages" in setup.module.source.text
     return not changes_path and bool(file_of(package, f"{own}.{name}"))
 

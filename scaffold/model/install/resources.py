@@ -23,7 +23,7 @@ ROOT = "/<source>/"
 """In front of paths that are relative to the root of the package."""
 _DEEPEST = 50
 """Directories above a file of a package; a longer path is not written by hand."""
-_MENTIONS = ("__file__", "resources", "get_data", "pkg_resources")
+_MENTIONS = (b"__file__", b"resources", b"get_data", b"pkg_resources")
 _SAME = frozenset({"resolve", "absolute", "expanduser"})
 _READERS = frozenset(
     {"importlib.resources.open_text", "importlib.resources.read_text", "pkgutil.get_data"}
@@ -93,15 +93,17 @@ class _FileEvaluator(Evaluator):
 
 def own_files(package: Package) -> Iterator[OwnFile]:
     """Yield the files of the package that its modules read, with where they name them."""
-    words = [word.encode() for word in _MENTIONS]
     for path in package.python_files:
         with suppress(ViewError):
-            if not is_in_tests(path) and any(word in package.data(path) for word in words):
+            if not is_in_tests(path):
                 yield from _files_named_in(package, path)
 
 
 @fact
 def _files_named_in(package: Package, path: str) -> tuple[OwnFile, ...]:
+    data = package.data(path)
+    if not any(word in data for word in _MENTIONS):
+        return ()
     return tuple(_named_in(package, package.module(path)))
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.cmake.rosidl import generations
+from scaffold.model.facts import fact
 from scaffold.model.interfaces.sources import is_test_data
 from scaffold.model.interfaces.syntax import SECTIONS, Definition, Problem, ProblemKind, parse
 from scaffold.record import NamedTuple
@@ -58,8 +59,6 @@ def names_used_in_code(package: Package) -> set[str]:
 
 def _words_of_users(package: Package) -> set[str]:
     result: set[str] = set()
-    section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
-    use = rf"\b{re.escape(package.name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
     own: set[str] = set()
     with contextlib.suppress(ViewError):  # packages without CMake generate nothing
         own = {file.path for call in generations(package) for file in call.files}
@@ -67,13 +66,33 @@ def _words_of_users(package: Package) -> set[str]:
         for path in other.files:
             if not path.endswith(_USERS):
                 continue
-            try:
-                text = other.source(path).text
-            except ViewError:
-                continue
-            names = [text] if other.name == package.name and path in own else re.findall(use, text)
-            result.update(word for item in names for word in re.findall(r"[A-Z]\w+", item))
+            with contextlib.suppress(ViewError):
+                if other.name == package.name and path in own:
+                    result.update(_capitalized(other.source(path).text))
+                elif path.endswith(".py"):
+                    result.update(_names_used_in_python(other, path, package.name))
+                else:
+                    result.update(_names_used_in(other, path, package.name))
     return result
+
+
+@fact
+def _names_used_in_python(package: Package, path: str, name: str) -> frozenset[str]:
+    return _names_used_in(package, path, name)
+
+
+def _names_used_in(package: Package, path: str, name: str) -> frozenset[str]:
+    """Return the words in a file that may name a type of the package of a name."""
+    text = package.source(path).text
+    if name not in text:
+        return frozenset()
+    section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
+    use = rf"\b{re.escape(name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
+    return frozenset(word for item in re.findall(use, text) for word in _capitalized(item))
+
+
+def _capitalized(text: str) -> list[str]:
+    return re.findall(r"[A-Z]\w+", text)
 
 
 def interface_files(package: Package) -> list[InterfaceFile]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.nodes import StartedNode, consumers, started_nodes
 from scaffold.model.package import mentions
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
     from scaffold.model.programs.known_nodes import KnownNode
 
 _ALIKE = 0.75
+# linear: it matches from the start of a run of these characters only
+_FILE_NAME = re.compile(r"(?<![\w.-])[\w.-]+\.ya?ml")
 _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
 
 
@@ -151,9 +155,23 @@ def _is_mentioned(package: Package, path: str, launch_files: set[str]) -> bool:
     name = path.rpartition("/")[2]
     for other in package.files:
         if other.endswith(_LAUNCH_ENDINGS) and other not in launch_files and other != "setup.py":
-            try:
-                if name in package.source(other).text:
+            with contextlib.suppress(ViewError):
+                if _mentions(package, other, name):
                     return True
-            except ViewError:
-                continue
     return False
+
+
+def _mentions(package: Package, path: str, name: str) -> bool:
+    if not path.endswith(".py"):
+        return name in package.source(path).text
+    if _FILE_NAME.fullmatch(name):
+        return any(name in word for word in _parameter_files_named_in(package, path))
+    return mentions(package, path, name)
+
+
+@fact
+def _parameter_files_named_in(package: Package, path: str) -> frozenset[str]:
+    """Return what may be the name of a parameter file, or end with it; raises ViewError."""
+    text = package.source(path).text
+    is_any = ".yaml" in text or ".yml" in text
+    return frozenset(_FILE_NAME.findall(text) if is_any else ())

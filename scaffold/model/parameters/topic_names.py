@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.formats.yaml import Scalar
@@ -27,8 +29,15 @@ def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
             for entry in section.entries:
                 if entry.name == parameter and not _is_same(entry.value, endpoint):
                     return False
-    word = re.compile(rf"\b{re.escape(parameter)}\b")
-    return not any(word.search(text) for text in _launch_texts(package))
+    return not package.remember(
+        ("named in launch files", parameter), lambda: _is_named(package, parameter)
+    )
+
+
+def _is_named(package: Package, name: str) -> bool:
+    """Tell whether a launch file holds a word."""
+    word = re.compile(rf"\b{re.escape(name)}\b")
+    return any(name in text and word.search(text) for text in _launch_texts(package))
 
 
 def _is_same(value: object, endpoint: NamedEndpoint) -> bool:
@@ -36,12 +45,8 @@ def _is_same(value: object, endpoint: NamedEndpoint) -> bool:
     return isinstance(value, Scalar) and value.text.removeprefix("/") == name
 
 
-def _launch_texts(package: Package) -> list[str]:
-    texts: list[str] = []
+def _launch_texts(package: Package) -> Iterator[str]:
     for path in package.files:
         if path.endswith(_LAUNCH):
-            try:
-                texts.append(package.source(path).text)
-            except ViewError:
-                texts.append("")
-    return texts
+            with suppress(ViewError):
+                yield package.source(path).text

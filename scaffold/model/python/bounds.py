@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+
 from scaffold.model.python.scopes import ScopeIndex
 
 MAX_NODES = 60_000
@@ -9,6 +11,11 @@ MAX_NODES = 60_000
 MAX_STATEMENTS = 4_000
 """One after the other in a block; the longest block of these repositories has 250."""
 _BLOCKS = ("body", "orelse", "finalbody")
+_WITH_BLOCKS = tuple(
+    kind
+    for kind in vars(ast).values()
+    if isinstance(kind, type) and issubclass(kind, ast.AST) and "body" in kind._fields
+)
 
 
 def why_unchecked(index: ScopeIndex) -> str:
@@ -31,5 +38,6 @@ def _refusal(much: str, most: int) -> str:
 
 
 def _longest_block(index: ScopeIndex) -> int:
-    blocks = (getattr(node, field, None) for node in index.nodes for field in _BLOCKS)
+    nodes = index.of_types(*_WITH_BLOCKS)
+    blocks = (getattr(node, field, None) for node in nodes for field in _BLOCKS)
     return max(len(block) for block in blocks if isinstance(block, list))

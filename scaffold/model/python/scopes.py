@@ -75,10 +75,17 @@ class ScopeIndex:
             for field in _FIELDS[kind]:
                 value = getattr(node, field, None)
                 for item in value if type(value) is list else (value,):
-                    if isinstance(item, ast.AST):
-                        parents[item] = node
-                        if not levels or not visit(item, levels - 1):
-                            return False
+                    if not isinstance(item, ast.AST):
+                        continue
+                    parents[item] = node
+                    if not levels:
+                        return False
+                    inner = type(item)
+                    if not _FIELDS[inner]:  # as half of all nodes: spare them a call
+                        nodes.append(item)
+                        by_type[inner].append(item)
+                    elif not visit(item, levels - 1):
+                        return False
             return True
 
         return visit(self.tree, deepest - 1)

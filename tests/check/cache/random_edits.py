@@ -20,6 +20,11 @@ _LINES = (
     "def broken(:\n",
     "    pass\n",
     "class Base:\n    pass\n",
+    "import rclpy.node\nrclpy.node.Node('probe').halt()\n",
+    "from rclpy.qos import QoSProfiles  # noqa: TY001\n",
+    "from rclpy.qos import QoSProfiles\n",
+    "made = rclpy.create_node(7)\n",
+    "made.halt(1)  # noqa: TY003\n",
     "<depend>rclpy</depend>\n",
     "\u00e4\n",
 )
@@ -95,6 +100,19 @@ def _edit_two(top: Path, random: Random) -> str:
     return f"{_replace_word(top, random)} {_insert_line(top, random)}"
 
 
+def _import_another(top: Path, random: Random) -> str:
+    """Let a module import another of its directory, whose types then count for it."""
+    path = random.choice(_files(top, (".py",)) or _files(top))
+    others = [item for item in _files(top, (".py",)) if item.parent == path.parent]
+    other = random.choice(others or [path])
+    names = re.findall(r"^(?:class|def) (\w+)|^(\w+) =", "".join(_lines(other)), re.MULTILINE)
+    name = "".join(random.choice(names)) if names else "made"
+    lines = _lines(path)
+    place = f"{path.parent.name}.{other.stem}" if random.random() < 0.7 else f".{other.stem}"
+    lines.insert(random.randint(0, len(lines)), f"from {place} import {name}\n{name}().halt()\n")
+    return _write(path, lines)
+
+
 def _rename(top: Path, random: Random) -> str:
     path = _any(top, random)
     new = path.with_name(f"{path.stem}_{random.randrange(100)}{path.suffix}")
@@ -141,5 +159,6 @@ def _change_mode(top: Path, random: Random) -> str:
 _EDITS: Sequence[Edit] = (
     *(_insert_line, _insert_line, _insert_line, _delete_line, _delete_line, _repeat_line),
     *(_replace_word, _replace_word, _replace_word, _misspell, _misspell, _edit_two),
+    *(_import_another, _import_another),
     *(_rename, _delete, _copy, _swap, _touch, _change_mode),
 )

@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check import registry, runner
 from scaffold.check.cache import runs as memory
 from scaffold.check.result import Earlier
 from scaffold.check.session import Session
@@ -800,6 +800,27 @@ def test_rules_about_a_whole_package_parse_what_was_edited(
     edited.write_text(f"# a node\n{edited.read_text()}")
     assert runs(".") != before
     assert set(parsed) <= {"talker/node_3.py", "talker/__init__.py", "setup.py"}
+
+
+def test_rules_about_a_whole_package_are_not_asked_again(
+    runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_nodes(package)
+    write(package, {"settings/node_3.yaml": "node_3:\n  ros__parameters:\n    rate: 2.0\n"})
+    before = runs("--no-types", ".")
+    again: set[str] = set()
+    take_over = runner.Check._take_over  # noqa: SLF001
+
+    def watched(check: runner.Check, earlier: Earlier) -> None:
+        take_over(check, earlier)
+        again.update(earlier.verdict.parts.keys() - check.parts.keys())
+
+    monkeypatch.setattr(runner.Check, "_take_over", watched)
+    edited = package / "talker" / "node_3.py"
+    edited.write_text(f"{edited.read_text()}# a node\n")
+    assert runs("--no-types", ".") == before
+    assert again
+    assert {key.rpartition(" ")[2] for key in again} == {"talker/node_3.py"}
 
 
 def test_a_change_of_what_a_node_declares_reaches_the_launch_files_that_set_it(

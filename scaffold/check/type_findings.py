@@ -1,0 +1,99 @@
+"""Findings about types: of the type checker for new and edited files, else of an earlier run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.check import runner, suppression, type_rules
+from scaffold.check.result import Earlier, Part
+from scaffold.record import NamedTuple
+from scaffold.types.check import TypeCheck
+
+if TYPE_CHECKING:
+    from scaffold.check.type_rules import TypeRule
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.model.facts import FactId, StoredFact
+    from scaffold.model.package import Package
+
+
+class Typed(NamedTuple):
+    """What types show in a package."""
+
+    diagnostics: Sequence[Diagnostic] = ()
+    parts: Mapping[str, Part] = {}
+    """By path, before anything is suppressed; files whose findings are not kept are left out."""
+    facts: Mapping[FactId, StoredFact] = {}
+    """The facts that the parts depend on."""
+
+
+class TypeFindings:
+    """Checks the types of packages; the type checker runs from the start.
+
+    Args:
+        rules: The rules that judge what it reports.
+        packages: The packages.
+        is_wanted: Tells by package and path whether a file is to be checked.
+        earlier: What an earlier run found in some, by directory.
+    """
+
+    def __init__(
+        self,
+        rules: Sequence[TypeRule],
+        packages: Sequence[Package],
+        is_wanted: Callable[[Package, str], bool],
+        earlier: Mapping[str, Earlier],
+    ) -> None:
+        self._rules = rules
+        self._earlier = {place: _of_types(item) for place, item in earlier.items()}
+        kept = {id(item): self._kept(item) for item in packages}
+        self._check = TypeCheck(
+            packages,
+            lambda package, path: path not in kept[id(package)] and is_wanted(package, path),
+        )
+
+    def _kept(self, package: Package) -> frozenset[str]:
+        earlier = self._earlier.get(package.directory)
+        return runner.kept(package, earlier) if earlier is not None else frozenset()
+
+    @property
+    def failure(self) -> str:
+        """Why types are not checked; empty if they are."""
+        return self._check.failure
+
+    def close(self) -> None:
+        """End the type checker."""
+        self._check.close()
+
+    def of(self, package: Package) -> Typed:
+        """Return what types show in a package."""
+        reported = self._check.by_file(package)
+        if self.failure:
+            return Typed()
+        check = runner.Check(package, self._earlier.get(package.directory))
+        if reported:
+            type_rules.give(package, reported)
+        diagnostics = check.run(self._rules if reported else ())
+        if diagnostics or self._check.may_suppress(package):
+            codes = {rule.code for rule in self._rules}
+            diagnostics = suppression.apply(package, diagnostics, codes)
+        verdict = check.verdict({})
+        check.end()
+        if reported:
+            package.forget()
+        if verdict is None:
+            return Typed(diagnostics)
+        parts = dict(check.parts)
+        for path, files in self._check.reached_by(package).items():
+            judged = verdict.parts.get(path, _NOTHING)
+            parts[path] = judged._replace(files=judged.files | files)
+        return Typed(diagnostics, parts, verdict.facts)
+
+
+_NOTHING = Part(frozenset(), frozenset(), ())
+
+
+def _of_types(earlier: Earlier) -> Earlier:
+    """Return what is known of types alone."""
+    verdict = earlier.verdict
+    return Earlier(verdict._replace(parts=verdict.types, unparsable=()), earlier.edited)
