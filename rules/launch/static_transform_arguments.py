@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.distributions import of_kind, target
-from scaffold.api.launch import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchFile, markup_files
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -16,6 +16,7 @@ _LAUNCH = (
     "        Node(package='tf2_ros', executable='static_transform_publisher',\n"
     "             arguments=[{}]),\n    ])\n"
 )
+_XML = "<launch>\n  <node pkg='tf2_ros' exec='static_transform_publisher' args='{}'/>\n</launch>\n"
 _OLD = "'1', '0', '0', '0', '0', '0', 'base', 'laser'"
 _NEW = (
     "'--x', '1', '--y', '0', '--z', '0', '--yaw', '0', '--pitch', '0', '--roll', '0', "
@@ -29,7 +30,7 @@ _FLAGS = {
 """By the number of arguments without names."""
 
 
-class StaticTransformArguments(LaunchRule):
+class StaticTransformArguments(Rule):
     """A launch file gives ``static_transform_publisher`` arguments without names.
 
     **Why.** The program ends at once: Lyrical does not understand them any more.
@@ -46,35 +47,77 @@ class StaticTransformArguments(LaunchRule):
         Example("names", {"launch/a.launch.py": _LAUNCH.format(_NEW)}, distro="lyrical"),
         Example(
             "no names",
-            {"launch/a.launch.py": _LAUNCH.format(_OLD)},
+            {
+                "launch/a.launch.py": _LAUNCH.format(_OLD),
+                "launch/b.launch.xml": _XML.format("1 0 0 0 0 0 base laser"),
+            },
             Report(
-                "8:24",
+                "launch/a.launch.py:8:24",
                 "static_transform_publisher of Lyrical takes no arguments "
                 "without names; write --x, --y and so on",
                 fix="write the names",
             ),
-            fixed={"launch/a.launch.py": _LAUNCH.format(_NEW)},
+            Report(
+                "launch/b.launch.xml:2:63",
+                "static_transform_publisher of Lyrical takes no arguments "
+                "without names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            fixed={
+                "launch/a.launch.py": _LAUNCH.format(_NEW),
+                "launch/b.launch.xml": _XML.format(_NEW.replace("'", "").replace(",", "")),
+            },
             distro="lyrical",
         ),
     )
 
-    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+    def check(self, package: Package) -> Iterator[Diagnostic]:
         (change,) = of_kind("launch")
-        if not change.is_removed or not launch.module.mentions(change.names[0]):
+        if not change.is_removed:
             return
-        for call in launch.find(*NODES):
-            executable, given = call.given.get("executable"), call.given.get("arguments")
-            match executable, given:
-                case ast.Constant(value=name), ast.List(elts=values) if name in change.names:
-                    flags = _FLAGS.get(len(values))
-                    if flags is None or any(map(_is_flag, values)):
-                        continue
-                    message = (
-                        f"{name} of {target().title} takes no arguments without names; "
-                        f"{change.advice}"
-                    )
-                    fix = Fix("write the names", tuple(_edits(launch, values, flags)))
-                    yield self.report(launch.location(given), message, fix)
+        message = (
+            f"{change.names[0]} of {target().title} takes no arguments without names; "
+            f"{change.advice}"
+        )
+        for launch in LaunchFile.of_package(package):
+            for location, edits in _written_in_python(launch, change.names[0]):
+                yield self.report(location, message, Fix("write the names", edits))
+        for file in markup_files(package):
+            for node in file.nodes:
+                given = node.arguments
+                if node.executable is None or node.executable.value not in change.names:
+                    continue
+                words = given.value.split() if given is not None else []
+                flags = _FLAGS.get(len(words))
+                if given is None or flags is None or any(item.startswith("--") for item in words):
+                    continue
+                edit = _edit(package, given.location, given.value, _named(words, flags))
+                fix = Fix("write the names", (edit,)) if edit is not None else None
+                yield self.report(given.location, message, fix)
+
+
+def _written_in_python(
+    launch: LaunchFile, name: str
+) -> Iterator[tuple[Location, tuple[Edit, ...]]]:
+    for call in launch.find(*NODES):
+        executable, given = call.given.get("executable"), call.given.get("arguments")
+        match executable, given:
+            case ast.Constant(value=written), ast.List(elts=values) if written == name:
+                flags = _FLAGS.get(len(values))
+                if flags is not None and not any(map(_is_flag, values)):
+                    yield launch.location(given), tuple(_edits(launch, values, flags))
+
+
+def _named(words: Sequence[str], flags: Sequence[str]) -> str:
+    return " ".join(f"{flag} {word}" for flag, word in zip(flags, words, strict=True))
+
+
+def _edit(package: Package, at: Location, old: str, new: str) -> Edit | None:
+    """Replace the value of an attribute, where it is written as it is read."""
+    lines = package.source(at.path).text.split("\n")
+    start = sum(len(line) + 1 for line in lines[: at.line - 1]) + at.column - 1
+    is_plain = lines[at.line - 1].startswith(old, at.column - 1)
+    return Edit(at.path, start, start + len(old), new) if is_plain else None
 
 
 def _is_flag(node: ast.expr) -> bool:
