@@ -60,7 +60,7 @@ class Change(NamedTuple):
     def has_replacement(self) -> bool:
         """Whether what takes its place is on the target, and on what is to be kept."""
         kept = distributions.kept()
-        lowest = min(one.place for one in (distributions.target(), *kept))
+        lowest = min(distribution.place for distribution in (distributions.target(), *kept))
         return bool(self.use) and self.since.place <= lowest
 
     @property

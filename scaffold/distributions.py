@@ -104,8 +104,8 @@ def refusal(name: object) -> str:
     """Return what to say of a name that no known distribution has."""
     from difflib import get_close_matches
 
-    near = get_close_matches(str(name).lower(), NAMES, n=1)
-    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(NAMES)}"
+    closest = get_close_matches(str(name).lower(), NAMES, n=1)
+    hint = f"did you mean {closest[0]!r}?" if closest else f"choose from {', '.join(NAMES)}"
     return f"no distribution {name!r}; {hint}"
 
 
@@ -119,7 +119,7 @@ def several(text: str, origin: str = "--distro") -> list[Distribution]:
     if not words:
         raise InputError(f"{origin}: no distribution is named; known are {', '.join(NAMES)}")
     chosen = {word: named(word, origin) for word in words}
-    return sorted(chosen.values(), key=lambda one: NAMES.index(one.name))
+    return sorted(chosen.values(), key=lambda distribution: NAMES.index(distribution.name))
 
 
 JAZZY = named(DEFAULT)
@@ -171,5 +171,5 @@ def targeting(
 
 def titles(distributions: Sequence[Distribution]) -> str:
     """Return ``Jazzy``, ``Jazzy and Lyrical``, ``Jazzy, Kilted and Lyrical``."""
-    *rest, last = (one.title for one in distributions)
+    *rest, last = (distribution.title for distribution in distributions)
     return f"{', '.join(rest)} and {last}" if rest else last

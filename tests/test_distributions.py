@@ -68,7 +68,7 @@ def test_an_unknown_distribution_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, "")
-    for words, hint in (("lyrcal", "did you mean 'lyrical'?"), ("noetic", "known are humble,")):
+    for words, hint in (("lyrcal", "did you mean 'lyrical'?"), ("noetic", "choose from humble,")):
         assert main(["check", str(package), "--distro", words]) == 2
         assert f"--distro: no distribution {words!r}; {hint}" in capsys.readouterr().err
     assert main(["check", str(package), "--distro", ","]) == 2

@@ -68,7 +68,7 @@ class SpinInCallback(RclpyRule):
             Report(
                 "9:9",
                 "spin() runs in the constructor of Talker, which returns only at "
-                "the shutdown: what is behind it runs too late; spin the node in "
+                "the shutdown: the code after it runs too late; spin the node in "
                 "main()",
                 severity=Severity.WARNING,
             ),
@@ -79,7 +79,7 @@ class SpinInCallback(RclpyRule):
             Report(
                 "9:9",
                 "spin() runs in the constructor of Talker, which returns only at "
-                "the shutdown: what is behind it runs too late; spin the node in "
+                "the shutdown: the code after it runs too late; spin the node in "
                 "main()",
             ),
         ),
@@ -110,7 +110,7 @@ class SpinInCallback(RclpyRule):
             if call.name == "spin" and not _is_self(file, call.call):
                 continue
             message = (
-                f"spin() runs in {origin}, which returns only at the shutdown: what is behind it "
+                f"spin() runs in {origin}, which returns only at the shutdown: the code after it "
                 "runs too late; spin the node in main()"
             )
             severity = None if outside else Severity.WARNING

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
-from scaffold.api.launch import nodes_for, started_nodes
+from scaffold.api.launch import started_nodes, values_in_files
 from scaffold.api.parameters import (
     Declared,
     declared_by,
     number_of,
     own_nodes,
-    parameter_file,
-    parameter_paths,
     place_of,
 )
 
@@ -66,8 +64,8 @@ class DivisorZero(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for name, known, at in _zeros(package):
-            for message in _messages(package, known, name):
+        for name, declarations, at in _zeros(package):
+            for message in _messages(package, declarations, name):
                 yield self.report(at, message)
         for own in own_nodes(package)[0]:
             for name, place in declared_by(own, package).places.items():
@@ -82,13 +80,9 @@ class DivisorZero(Rule):
 
 def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:
     """Yield the parameters that are set to zero, what their nodes declare, and the place."""
-    for path in parameter_paths(package):
-        file = parameter_file(package, path)
-        for section in file.sections if file else ():
-            known = [declared_by(owner, package) for owner in nodes_for(package, path, section)]
-            for entry in section.entries:
-                if number_of(entry.value) == 0:
-                    yield entry.name, known, entry.value.location
+    for _, entry, declarations in values_in_files(package):
+        if number_of(entry.value) == 0:
+            yield entry.name, declarations, entry.value.location
     for node in started_nodes(package):
         owner = node.owner(package)
         for given in node.parameters if owner is not None else ():
@@ -96,9 +90,9 @@ def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:
                 yield given.name, [declared_by(owner, package)], given.location
 
 
-def _messages(package: Package, known: list[Declared], name: str) -> Iterator[str]:
+def _messages(package: Package, declarations: list[Declared], name: str) -> Iterator[str]:
     """Yield the message for a parameter that is zero, if its node divides by it."""
-    for declared in known:
+    for declared in declarations:
         place = declared.places.get(name)
         if place is not None and place.divides:
             where = place_of(place.package, place.location, package)

@@ -87,7 +87,7 @@ def _assertions(module: PythonModule, argument: ast.expr) -> Iterator[ast.AST]:
     """Yield the assertions in a function that is given as a callback."""
     if not isinstance(argument, ast.Name):
         return
-    found = module.index.lookup(argument.id, argument)
-    for binding in found[1] if found else ():
+    lookup = module.index.lookup(argument.id, argument)
+    for binding in lookup[1] if lookup else ():
         if isinstance(binding.node, ast.FunctionDef):
             yield from (node for node in ast.walk(binding.node) if isinstance(node, ast.Assert))

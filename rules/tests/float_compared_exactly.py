@@ -99,8 +99,8 @@ def _is_computed(package: Package, module: PythonModule, node: ast.expr, depth: 
         case ast.BinOp(left=left, right=right):
             parts = (left, right)
         case ast.Name(id=name):
-            found = module.index.lookup(name, node)
-            bindings = found[1] if found else ()
+            lookup = module.index.lookup(name, node)
+            bindings = lookup[1] if lookup else ()
             values = [item.value or _unpacked(module, item.node) for item in bindings]
             parts = (values[0],) if len(values) == 1 else ()
         case ast.Call(func=function):

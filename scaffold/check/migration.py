@@ -51,9 +51,9 @@ class MigratingSession(Session):
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is new; lines may have moved since, so that places do not count."""
-        found = super()._report(target, diagnostics)
+        reported = super()._report(target, diagnostics)
         directory = target.package.directory
-        return [item for item in found if _identity(directory, item) not in self.known]
+        return [item for item in reported if _identity(directory, item) not in self.known]
 
 
 def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:

@@ -44,7 +44,7 @@ class Ruled(NamedTuple):
     """What the rules found in a package."""
 
     files: int
-    found: list[Diagnostic]
+    diagnostics: list[Diagnostic]
     verdict: Verdict | None
     """The same in parts, with the style of the files that are not to be checked again."""
     foreign: tuple[str, ...] = ()
@@ -154,10 +154,10 @@ class Session:
         everything = {**(rules.verdict.style if rules.verdict else {}), **style}
         typed = self._types.of(target.package) if self._types is not None else None
         styles = (item for path in sorted(everything) for item in everything[path])
-        diagnostics = [*rules.found, *styles]
+        diagnostics = [*rules.diagnostics, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if typed is not None:
-            places = {item.location[:2] for item in rules.found}
+            places = {item.location[:2] for item in rules.diagnostics}
             diagnostics += [item for item in typed.diagnostics if item.location[:2] not in places]
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}

@@ -20,16 +20,19 @@ _NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
 """What a message may say of the distribution that it is about."""
 
 
-def merged(found: Mapping[Distribution, Sequence[Result]]) -> list[Result]:
+def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Result]:
     """Return one result for each package, with the findings for all distributions.
 
     Args:
-        found: What a check for each distribution found, in the same packages.
+        by_distribution: The results for each distribution, in the same packages.
     """
-    first, *_ = found.values()
+    first, *_ = by_distribution.values()
     results: list[Result] = []
     for at, result in enumerate(first):
-        findings = {one: results_[at].diagnostics for one, results_ in found.items()}
+        findings = {
+            distribution: results_[at].diagnostics
+            for distribution, results_ in by_distribution.items()
+        }
         results.append(result._replace(diagnostics=_merged(findings), verdict=None))
     return results
 
@@ -39,15 +42,15 @@ def without_distribution(message: str) -> str:
     return _NAMED.sub("", message)
 
 
-def _merged(found: Mapping[Distribution, Sequence[Diagnostic]]) -> list[Diagnostic]:
-    known: dict[Key, Diagnostic] = {}
+def _merged(by_distribution: Mapping[Distribution, Sequence[Diagnostic]]) -> list[Diagnostic]:
+    by_key: dict[Key, Diagnostic] = {}
     holding: dict[Key, list[str]] = {}
-    for distribution, diagnostics in found.items():
+    for distribution, diagnostics in by_distribution.items():
         for item in diagnostics:
             key = (item.code, tuple(item.location), without_distribution(item.message))
-            known.setdefault(key, item)
+            by_key.setdefault(key, item)
             names = holding.setdefault(key, [])
             if distribution.name not in names:
                 names.append(distribution.name)
-    result = [item._replace(distributions=tuple(holding[key])) for key, item in known.items()]
+    result = [item._replace(distributions=tuple(holding[key])) for key, item in by_key.items()]
     return sorted(result, key=lambda item: item.sort_key)

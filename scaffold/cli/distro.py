@@ -48,7 +48,7 @@ def chosen(flag: str | None, settings: Config) -> list[Distribution]:
 def note(targets: Sequence[Distribution]) -> tuple[str, ...]:
     """Return the line about a shell that is set up for another distribution, if it is."""
     name = os.environ.get(VARIABLE, "")
-    if not name or name in [one.name for one in targets]:
+    if not name or name in [target.name for target in targets]:
         return ()
     checked = f"checked for {distributions.titles(targets)}, although {VARIABLE} is {name!r}"
     return (f"{checked}: --distro {name} checks for that",) if _is_known(name) else (checked,)

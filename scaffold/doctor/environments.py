@@ -41,8 +41,8 @@ class Environment(NamedTuple):
 def environments(machine: Machine) -> list[Environment]:
     """Return all of them; the first that can be used is the one that ``smoke`` takes."""
     every = [_sourced(machine), *_installed(machine), _wheels(machine)]
-    taken = next((one for one in every if one.is_usable), None)
-    return [one._replace(taken=one is taken) for one in every]
+    taken = next((environment for environment in every if environment.is_usable), None)
+    return [environment._replace(taken=environment is taken) for environment in every]
 
 
 def _sourced(machine: Machine) -> Environment:

@@ -45,8 +45,8 @@ class Machine:
     @cached_property
     def installations(self) -> list[str]:
         """The distributions that are installed, the preferred one first."""
-        found = [path.parent.name for path in Path(self.installed).glob("*/setup.bash")]
-        return sorted(found, key=lambda name: (name != PREFERRED, name))
+        names = [path.parent.name for path in Path(self.installed).glob("*/setup.bash")]
+        return sorted(names, key=lambda name: (name != PREFERRED, name))
 
     def distribution_of(self, path: str) -> str | None:
         """Return the distribution in whose installation a path is."""
@@ -77,8 +77,8 @@ class Machine:
             version = stated.get("version") or stated.get("version_info")
             if version:
                 return ".".join(version.split(".")[:2])
-        found = _PYTHON.search(os.path.basename(os.path.realpath(self.python)))
-        return found[1] if found else None
+        match = _PYTHON.search(os.path.basename(os.path.realpath(self.python)))
+        return match[1] if match else None
 
     def program(self, name: str) -> str | None:
         """Return the path of a program on the search path."""
@@ -99,8 +99,8 @@ class Machine:
 
 def python_in(path: str) -> str | None:
     """Return the version of Python that a directory is for, such as ``3.12``."""
-    found = _PYTHON.search(path)
-    return found[1] if found else None
+    match = _PYTHON.search(path)
+    return match[1] if match else None
 
 
 def has_package(prefix: str, name: str) -> bool:

@@ -133,7 +133,7 @@ def _files(directory: str) -> Iterator[str]:
 def _name(directory: str) -> str:
     try:
         with open(os.path.join(directory, MANIFEST), encoding="utf-8", errors="replace") as file:
-            found = _NAME.search(file.read(_MANIFEST_BYTES))
+            match = _NAME.search(file.read(_MANIFEST_BYTES))
     except OSError:
-        found = None
-    return found[1] if found else os.path.basename(directory)
+        match = None
+    return match[1] if match else os.path.basename(directory)

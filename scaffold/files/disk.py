@@ -118,9 +118,9 @@ class Disk:
             name: The name of the file, without spaces.
             most: Directories to look into at most; one with more is taken to hold none.
         """
-        found = _directories_with(directory, name, most)
-        self.note({(f"with {name} {most}", directory): _digest_of(found)})
-        return found
+        directories = _directories_with(directory, name, most)
+        self.note({(f"with {name} {most}", directory): _digest_of(directories)})
+        return directories
 
     def exists(self, path: str) -> bool:
         """Tell whether something is there."""

@@ -262,12 +262,12 @@ def similar_key(key: str) -> str | None:
     if not key.startswith(_PYTHON) or key in _OF_DEBIAN or key in module_keys():
         return None
     name = key.removeprefix(_PYTHON)
-    near = (
+    candidates = (
         other
         for other in sorted(module_keys())
         if other.startswith(_PYTHON) and is_near(name, other.removeprefix(_PYTHON))
     )
-    return next(near, None)
+    return next(candidates, None)
 
 
 _PYTHON = "python3-"

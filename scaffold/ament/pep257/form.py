@@ -118,9 +118,9 @@ def _summary(definition: Definition) -> str:
 def _blank_after_summary(definition: Definition) -> Violations:
     lines = definition.value.strip().split("\n")
     if len(lines) > 1:
-        blanks = sum(takewhile(bool, (not line.strip() for line in lines[1:])))
-        if blanks != 1:
-            yield "D205", f"expected 1 blank line after the summary line, found {blanks}"
+        count = sum(takewhile(bool, (not line.strip() for line in lines[1:])))
+        if count != 1:
+            yield "D205", f"expected 1 blank line after the summary line, found {count}"
 
 
 def _indentation(definition: Definition) -> Violations:

@@ -198,17 +198,19 @@ def _check_several(options: argparse.Namespace, session: Session, disk: Disk) ->
     for flag in ("fix", "diff", "add_noqa", "reference", "stdin_filename", "since"):
         if getattr(options, flag):
             raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
-    found: dict[Distribution, list[Result]] = {}
+    by_distribution: dict[Distribution, list[Result]] = {}
     notes = options.notes
     targets: list[Target] = []
-    for one in options.distributions:
+    for distribution in options.distributions:
         options.notes = notes
-        with distributions.targeting(one):
+        with distributions.targeting(distribution):
             targets = find_targets(options, session, disk)
-            found[one] = list(progress.shown(session.run(targets), len(targets), "packages"))
-        options.notes += _foreign_note(session, found[one])
+            by_distribution[distribution] = list(
+                progress.shown(session.run(targets), len(targets), "packages")
+            )
+        options.notes += _foreign_note(session, by_distribution[distribution])
         _note_types(session)
-    results = merged(found)
+    results = merged(by_distribution)
     if options.write_baseline:
         return baselines.write(options, results)
     results = baselines.hide(options, results, targets, session)

@@ -153,13 +153,13 @@ def _lines(
 
     for item in consequences:
         groups = [*zip(HEADINGS, item[1:], strict=True)]
-        if not any(found for _, found in groups):
+        if not any(diagnostics for _, diagnostics in groups):
             continue
         yield f"{item.result.package.name}:"
-        for heading, found in groups:
-            if found:
+        for heading, diagnostics in groups:
+            if diagnostics:
                 yield f"  {heading}:"
-                yield from (f"    {text.line(item.result.package, one)}" for one in found)
+                yield from (f"    {text.line(item.result.package, one)}" for one in diagnostics)
     totals = [sum(len(item[at]) for item in consequences) for at in range(1, 4)]
     counts = zip(totals, COUNTED, strict=True)
     named = ", ".join(f"{number} {state}" for number, state in counts)
@@ -180,8 +180,8 @@ def _as_data(
 ) -> dict[str, object]:
     from scaffold.reporters import json
 
-    def listed(item: Consequences, found: Sequence[Diagnostic]) -> list[dict[str, object]]:
-        result = item.result._replace(diagnostics=list(found))
+    def listed(item: Consequences, diagnostics: Sequence[Diagnostic]) -> list[dict[str, object]]:
+        result = item.result._replace(diagnostics=list(diagnostics))
         return [*json.diagnostics([result], [target.name])]
 
     return {

@@ -151,8 +151,8 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from scaffold.smoke.session import Options, packages_of, smoke
 
     _validate(options)
-    found = targets.find(options.paths)
-    packages, run_only = _selected(options, found, packages_of(found))
+    found_targets = targets.find(options.paths)
+    packages, run_only = _selected(options, found_targets, packages_of(found_targets))
     with _Progress() as progress:
         result = smoke(
             packages,
@@ -181,7 +181,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
 
 
 def _selected(
-    options: argparse.Namespace, found: Sequence[Target], packages: Sequence[Package]
+    options: argparse.Namespace, found_targets: Sequence[Target], packages: Sequence[Package]
 ) -> tuple[list[Package], frozenset[str] | None]:
     """Return the packages to build, and the names of those to run; ``None`` for all."""
     from scaffold.smoke.selection import named, with_dependencies
@@ -194,7 +194,7 @@ def _selected(
     elif options.since is not None:
         from scaffold.cli.since import Since
 
-        changed = Since(found[0].package.directory, options.since, found).targets()
+        changed = Since(found_targets[0].package.directory, options.since, found_targets).targets()
         names = {target.package.name for target in changed}
     else:
         return [*packages], None

@@ -52,13 +52,13 @@ class UncheckedPackages:
     def directories(self) -> Mapping[str, str]:
         """Where the packages are, by name; none if there are too many directories."""
         result: dict[str, str] = {}
-        for directory in self._found():
+        for directory in self._names():
             name = None if directory in self._own else self._name_of(directory)
             if name is not None:
                 result.setdefault(name, directory)
         return result
 
-    def _found(self) -> Iterator[str]:
+    def _names(self) -> Iterator[str]:
         disk = self._workspace.disk
         for top in self._beside:
             yield from packages_in(disk, top, most=MOST_DIRECTORIES)

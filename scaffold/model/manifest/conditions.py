@@ -47,8 +47,8 @@ def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
     Raises:
         ConditionError: it does not follow the grammar of REP 149.
     """
-    known = environment() if variables is None else variables
-    return _Evaluation(_tokens(condition), len(condition), known).run()
+    variables = environment() if variables is None else variables
+    return _Evaluation(_tokens(condition), len(condition), variables).run()
 
 
 def names_unknown(condition: str) -> bool:

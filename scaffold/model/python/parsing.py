@@ -223,12 +223,12 @@ def _newer_version(text: str, positions: Positions, error: SyntaxError) -> tuple
     """Return the Python version whose syntax made an older one stumble."""
     target = distributions.target().python
     running = target if _feature_version() is not None else sys.version_info[:2]
-    said = re.search(r"only supported in Python 3\.(\d+) and greater", error.msg)
-    if said is not None:
-        return 3, int(said[1])
+    match = re.search(r"only supported in Python 3\.(\d+) and greater", error.msg)
+    if match is not None:
+        return 3, int(match[1])
     start, end = positions.line_span(max(error.lineno or 1, 1))
-    known = [*_NEWER, *_NEWEST] if target >= _NEWEST[0][1] else [*_NEWER]
-    for pattern, version in known:
+    patterns = [*_NEWER, *_NEWEST] if target >= _NEWEST[0][1] else [*_NEWER]
+    for pattern, version in patterns:
         if running < version and re.search(pattern, text[start:end]):
             return version
     if running < (3, 12) and _has_new_f_string(text, start, end):

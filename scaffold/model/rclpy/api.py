@@ -94,11 +94,11 @@ def is_method(owner: str, name: str) -> bool:
 def _places(distribution: Distribution) -> Mapping[str, str]:
     """Return the modules of classes that a package re-exports, by the shorter name."""
     result: dict[str, str] = {}
-    known = names_of(distribution)
-    for place in known:
+    names = names_of(distribution)
+    for place in names:
         module, _, name = place.rpartition(".")
         package = module.rpartition(".")[0]
-        if name[:1].isupper() and name in known.get(package, ()):
+        if name[:1].isupper() and name in names.get(package, ()):
             result[f"{package}.{name}"] = place
     return result
 

@@ -165,10 +165,10 @@ def _changed(distribution: Distribution) -> Mapping[str, Signature | None]:
     return result
 
 
-def _on_target(name: str, known: Signature) -> Signature | None:
+def _on_target(name: str, signature: Signature) -> Signature | None:
     """Return what a function takes on the target; ``None`` if that is not known."""
     changed = _changed(distributions.target())
-    return changed.get(name, changed.get(_PLACES.get(name, name), known))
+    return changed.get(name, changed.get(_PLACES.get(name, name), signature))
 
 
 class Excess(NamedTuple):
@@ -193,9 +193,9 @@ def excess_arguments(file: RclpyFile) -> Iterator[Excess]:
     for node in file.classes:
         base = node.constructor_call if node.base is None and not node.is_lifecycle else None
         if base is not None:
-            known = _on_target("rclpy.node.Node", FUNCTIONS["rclpy.node.Node"])
-            if known is not None:
-                yield from _excess(base, "Node.__init__", known)
+            constructor = _on_target("rclpy.node.Node", FUNCTIONS["rclpy.node.Node"])
+            if constructor is not None:
+                yield from _excess(base, "Node.__init__", constructor)
 
 
 def _called(file: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
@@ -214,8 +214,8 @@ def _called(file: RclpyFile, call: ast.Call) -> tuple[str, Signature] | None:
     return _named(func.attr, f"rclpy.node.Node.{func.attr}", METHODS[func.attr])
 
 
-def _named(shown: str, full: str, known: Signature | None) -> tuple[str, Signature] | None:
-    signature = None if known is None else _on_target(full, known)
+def _named(shown: str, full: str, given: Signature | None) -> tuple[str, Signature] | None:
+    signature = None if given is None else _on_target(full, given)
     return None if signature is None else (shown, signature)
 
 

@@ -40,8 +40,8 @@ def robots(package: Package) -> Robots:
 
 def urdf_parts(package: Package) -> Iterator[Part]:
     """Yield each element of URDF that the files of a package make, with what each call gives it."""
-    known = robots(package)
-    for expansion in (*known.whole, *known.fragments):
+    expansions = robots(package)
+    for expansion in (*expansions.whole, *expansions.fragments):
         if not expansion.file.is_robot:
             continue
         pending = [*expansion.root.children]
