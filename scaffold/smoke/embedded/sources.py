@@ -18,7 +18,7 @@ _FOR_PYTHON = (
 )  # fmt: skip
 """What Python needs: less of C++ has to be compiled."""
 
-_OTHER_PACKAGE = re.compile(r"^\s*([a-z][a-z0-9_]*)/[A-Z]", re.MULTILINE)
+_OTHER_PACKAGE = re.compile(r"^([a-z][a-z0-9_]*)/[A-Z]", re.MULTILINE)
 
 MANIFEST = """\
 <?xml version="1.0"?>
