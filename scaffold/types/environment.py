@@ -103,8 +103,13 @@ def _write_aside(distribution: Distribution, place: str) -> None:
         paths = _write(distribution, aside)
         index = [(path, *(_stamp(os.path.join(aside, path)) or ())) for path in paths]
         cache.write_sealed(os.path.join(aside, _INDEX), _MAGIC, marshal.dumps(index))
-        shutil.rmtree(place, ignore_errors=True)
-        os.rename(aside, place)
+        try:
+            os.rename(aside, place)
+        except OSError:
+            if _is_whole(place):
+                return  # another process was faster, and its type checker reads these files
+            shutil.rmtree(place, ignore_errors=True)
+            os.rename(aside, place)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
     _trim(kept)
