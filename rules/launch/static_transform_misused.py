@@ -67,6 +67,15 @@ class StaticTransformMisused(Rule):
             ),
         ),
         Example(
+            "a value without an option",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
+                )
+            },
+            Report("8:25", "'0.1' follows no option: static_transform_publisher ends at once"),
+        ),
+        Example(
             "too few numbers; two kinds of rotation; one frame",
             {
                 "launch/a.launch.py": _LAUNCH.format("'0', '0', '0', 'a', 'b'"),
@@ -133,6 +142,10 @@ class StaticTransformMisused(Rule):
             hint = f"; closest: {closest!r}" if closest else ""
             message = f"{_PROGRAM} has no option {words[index]!r}: it ends at once{hint}"
             yield self.report(places[index], message)
+        for index, word in enumerate(words):
+            if index not in options and index - 1 not in options and not unknown:
+                message = f"{word!r} follows no option: {_PROGRAM} ends at once"
+                yield self.report(places[index], message)
         for frame in _FRAMES:
             if frame not in words and not unknown:
                 yield self.report(whole, f"no {frame!r}: {_PROGRAM} ends at once, it must be given")

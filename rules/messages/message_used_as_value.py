@@ -179,6 +179,26 @@ class MessageUsedAsValue(MessageRule):
             Report("15:50", "msg.data is an array, not a number: TypeError; compare its elements"),
             Report("15:66", "msg.data[0] is a float, not an integer: TypeError"),
         ),
+        Example(
+            "an array as one of numpy, a number as text",
+            {
+                "listener.py": _NODE.format(
+                    "''", "msg.data + 0.5, msg.data.min(), 'row ' + msg.data[0], msg.data * 2"
+                )
+            },
+            Report(
+                "15:16", "msg.data is an array, not of numpy: TypeError; use numpy.array(msg.data)"
+            ),
+            Report(
+                "15:32",
+                "msg.data is an array, not of numpy: it has no 'min': "
+                "AttributeError; use numpy.array(msg.data)",
+            ),
+            Report(
+                "15:48",
+                "msg.data[0] is a number, and is not joined to text: TypeError; use an f-string",
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -196,6 +216,7 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if owner is not None:
             yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
     yield from _arrays_as_numbers(types)
+    yield from _fields_in_arithmetic(types)
     for node in module.walk(ast.Compare):
         yield from _compared(types, node)
     for node in _truth_tests(types):
@@ -246,6 +267,43 @@ def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         if is_array and is_number and is_order and len(node.ops) == 1:
             text = module.text(node.left)
             yield node, f"{text} is an array, not a number: TypeError; compare its elements"
+
+
+def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield sums of text and a number, and arrays that are calculated with as in numpy."""
+    module, evaluate = types.module, types.facts.evaluator.evaluate
+    for node in module.walk(ast.BinOp):
+        for field, other in ((node.left, node.right), (node.right, node.left)):
+            type_ = types.field_type_of(field)
+            value = evaluate(other)
+            is_text = isinstance(value, str) or isinstance(other, ast.JoinedStr)
+            if isinstance(node.op, ast.Add) and is_text and _kind(type_) in {"float", "int"}:
+                text = module.text(field)
+                yield (
+                    node,
+                    f"{text} is a number, and is not joined to text: TypeError; use an f-string",
+                )
+            is_float = isinstance(value, float) or (
+                isinstance(value, int) and not isinstance(node.op, ast.Mult)
+            )
+            if is_float and _is_plain_array(type_):
+                text = module.text(field)
+                yield node, f"{text} is an array, not of numpy: TypeError; use numpy.array({text})"
+    for attribute in module.walk(ast.Attribute):
+        if attribute.attr in _OF_NUMPY and _is_plain_array(types.field_type_of(attribute.value)):
+            text = module.text(attribute.value)
+            message = f"{text} is an array, not of numpy: it has no {attribute.attr!r}"
+            yield attribute, f"{message}: AttributeError; use numpy.array({text})"
+
+
+def _is_plain_array(type_: FieldType | None) -> bool:
+    """Return whether a field holds an ``array.array``; one of a fixed size is of numpy."""
+    return (
+        type_ is not None
+        and type_.is_array
+        and type_.array_size is None
+        and (type_.name in FLOATS or type_.name in INTEGER_RANGES)
+    )
 
 
 def _message(types: MessageTypes, node: ast.expr) -> MessageClass | None:
@@ -345,6 +403,8 @@ _REFUSED_BY: Mapping[str, str] = {
     "json.loads": "is not text",
 }
 """What functions say to a message."""
+_OF_NUMPY = frozenset({"min", "max", "mean", "sum", "std", "shape", "size", "astype", "reshape"})
+"""What arrays of numpy have, and others do not."""
 _KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
 
 

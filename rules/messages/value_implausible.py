@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity, closest_name
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -117,7 +117,7 @@ class ValueImplausible(MessageRule):
         ),
     )
 
-    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
         for item in types.assigned:
             key = (item.owner.name, item.field.name)
@@ -141,7 +141,7 @@ class ValueImplausible(MessageRule):
                 )
                 yield self.report(at, message, severity=Severity.WARNING)
             elif key == ("sensor_msgs/msg/Image", "encoding") and isinstance(value, str):
-                near = _meant(package, value)
+                near = _meant(value)
                 if near:
                     message = (
                         f"unknown encoding {value!r}: cv_bridge raises an error; write {near!r}"
@@ -150,7 +150,7 @@ class ValueImplausible(MessageRule):
             elif key == ("sensor_msgs/msg/Image", "step"):
                 yield from self._check_step(types, item.holder, item.value)
         for call in module.walk(ast.Call):
-            yield from self._check_call(package, types, call)
+            yield from self._check_call(types, call)
 
     def _check_step(
         self, types: MessageTypes, holder: ast.expr, step: ast.expr
@@ -176,9 +176,7 @@ class ValueImplausible(MessageRule):
             message = f"step is in bytes: a row of {encoding!r} has {count} * {width}"
             yield self.report(module.location(step), message)
 
-    def _check_call(
-        self, package: Package, types: MessageTypes, call: ast.Call
-    ) -> Iterator[Diagnostic]:
+    def _check_call(self, types: MessageTypes, call: ast.Call) -> Iterator[Diagnostic]:
         """Report encodings that cv_bridge does not know."""
         module = types.module
         name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
@@ -189,19 +187,21 @@ class ValueImplausible(MessageRule):
         ]
         for node in given:
             value = types.facts.evaluator.evaluate(node)
-            near = _meant(package, value) if isinstance(value, str) else ""
+            near = _meant(value) if isinstance(value, str) else ""
             if near:
                 message = f"unknown encoding {value!r}: CvBridgeError; write {near!r}"
                 yield self.report(module.location(node), message)
 
 
-def _meant(package: Package, encoding: str) -> str:
+def _meant(encoding: str) -> str:
     """Return the encoding that an unknown one stands for; empty if it may be one of its own."""
     if encoding in _ENCODINGS or re.fullmatch(r"(8|16|32|64)[USF]C\d+", encoding):
         return ""
     known = {name.lower(): name for name in _ENCODINGS}
     lower = encoding.lower().replace("-", "").replace(" ", "")
-    return _SHORT.get(lower) or known.get(lower) or closest_name(package, lower, _ENCODINGS, 0.8)
+    letters = sorted(lower)
+    near = (name for name in sorted(known) if sorted(name) == letters)
+    return _SHORT.get(lower) or known.get(lower) or next(near, "")
 
 
 def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from scaffold import distributions
 from scaffold.cli.main import main
 from scaffold.files import cache
 from scaffold.model.package import Package
 from scaffold.programs import bundled
-from scaffold.types import ty
+from scaffold.types import environment, ty
 from scaffold.types.finding import TypeFinding
 from scaffold.types.ty import TyDiagnostic
 
@@ -484,3 +485,20 @@ def test_noqa_accepts_a_finding(check: Check, source: Path) -> None:
     make_package(source, "talker", {"talker/talk.py": accepted, "talker/more.py": unused})
     assert check("talker") == ["talker/talker/more.py:1:SC003"]
     assert check("talker", "--no-types") == []
+
+
+def test_stubs_that_another_process_has_written_stay(tmp_path: Path) -> None:
+    place = tmp_path / "stubs"
+    environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001  as two processes do
+    before = place.stat().st_ino
+    environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001
+    assert place.stat().st_ino == before
+    assert [*tmp_path.iterdir()] == [place]
+
+
+def test_stubs_that_are_not_whole_are_written_again(tmp_path: Path) -> None:
+    place = tmp_path / "stubs"
+    environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001
+    (place / "pyvenv.cfg").unlink()
+    environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001
+    assert (place / "pyvenv.cfg").is_file()

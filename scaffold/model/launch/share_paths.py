@@ -109,7 +109,8 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
             return None  # another rule says that the whole directory is not installed
         build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
         return f"{build} of {owner.name} does not install {first}"
-    if any(_name(file).startswith(f"{_name(path)}.") for file in owner.files):
+    made_of = [file for file in owner.files if _name(file).startswith(f"{_name(path)}.")]
+    if any(not file.endswith(".xacro") for file in made_of):
         return None  # made from a template
     if is_untracked(owner, path):
         return None  # made on each machine
