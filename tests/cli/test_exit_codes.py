@@ -162,7 +162,7 @@ def test_a_broken_pipe_is_never_a_clean_end(
 @pytest.mark.parametrize("verb", sorted({*VERBS} - {"completion"}))
 def test_a_removed_directory(tmp_path: Path, verb: str) -> None:
     script = 'mkdir gone && cd gone && rmdir ../gone && tool "$@"'
-    more = {"add": ["timer", "x"], "new": ["made"]}.get(verb, [])
+    more = {"add": ["timer", "x"], "migrate": ["--to", "lyrical"], "new": ["made"]}.get(verb, [])
     run = shell(script, tmp_path, verb, *more)
 
     assert run.stderr == (
