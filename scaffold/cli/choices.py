@@ -24,7 +24,7 @@ class Choices:
 
     def __init__(self, settings: Config, rules: Sequence[type[Rule]]) -> None:
         self._settings = settings
-        self._rules = self.rules = rules
+        self.rules = rules
         self._names: dict[str, str] = {}
 
     def selection(
@@ -102,7 +102,7 @@ class Choices:
     def _refused_at_release(self) -> frozenset[str]:
         from scaffold.check.session import all_rules
 
-        return frozenset(rule.code for rule in all_rules(self._rules) if rule.release_refused)
+        return frozenset(rule.code for rule in all_rules(self.rules) if rule.release_refused)
 
     def _origin(self, key: str) -> str:
         return f"{self._settings.origin(key)}: {key.partition('.')[2]}"
@@ -111,7 +111,7 @@ class Choices:
         from scaffold.check import selection
 
         if words and not self._names:
-            self._names = _names(self._rules)
+            self._names = _names(self.rules)
         return selection.resolve(words, self._names, origin)
 
 
