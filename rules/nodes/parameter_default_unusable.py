@@ -49,7 +49,7 @@ class ParameterDefaultUnusable(RclpyRule):
     code = "ND083"
     name = "parameter-default-unusable"
     other_severities = {
-        Severity.WARNING: "there is no default, and a file of the package sets the parameter"
+        Severity.WARNING: "no parameter has a default, and a file of the package sets this one"
     }
     examples = (
         Example("a default", {"talker.py": _NODE.format("1.0", "description='Hz'", "'slow'")}),
@@ -130,10 +130,11 @@ class ParameterDefaultUnusable(RclpyRule):
             error = problem.rpartition(": ")[2]
             if problem and not is_handled(file.module, parameter.call, error):
                 yield self.report(file.module.location(node or parameter.call), problem)
+        is_file_meant = all(parameter.default_node is None for parameter in file.parameters)
         for parameter in file.parameters:
             problem = _missing_problem(parameter)
             if problem:
-                is_set = parameter.default_node is None and parameter.name in _set_names(package)
+                is_set = is_file_meant and parameter.name in _set_names(package)
                 yield self.report(
                     parameter.name_location,
                     problem,
