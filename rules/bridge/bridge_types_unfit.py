@@ -31,7 +31,7 @@ _LAUNCH = (
     "        Node(package='ros_gz_bridge', executable='parameter_bridge',\n"
     "             arguments=['{}']),\n    ])\n"
 )
-_ARGUMENT = re.compile(r"[\w/~{}-]+@([A-Za-z]\w*(?:/\w+)+)[@\[\]]((?:gz|ignition)\.msgs\.\w+)")
+_ARGUMENT = re.compile(r"(?<=[\w/~{}-])@([A-Za-z]\w*(?:/\w+)+)[@\[\]]((?:gz|ignition)\.msgs\.\w+)")
 _OLD = "ignition.msgs."
 _NEW = "gz.msgs."
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from scaffold.api import (
@@ -177,6 +176,18 @@ def _outputs(package: Package, path: str) -> tuple[tuple[str, Location], ...]:
     return tuple(result)
 
 
+def _without_dropped_comments(text: str) -> str:
+    """Return the text without the comments in front of elements of xacro."""
+    first, *others = text.split("<!--")
+    kept = ""
+    for part in reversed(others):
+        comment, end, rest = part.partition("-->")
+        following = rest + kept
+        is_dropped = bool(end) and (rest.strip() or kept).lstrip().startswith("<xacro:")
+        kept = following.lstrip() if is_dropped else f"<!--{comment}{end}{following}"
+    return first + kept
+
+
 def _with_colon(package: Package) -> str | None:
     """Return where a robot description of the package holds what YAML takes for a key.
 
@@ -187,7 +198,7 @@ def _with_colon(package: Package) -> str | None:
             text = package.source(path).text
         except ViewError:
             continue
-        kept = re.sub(r"(?:<!--(?:(?!-->).)*-->\s*)+(?=<xacro:)", "", text, flags=re.DOTALL)
+        kept = _without_dropped_comments(text)
         if ": " in kept and is_launched(package, path):
             row = next(line for line in kept.splitlines() if ": " in line).strip()
             number = next(number for number, line in enumerate(text.splitlines(), 1) if row in line)

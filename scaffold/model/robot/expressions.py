@@ -19,7 +19,7 @@ UNKNOWN_MARK = "\0"
 SHARE_MARK = "\2"
 """Around the name of the package of ``$(find package)``."""
 _MOST_TEXT = 5_000
-_TOKEN = re.compile(r"\$\$+(?=[{(])[{(]|\$\{[^}]*\}|\$\([^)]*\)|[^$]+|\$")
+_TOKEN = re.compile(r"\${2,99}[{(]|\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)|[^$]+|\$")
 _MATH: Mapping[str, object] = {
     name: value for name, value in vars(math).items() if not name.startswith("_")
 }

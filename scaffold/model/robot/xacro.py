@@ -32,8 +32,10 @@ if TYPE_CHECKING:
 _MOST_DEPTH = 40
 _MOST_PARTS = 30_000
 """Elements of one robot; the largest of the public ones has 4 000."""
-_DEFAULT = r"\$\{.*?\}|\$\(.*?\)|(?:'.*?'|\".*?\"|[^\s'\"]+)+|"
-_PARAMETER = re.compile(rf"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?({_DEFAULT})(?:\s+|$)(.*)", re.DOTALL)
+_EXPRESSION = r"\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)"
+_DEFAULT = rf"(?:{_EXPRESSION}|'[^']*'|\"[^\"]*\"|(?!{_EXPRESSION})[^\s'\"])*"
+_PARAMETER = re.compile(rf"\s*([^\s:=]+)\s*:?=\s*(\^\|?)?({_DEFAULT})(?=\s|$)")
+_PARAMETER_NAME = re.compile(r"\s*(\S+)")
 _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})
 
 
@@ -611,17 +613,16 @@ _HANDLERS: Mapping[str, _Handler] = {
 def _parameters(text: str) -> dict[str, tuple[bool, str | None] | None]:
     """Return the parameters of a macro: ``x y:=1 z:=^|2 *block``."""
     result: dict[str, tuple[bool, str | None] | None] = {}
-    rest = text
-    while rest.strip():
-        match = _PARAMETER.match(rest)
+    position = 0
+    while True:
+        match = _PARAMETER.match(text, position)
         if match is not None:
             result[match[1]] = (match[2] is not None, match[3] or None)
-            rest = match[4]
+        elif (match := _PARAMETER_NAME.match(text, position)) is not None:
+            result[match[1]] = None
         else:
-            name, *others = rest.split(None, 1)
-            result[name] = None
-            rest = others[0] if others else ""
-    return result
+            return result
+        position = match.end()
 
 
 def _read(package: Package, path: str) -> RobotFile | None:
