@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import date, datetime, timezone
+from pathlib import Path
 from typing import Any
 
 from scaffold.errors import InputError
@@ -15,6 +17,8 @@ from scaffold.generate.templates import licenses
 from scaffold.generate.templates.render import Renderer
 from scaffold.generate.templates.template import DEPEND_KINDS, PARTS, Question, Role, Template
 from scaffold.model.catalog import BUILD_TOOLS
+
+_IMPORT = re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
 
 VERSION = "0.1.0"
 """Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""
@@ -133,6 +137,7 @@ def _node(
         )
     _refuse_two_classes(part)
     taken = [item for value in part.answers.values() for item in getattr(value, "class_names", ())]
+    taken += _imported_classes(part.template)
     node |= {"module": name, "class_name": names.class_name(name, taken)}
     flags: dict[tuple[str, str], str] = {}
     for question in part.template.questions:
@@ -153,6 +158,15 @@ def _node(
     values = f"{part.template.name}/{PARAMETERS}"
     node["has_parameters"] = renderer.has(values) and bool(renderer.file(values, scope).strip())
     return node
+
+
+def _imported_classes(template: Template) -> Iterator[str]:
+    """Yield the classes that the module of a node imports by name."""
+    for directory in template.directories:
+        for path in Path(directory).glob("*/*.py.jinja"):
+            if path.parent.name != "test":
+                for classes in _IMPORT.findall(path.read_text(encoding="utf-8")):
+                    yield from classes.split(", ")
 
 
 def _refuse_two_classes(part: Part) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import cycle
@@ -762,6 +763,24 @@ def test_every_answer_alone(kind: str, question: Question) -> None:
         else:
             wanted["add"] = [{"kind": kind, question.name: value}]
         judged(wanted)
+
+
+@pytest.mark.parametrize("kind", [name for name in KINDS if TEMPLATES[name].role is Role.NODE])
+def test_a_node_may_have_the_name_of_a_class_that_its_module_imports(kind: str) -> None:
+    made = judged({"package": "talker", "add": [{"kind": kind, "node_name": "first"}]})
+    assert made is not None
+    module = ast.parse(made.rendered.files["talker/first.py"])
+    imported = {
+        alias.name
+        for statement in ast.walk(module)
+        if isinstance(statement, ast.ImportFrom)
+        for alias in statement.names
+        if alias.name[0].isupper()
+    }
+    assert imported
+    for name in sorted(imported):
+        words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+        judged({"package": "talker", "add": [{"kind": kind, "node_name": words}]})
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -43,10 +43,11 @@ _TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup",
 _IMPORTED_CLASSES = frozenset(
     {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
     | {"FloatingPointRange", "Future", "GoalResponse", "GoalStatus", "IntegerRange"}
-    | {"LifecycleNode", "MultiThreadedExecutor", "Node", "ParameterDescriptor"}
-    | {"SetParametersResult", "SignalHandlerOptions", "TransitionCallbackReturn"}
+    | {"InvalidParameterValueException", "LifecycleNode", "MultiThreadedExecutor", "Node"}
+    | {"ParameterDescriptor", "ParameterException", "SetParametersResult"}
+    | {"SignalHandlerOptions", "TransitionCallbackReturn"}
 )
-"""What the modules of nodes import by name."""
+"""What the modules of all kinds of nodes may import by name."""
 _C_MACROS = frozenset({"BUFSIZ", "EOF", "INFINITY", "NAN", "NULL"})
 """Of the headers that generated code includes, besides the names of errors and signals."""
 _RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
