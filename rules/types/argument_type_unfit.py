@@ -84,8 +84,18 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "a float, which is made an int",
             {
-                "period.py": "from rclpy.duration import Duration\n\n\n"
+                "period.py": "import rclpy.time\nfrom rclpy.duration import Duration\n\n\n"
                 "PERIOD = Duration(seconds=0, nanoseconds=1e9 / 30)\n"
+                "TIMEOUT = rclpy.time.Duration(nanoseconds=3e6)\n"
+            },
+        ),
+        Example(
+            "values that are unpacked, each for a field of its own",
+            {
+                "read.py": "from sensor_msgs.msg import JoyFeedback\n\n"
+                "FIELDS = {'type': int, 'id': int, 'intensity': float}\n\n\n"
+                "def read(line):\n"
+                "    return JoyFeedback(**{key: kind(line[key]) for key, kind in FIELDS.items()})\n"
             },
         ),
         Example(
@@ -131,7 +141,7 @@ class ArgumentTypeUnfit(TypeRule):
             rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
             r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
         )
-        if matched is None or matched["callee"].endswith(_UNCHECKED):
+        if matched is None or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
             return None
         expected, given = matched["expected"], matched["given"]
         if not is_certain_misfit(expected, given):
@@ -150,7 +160,8 @@ class ArgumentTypeUnfit(TypeRule):
                 f"{in_words(given)}: it cannot be published{hint}",
             )
         parameter = _parameter(finding, matched["callee"])
-        if full_name(called) in _CONVERTING and parameter == "nanoseconds" and given == "float":
+        is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
+        if is_made_int and given.rstrip("*") == "float":
             return None
         needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
         return self.report(
@@ -174,6 +185,16 @@ def _instead(expected: str, given: str) -> str:
     if name == "builtin_interfaces.msg.Time" and class_in(given).startswith("Time"):
         return "; write .to_msg()"
     return ""
+
+
+def _is_unpacked(finding: TypeFinding) -> bool:
+    """Tell whether the argument is ``**values``: each of them may fit a parameter of its own."""
+    return any(
+        keyword.arg is None
+        and finding.location in {finding.module.location(item) for item in (keyword, keyword.value)}
+        for call in finding.module.walk(ast.Call)
+        for keyword in call.keywords
+    )
 
 
 def _parameter(finding: TypeFinding, callee: str) -> str:

@@ -58,6 +58,20 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
+            "an entry of a dictionary with classes and functions",
+            {
+                "sensors.py": "from sensor_msgs.msg import Image, Imu\n\n\n"
+                "class Sensors:\n"
+                "    def __init__(self):\n"
+                "        self.sensors = {\n"
+                "            'camera': {'type': Image, 'show': self.show},\n"
+                "            'imu': {'type': Imu, 'show': self.show},\n"
+                "        }\n\n"
+                "    def show(self, name):\n"
+                "        print(self.sensors[name]['show'](name))\n"
+            },
+        ),
+        Example(
             "keywords of an old release, which LF009 reports",
             {
                 "launch/a.launch.py": "from launch_ros.actions import LifecycleNode\n\n"

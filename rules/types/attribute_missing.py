@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
+import sys
+import typing
 
 from scaffold.api import (
     Diagnostic,
@@ -38,6 +40,8 @@ _NODE = (
 )
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
+_IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names})
+"""What modules of ROS import for themselves, which their annotations alone do not show."""
 _FEW = 6
 """Names that a message can list."""
 
@@ -66,6 +70,10 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "what a module imports for itself",
+            {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
+        ),
+        Example(
             "an attribute of ROS 1",
             {"asker.py": _NODE.format("cancel_all_goals")},
             Report(
@@ -91,7 +99,9 @@ class AttributeMissing(TypeRule):
         if matched is None or node is None:
             return None
         name, owner = matched["name"], matched["of"]
-        if name.startswith("_") or re.search(rf"""['"]{name}['"]""", finding.module.source.text):
+        is_imported = finding.message.startswith("Module") and name in _IMPORTED
+        is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
+        if name.startswith("_") or is_imported or is_known:
             return None
         if finding.message.startswith("Module"):
             shown, names = owner, module_names(finding.package, owner)

@@ -113,7 +113,7 @@ class TypeFinding:
         Code that asks for a version, a module or an attribute, and code that tries, knows better.
         """
         node = self.innermost
-        if node is None:
+        if node is None or self._calls_entry(node):
             return False
         child = node
         for parent in self.module.parents(node):
@@ -131,6 +131,16 @@ class TypeFinding:
                         return False
             child = parent
         return child not in self.module.passed_over
+
+    def _calls_entry(self, node: ast.AST) -> bool:
+        """Tell whether a call, or that of an argument, is of an entry: ``sensor['callback'](1)``.
+
+        The type checker takes for the entry what any other entry is.
+        """
+        call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), None)
+        return any(
+            isinstance(it, ast.Call) and isinstance(it.func, ast.Subscript) for it in (node, call)
+        )
 
     def _asks_what_there_is(self, test: ast.expr) -> bool:
         """Tell whether a condition asks for a version, a kind of object, or what was imported."""
