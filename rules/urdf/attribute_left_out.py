@@ -63,6 +63,16 @@ class AttributeLeftOut(Rule):
     examples = (
         Example("complete", {"robot.urdf": _ROBOT.format("value")}),
         Example(
+            "a joint of ros2_control, in a macro that others call",
+            {
+                "robot.xacro": _XACRO.format(' default="false"'),
+                "control.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="driven" params="name">\n    <joint name="${name}">\n'
+                '      <command_interface name="velocity"/>\n    </joint>\n'
+                "  </xacro:macro>\n</robot>\n",
+            },
+        ),
+        Example(
             "another name",
             {"robot.urdf": _ROBOT.format("val")},
             Report(

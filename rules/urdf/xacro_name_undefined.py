@@ -56,6 +56,26 @@ class XacroNameUndefined(Rule):
             },
         ),
         Example(
+            "a macro of a namespace, which calls another of its file",
+            {
+                "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:include filename="parts.xacro" ns="parts"/>\n'
+                "  <xacro:parts.arm/>\n</robot>\n",
+                "parts.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="piece"><link name="arm"/></xacro:macro>\n'
+                '  <xacro:macro name="arm"><xacro:piece/></xacro:macro>\n</robot>\n',
+            },
+        ),
+        Example(
+            "a macro with the name of an element that Gazebo reads",
+            {
+                "robot.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="imu">\n'
+                '    <gazebo reference="base"><sensor type="imu"><imu/></sensor></gazebo>\n'
+                "  </xacro:macro>\n  <xacro:imu/>\n</robot>\n"
+            },
+        ),
+        Example(
             "a property; an expression",
             {
                 "a.xacro": _robot(1, "${radus}"),

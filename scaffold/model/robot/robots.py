@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.package import mentions
 from scaffold.model.robot.expressions import SHARE_MARK, is_known
 from scaffold.model.robot.files import RobotFile, next_to, robot_file, robot_paths
-from scaffold.model.robot.xacro import Expansion, NamedFile, Part
+from scaffold.model.robot.xacro import NOT_URDF, Expansion, NamedFile, Part
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _NAMED = re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
 _LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
-_NOT_URDF = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "plugin", "sdf"})
-"""Elements whose contents others read."""
+_OF_CONTROL = frozenset({"command_interface", "state_interface"})
+"""What joints of ros2_control have, which may be written by a macro of their own."""
 
 
 class Robots(NamedTuple):
@@ -47,7 +47,7 @@ def urdf_parts(package: Package) -> Iterator[Part]:
         pending = [*expansion.root.children]
         while pending:
             part = pending.pop()
-            if part.tag in _NOT_URDF:
+            if part.tag in NOT_URDF or any(child.tag in _OF_CONTROL for child in part.children):
                 continue
             if part.file.package is package:
                 yield part

@@ -37,6 +37,8 @@ _DEFAULT = rf"(?:{_EXPRESSION}|'[^']*'|\"[^\"]*\"|(?!{_EXPRESSION})[^\s'\"])*"
 _PARAMETER = re.compile(rf"\s*([^\s:=]+)\s*:?=\s*(\^\|?)?({_DEFAULT})(?=\s|$)")
 _PARAMETER_NAME = re.compile(r"\s*(\S+)")
 _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})
+NOT_URDF = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "plugin", "sdf"})
+"""Elements whose contents others read."""
 
 
 class Part:
@@ -130,6 +132,13 @@ class NamedFile(NamedTuple):
     location: Location
 
 
+def _is_for_others(part: Part | None) -> bool:
+    """Tell whether an element or one around it is read by others than urdfdom."""
+    while part is not None and part.tag not in NOT_URDF:
+        part = part.holder
+    return part is not None
+
+
 class _Macro(NamedTuple):
     element: Element
     file: RobotFile
@@ -137,6 +146,8 @@ class _Macro(NamedTuple):
     """``None`` without a default; else whether the caller's value is taken, and the default."""
     scope: _Scope | None
     is_ambiguous: bool
+    macros: dict[str, _Macro] | None = None
+    """What its body can call, where it was included with a namespace."""
 
 
 class _Lazy(NamedTuple):
@@ -265,7 +276,8 @@ class Expansion:
             else:
                 self._call(element.tag[6:], element, holder, frame)
             return
-        if element.tag in frame.macros or (element.tag in _UNPREFIXED and holder is self.root):
+        is_macro = element.tag in frame.macros and not _is_for_others(holder)
+        if is_macro or (element.tag in _UNPREFIXED and holder is self.root):
             self._note("tag", element.tag, frame, element.name_location, ())
         part = Part(element.tag, element, frame.file, holder, is_certain=frame.is_certain)
         self._set_attributes(part, frame)
@@ -300,7 +312,9 @@ class Expansion:
             frame.scope.values[str(namespace)] = unknown(str(namespace))
             for name, macro in below.macros.items():
                 if frame.macros.get(name) is not macro:
-                    frame.macros[f"{namespace}.{name}"] = macro._replace(scope=below.scope)
+                    frame.macros[f"{namespace}.{name}"] = macro._replace(
+                        scope=below.scope, macros=macro.macros or below.macros
+                    )
 
     def _included(self, spec: str, frame: _Frame) -> RobotFile | None:
         user = frame.file
@@ -414,7 +428,10 @@ class Expansion:
             self.is_partial = True
             return
         below = frame._replace(
-            file=macro.file, scope=scope, macros=dict(frame.macros), depth=frame.depth + 1
+            file=macro.file,
+            scope=scope,
+            macros=dict(frame.macros if macro.macros is None else macro.macros),
+            depth=frame.depth + 1,
         )
         self._contents(macro.element, holder, below)
 
