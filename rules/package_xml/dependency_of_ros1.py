@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
 from scaffold.api.catalog import ROS1_PACKAGES
 from scaffold.api.cmake import uses_ament
+from scaffold.api.distributions import target
 
 _CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
+_WITH_CLASSIC = frozenset({"Humble"})
 
 
 class DependencyOfRos1(Rule):
@@ -43,6 +45,11 @@ class DependencyOfRos1(Rule):
             },
         ),
         Example(
+            "Gazebo classic, which Humble has",
+            {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
+            distro="humble",
+        ),
+        Example(
             "left over",
             {
                 "package.xml": "<package>\n"
@@ -53,17 +60,25 @@ class DependencyOfRos1(Rule):
             Report("2:21", "'catkin' belongs to ROS 1; use ament_cmake"),
             Report("3:11", "'rospy' belongs to ROS 1; use rclpy"),
         ),
+        Example(
+            "Gazebo classic, which other distributions lack",
+            {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
+            Report("1:23", "'gazebo_ros' belongs to Gazebo classic, which Jazzy lacks; use ros_gz"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         if manifest.build_type == "catkin" or _is_for_ros1(package):
             return
+        title = target().title
         for dependency in manifest.dependencies:
             name = dependency.name
+            if name in _CLASSIC and title in _WITH_CLASSIC:
+                continue
             heir = ROS1_PACKAGES.get(name)
             if heir and dependency.active and package.workspace.get(name) is None:
-                which = "Gazebo classic, which Jazzy lacks" if name in _CLASSIC else "ROS 1"
+                which = f"Gazebo classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
                 message = f"{name!r} belongs to {which}; use {heir}"
                 yield self.report(dependency, message)
 

@@ -45,7 +45,8 @@ class ImportUndeclared(Rule):
                 "</package>\n",
                 "talker/__init__.py": "",
                 "talker/node.py": "import math\n\nimport rclpy\nfrom talker.text import hello\n"
-                "try:\n    import numpy\nexcept ImportError:\n    numpy = None\n",
+                "try:\n    import numpy\nexcept ImportError:\n    numpy = None\n"
+                "if False:\n    import scipy\n",
                 "talker/text.py": "",
             },
         ),

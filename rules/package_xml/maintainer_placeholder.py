@@ -21,7 +21,6 @@ class MaintainerPlaceholder(Rule):
     code = "PX003"
     name = "maintainer-placeholder"
     severity = Severity.WARNING
-    other_severities = {Severity.ERROR: "there is no name: the package is not built"}
     release_refused = "the build farm writes to this address"
     examples = (
         Example(
@@ -48,7 +47,7 @@ class MaintainerPlaceholder(Rule):
                 '  <maintainer email="ada@example.com"></maintainer>\n'
                 "</package>\n"
             },
-            Report("2:3", "<maintainer> has no name", severity=Severity.ERROR),
+            Report("2:3", "<maintainer> has no name"),
         ),
         Example(
             "a placeholder for a name",
@@ -68,6 +67,6 @@ class MaintainerPlaceholder(Rule):
                 if address and is_placeholder_address(address.value):
                     yield self.report(address, f"{tag} email {address.value!r} is a placeholder")
                 if not element.text:
-                    yield self.report(element, f"<{tag}> has no name", severity=Severity.ERROR)
+                    yield self.report(element, f"<{tag}> has no name")
                 elif is_placeholder(element.text):
                     yield self.report(element, f"the name of <{tag}> is a placeholder")

@@ -14,6 +14,8 @@ _BY_CMAKE = (
     "<package><name>talker</name><export><build_type>ament_cmake</build_type></export></package>\n"
 )
 _FIND = "find_packages(exclude=['test'])"
+_TESTS = frozenset({"test", "tests"})
+"""Sub-packages that are often left out on purpose."""
 
 
 class SubpackageNotInstalled(Rule):
@@ -38,6 +40,14 @@ class SubpackageNotInstalled(Rule):
         Example(
             "listed by their directories",
             {**_FILES, "setup.py": _SETUP.format("setup", "['talker', 'talker/text/']")},
+        ),
+        Example(
+            "left out with its tests",
+            {
+                "talker/__init__.py": "",
+                "talker/tests/__init__.py": "",
+                "setup.py": _SETUP.format("setup", "['talker']"),
+            },
         ),
         Example(
             "one listed",
@@ -66,6 +76,7 @@ class SubpackageNotInstalled(Rule):
             if path.endswith("/__init__.py") and path.count("/") > 1
             for name in (path.removesuffix("/__init__.py").replace("/", "."),)
             if name.rpartition(".")[0] in packages and name not in packages
+            if name.rpartition(".")[2] not in _TESTS
         )
         if not missing or setup.keyword("package_dir"):
             return

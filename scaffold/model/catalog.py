@@ -484,6 +484,7 @@ TRANSITIVE_DEPENDENCIES = {
     "rosapi": "builtin_interfaces rcl_interfaces rclpy ros2node ros2param ros2pkg ros2service "
     "ros2topic rosapi_msgs rosbridge_library",
     "rosbridge_library": "python3-bson python3-pil rclpy",
+    "rosbridge_suite": "rosapi rosbridge_library rosbridge_server",
     "rosbridge_server": "python3-tornado python3-twisted rclpy rosapi rosbridge_library "
     "rosbridge_msgs",
     "rqt_gui": "ament_index_python python_qt_binding qt_gui rclpy",

@@ -455,7 +455,7 @@ class PythonModule:
                         guarded = True
                         in_body = self.index.place(child)[0] == "body"
                         type_checking = type_checking or in_body
-                    elif self._asks_platform(parent.test):
+                    elif self._asks_platform(parent.test) or _is_never_run(parent, child):
                         guarded = True
                     else:
                         conditional = True
@@ -470,6 +470,11 @@ class PythonModule:
                 if name and name.startswith(_PLATFORM_NAMES):
                     return True
         return False
+
+
+def _is_never_run(node: ast.If, child: ast.AST) -> bool:
+    """Tell whether code is in the body of ``if False:``."""
+    return isinstance(node.test, ast.Constant) and not node.test.value and child in node.body
 
 
 def _is_main_test(test: ast.expr) -> bool:
