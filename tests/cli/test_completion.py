@@ -51,7 +51,7 @@ def offered(line: str) -> list[str]:
             "ros2-scaffold new talker --add 'publisher:x rate=5 message_type=LaserS",
             ["publisher:x rate=5 message_type=LaserScan"],
         ),
-        ("ros2-scaffold new talker --extras lau", ["launch"]),
+        ("ros2-scaffold new talker --extras dev", ["devcontainer"]),
         ("ros2-scaffold add cpp_dequ", ["cpp_deque"]),
         ("ros2-scaffold interfaces std_srvs/srv/Tri", ["std_srvs/srv/Trigger"]),
         ("ros2-scaffold rules import-und", ["import-undeclared"]),
