@@ -63,6 +63,15 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "looked for only where an option is switched on",
+            {
+                "package.xml": _MANIFEST.format(""),
+                "CMakeLists.txt": "project(talker)\nfind_package(rclcpp REQUIRED)\n"
+                'option(CHECK_TIDY "Run clang-tidy" OFF)\nif(CHECK_TIDY)\n'
+                "  find_package(ament_cmake_clang_tidy REQUIRED)\nendif()\n",
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
@@ -96,7 +105,7 @@ class FoundUndeclared(Rule):
                 continue
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:
                 continue
-            if not found_package.required:
+            if not found_package.required or package.cmake.is_off(found_package.command):
                 continue
             reported.add(name)
             tag = "test_depend" if found_package.in_testing else "build_depend"

@@ -78,6 +78,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             {"package.xml": "<package/>\n", "launch/talker.launch.xml": "<launch>\n</launch>\n"},
         ),
         Example(
+            "what a test reads, where no linter does",
+            {"package.xml": "<package/>\n", "test/data/empty.xml": ""},
+        ),
+        Example(
             "an element is not closed",
             {"launch/talker.launch.xml": "<launch>\n  <node>\n</launch>\n"},
             Report(

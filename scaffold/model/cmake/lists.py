@@ -247,6 +247,26 @@ class CMakeLists:
             at = at.parent
         return False
 
+    def is_off(self, command: Command) -> bool:
+        """Tell whether a command runs only for those who switch an option on."""
+        off = self._options_off
+        at = command if off and command.depth <= _DEEPEST else None
+        while at is not None and at.parent is not None and at.branch is not None:
+            asked = at.branch.values if at.branch.name != "else" else []
+            if len(asked) == 1 and asked[0] in off:
+                return True
+            at = at.parent
+        return False
+
+    @cached_property
+    def _options_off(self) -> frozenset[str]:
+        """The options that are off unless somebody asks for them."""
+        options = [command.values for command in self.find("option")]
+        given = {command.values[0] for command in self.find("set") if command.values}
+        return frozenset(
+            values[0] for values in options if len(values) > 1 and values[2:] in ([], ["OFF"])
+        ).difference(given)
+
     @cached_property
     def _leaves_without_testing(self) -> list[Command]:
         """The first ``return()`` in an ``if(NOT BUILD_TESTING)`` at the top."""
