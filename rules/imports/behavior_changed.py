@@ -29,7 +29,7 @@ class BehaviorChanged(PythonRule):
     **Why.** Nothing fails when the program starts: a default, or the way to report a failure, is
     another.
 
-    **Fix.** Say what is meant, or handle both.
+    **Fix.** Pass the value that the program relies on, or handle both behaviors.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
     """
@@ -40,7 +40,7 @@ class BehaviorChanged(PythonRule):
     examples = (
         Example("not moved", {"counter.py": _SERVER.format("")}, distro="lyrical"),
         Example(
-            "said",
+            "an explicit value",
             {"counter.py": _SERVER.format(", result_timeout=900")},
             distro="lyrical",
             moved_from="jazzy",

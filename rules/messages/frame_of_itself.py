@@ -138,7 +138,7 @@ def _are_same(file: RclpyFile, child: ast.expr, parent: ast.expr) -> bool:
 
 
 def _value(file: RclpyFile, at: ast.AST, node: ast.expr) -> str:
-    """Return what identifies the value of an expression: its text, or what it is worth."""
+    """Return a key that is equal for equal values: the constant, or the expression as text."""
     text, notes = file.evaluator.trace(node) if hasattr(node, "lineno") else (None, None)
     if isinstance(text, str) and not notes:
         return repr(text.lstrip("/"))

@@ -173,7 +173,7 @@ def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
 
 
 def _is_emptied(types: MessageTypes, function: ast.AST, holder: ast.expr) -> bool:
-    """Tell whether a list, or what it is in, is made anew in a function."""
+    """Tell whether a function creates a list, or the object that holds it, each time it runs."""
     text = types.module.text(holder)
     for node in ast.walk(function):
         if isinstance(node, ast.Attribute):

@@ -56,11 +56,12 @@ _SHORT = {"bgr": "bgr8", "rgb": "rgb8", "rgba": "rgba8", "bgra": "bgra8"} | dict
     ("mono", "gray", "grey", "gray8", "grayscale", "greyscale"), "mono8"
 )
 _OF_CV_BRIDGE = {"imgmsg_to_cv2": 1, "compressed_imgmsg_to_cv2": 1, "cv2_to_imgmsg": 1}
+_PERCENT = 100
 _WORDS = frozenset({"yaw", "theta", "heading", "psi"})
 
 
 class ValueImplausible(MessageRule):
-    """A field of a message gets a value in another unit or of another kind than it is meant for.
+    """A message field gets a value that its unit or its definition rules out.
 
     **Why.** Nothing complains where it is sent: a battery of 8000 %, a robot that turns about
     itself, colors that are white. cv_bridge refuses encodings it does not know:
@@ -132,7 +133,7 @@ class ValueImplausible(MessageRule):
                 yield self.report(at, message)
             elif key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):
                 low, high, meaning = _RANGES[key]
-                if not low <= value <= high and value == value:  # noqa: PLR0124  NaN: not known
+                if value < low or value > high:
                     message = f"{item.field.name} is {meaning}, not {value:g}"
                     yield self.report(at, message, severity=Severity.WARNING)
             elif key in _SHARES and _is_times_hundred(types, item.value):
@@ -209,7 +210,7 @@ def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:
     if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)):
         return False
     values = [types.facts.evaluator.evaluate(part) for part in (node.left, node.right)]
-    return any(value == 100 for value in values)  # noqa: PLR2004  percent
+    return any(value == _PERCENT for value in values)
 
 
 def _is_angle(node: ast.expr) -> bool:

@@ -24,7 +24,7 @@ class SpunWrongly(RclpyRule):
 
     **Why.** ``rclpy.spin(Talker)`` fails with ``TypeError: 'property' object is not iterable``;
     after ``rclpy.shutdown()``, spinning has no effect. ``rclpy.spin`` returns only at the shutdown:
-    what it is to spin afterwards is never spun. Two threads cannot spin at the same time.
+    a node that is spun after it never runs its callbacks. Two threads cannot spin at the same time.
 
     **Fix.** ``rclpy.spin(node)``, or ``executor.spin()``.
 
