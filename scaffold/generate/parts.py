@@ -21,6 +21,8 @@ _WORDS: Mapping[Role, str] = {
     Role.INTERFACE: "the {kind} {name}",
     Role.PROGRAM: "the program {name}",
 }
+_SECTIONS = ("topics", "services and actions", "transforms", "timers, parameters and states")
+"""Headings of nodes, those that people look for first in front."""
 _MOST_NAMED = 3
 """Parts that a sentence names one by one."""
 
@@ -81,6 +83,22 @@ def kinds(templates: Mapping[str, Template]) -> list[str]:
         for name, template in sorted(templates.items())
         if template.role is role
     ]
+
+
+def sections(templates: Mapping[str, Template]) -> dict[str, list[str]]:
+    """Return what can be added to a package by the heading that lists show it below."""
+    result: dict[str, list[str]] = {}
+    for role in (*PARTS, Role.EXTRA):
+        own = [item for _, item in sorted(templates.items()) if item.role is role]
+        for template in sorted(own, key=lambda item: _order(item.section)):
+            result.setdefault(template.section, []).append(template.name)
+    return result
+
+
+def _order(section: str) -> tuple[int, str]:
+    """Sort our own sections first, as they are below, and those of teams after them."""
+    at = _SECTIONS.index(section) if section in _SECTIONS else len(_SECTIONS)
+    return at, section
 
 
 def addable(templates: Mapping[str, Template]) -> list[str]:

@@ -12,9 +12,10 @@ from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
 from prompt_toolkit.keys import Keys
 from prompt_toolkit.layout import FormattedTextControl, HSplit, Layout, Window
 
+from scaffold.cli.interactive.history import BACK, BackError
 from scaffold.cli.interactive.screen import STYLE, columns, ended
 
-NAME_WIDTH = 20
+NAME_WIDTH = 22
 """Columns for the names of choices, so that their summaries line up."""
 _MOST_FOOT = 3
 """Lines for the summary of a choice that is cut off in the list."""
@@ -27,20 +28,27 @@ class Choice(NamedTuple):
     summary: str = ""
     is_last: bool = False
     """Whether only its own name matches it, such as "nothing more"."""
+    group: str = ""
+    """The heading that it is listed below."""
 
 
 class ChoiceList:
     """A list of choices: arrow keys move in it, what is typed leaves those that match."""
 
     def __init__(
-        self, question: str, choices: Sequence[Choice], default: str | None, *, takes_several: bool
+        self,
+        question: str,
+        choices: Sequence[Choice],
+        default: str | Sequence[str] | None,
+        *,
+        takes_several: bool,
     ) -> None:
         self._question = question
         self._choices = choices
         self._takes_several = takes_several
         self._typed = ""
         self._at = next((i for i, item in enumerate(choices) if item.name == default), 0)
-        self._chosen: set[str] = set()
+        self._chosen = {*(default or ())} if takes_several else set[str]()
 
     def run(self) -> list[str]:
         """Return the names that were chosen, in the order of the list."""
@@ -65,7 +73,17 @@ class ChoiceList:
         """Return how many rows there is room for."""
         lines = get_app_session().output.get_size().rows
         around = len(self._lines_of_head()) + len(self._foot_lines()) + 1
-        return max(2, min(len(self._matches()) or 1, lines - around))
+        rows = len(self._matches()) + len(self._headings())
+        return max(2, min(rows or 1, lines - around))
+
+    def _headings(self) -> dict[int, str]:
+        """Return the headings by the position of the first choice below; a search shows none."""
+        if self._typed.strip():
+            return {}
+        groups = [choice.group for choice in self._choices]
+        before = ["", *groups]
+        pairs = zip(groups, before, strict=False)
+        return {at: group for at, (group, last) in enumerate(pairs) if group != last}
 
     def _matches(self) -> list[Choice]:
         """Return the choices that match: the named one first, then names, then summaries."""
@@ -85,7 +103,7 @@ class ChoiceList:
 
     def _lines_of_head(self) -> list[str]:
         how = "space chooses, enter ends" if self._takes_several else "enter chooses"
-        how = f"arrow keys move, {how}, typing searches"
+        how = f"arrow keys move, {how}, typing searches, {BACK} goes back"
         text = f"? {ended(self._question)} ({how}) {self._typed}"
         return textwrap.wrap(text, max(columns() - 1, 2))
 
@@ -101,7 +119,10 @@ class ChoiceList:
         if not matches:
             return FormattedText([("", f"  no match for {self._typed.strip()!r}")])
         tokens: list[tuple[str, str]] = []
+        headings = self._headings()
         for number, choice in enumerate(matches):
+            if number in headings:
+                tokens.append(("class:heading", f"{_cut(headings[number], columns() - 1)}\n"))
             is_pointed = number == self._at
             text = _cut(self._row(choice), columns() - 3)
             if is_pointed:
@@ -155,7 +176,9 @@ class ChoiceList:
 
         @keys.add(Keys.Any)
         def typed(event: KeyPressEvent) -> None:
-            if event.data == " " and self._takes_several:
+            if event.data == BACK:
+                event.app.exit(exception=BackError())
+            elif event.data == " " and self._takes_several:
                 self._toggle()
             elif event.data.isprintable():
                 self._search(self._typed + event.data)

@@ -17,6 +17,7 @@ from prompt_toolkit.keys import Keys
 
 from scaffold.cli import terminal
 from scaffold.cli.interactive.choice_list import NAME_WIDTH, Choice, ChoiceList
+from scaffold.cli.interactive.history import BACK, BackError
 from scaffold.cli.interactive.screen import STYLE, columns, ended, is_dumb, say
 from scaffold.printable import printable
 
@@ -44,10 +45,13 @@ def line(
     Raises:
         KeyboardInterrupt: the user wants no more questions.
         EOFError: the input ended without an answer.
+        BackError: the user wants the question before.
     """
     start = default
     while True:
         answer = _read(question + (f" ({hint})" if hint else ""), start, completions)
+        if answer.endswith(BACK):
+            raise BackError
         wrong = judge(answer)
         if wrong is None:
             return answer
@@ -64,11 +68,11 @@ def choose(question: str, choices: Sequence[Choice], default: str | None = None)
     return chosen[0]
 
 
-def several(question: str, choices: Sequence[Choice]) -> list[str]:
+def several(question: str, choices: Sequence[Choice], default: Sequence[str] = ()) -> list[str]:
     """Ask for the names of any number of choices; see `line`."""
     if is_dumb():
-        return _by_names(question, choices)
-    result = ChoiceList(question, choices, None, takes_several=True).run()
+        return _by_names(question, choices, default)
+    result = ChoiceList(question, choices, default, takes_several=True).run()
     _echo(question, result)
     return result
 
@@ -84,7 +88,7 @@ def _read(question: str, default: str, completions: Sequence[str]) -> str:
     session: PromptSession[str] = PromptSession(
         FormattedText([("class:question", "\n".join(lines)), ("", " ")]),
         style=STYLE,
-        key_bindings=_on_one_line(),
+        key_bindings=_on_one_line(default),
         completer=WordCompleter(list(completions), ignore_case=True, WORD=True, match_middle=True)
         if completions
         else None,
@@ -101,13 +105,21 @@ def _read_plainly(text: str) -> str:
         raise
 
 
-def _on_one_line() -> KeyBindings:
+def _on_one_line(default: str) -> KeyBindings:
     """Return bindings that join pasted lines: an answer is one line.
 
-    Escape does nothing; it would take the next letter with it.
+    Escape does nothing; it would take the next letter with it. `BACK` needs no enter while nothing
+    else has been typed.
     """
     bindings = KeyBindings()
     bindings.add("escape", eager=True)(lambda _: None)
+
+    @bindings.add(BACK)
+    def back(event: KeyPressEvent) -> None:
+        if event.current_buffer.text in {"", default}:
+            event.app.exit(exception=BackError())
+        else:
+            event.current_buffer.insert_text(BACK)
 
     @bindings.add(Keys.BracketedPaste)
     def paste(event: KeyPressEvent) -> None:
@@ -129,16 +141,21 @@ def _by_name(question: str, choices: Sequence[Choice], default: str | None) -> s
     return line(question, start or "", lambda word: _not_among([word], names))
 
 
-def _by_names(question: str, choices: Sequence[Choice]) -> list[str]:
+def _by_names(question: str, choices: Sequence[Choice], default: Sequence[str]) -> list[str]:
     _list(choices)
     names = [choice.name for choice in choices]
     hint = "names separated by spaces, or nothing"
-    answer = line(question, "", lambda words: _not_among(words.split(), names), hint=hint)
+    start = " ".join(default)
+    answer = line(question, start, lambda words: _not_among(words.split(), names), hint=hint)
     return [name for name in names if name in answer.split()]
 
 
 def _list(choices: Sequence[Choice]) -> None:
+    group = ""
     for choice in choices:
+        if choice.group != group:
+            group = choice.group
+            say(f"{group}:")
         say(f"{choice.name:{NAME_WIDTH}} {choice.summary}")
 
 

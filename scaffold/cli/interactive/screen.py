@@ -18,7 +18,9 @@ from prompt_toolkit.styles import Style
 
 from scaffold.printable import printable_lines
 
-STYLE = Style.from_dict({"question": "bold", "pointed": "bold", "chosen": "ansicyan"})
+STYLE = Style.from_dict(
+    {"question": "bold", "pointed": "bold", "chosen": "ansicyan", "heading": "underline"}
+)
 
 
 @contextmanager
@@ -57,6 +59,12 @@ def say(text: str) -> None:
         subsequent_indent=indent,
     ):
         print_formatted_text(part)
+
+
+def show(text: str) -> None:
+    """Write lines between questions, each cut to the width of the terminal."""
+    for line in printable_lines(text).splitlines():
+        print_formatted_text(line[: columns() - 1])
 
 
 def ended(question: str) -> str:

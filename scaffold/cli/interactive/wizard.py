@@ -6,21 +6,24 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain, count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from scaffold.cli.interactive import answer_text, prompts
+from scaffold.cli.interactive import answer_text, prompts, question_prompt
 from scaffold.cli.interactive.choice_list import Choice
-from scaffold.cli.interactive.screen import say, terminal
+from scaffold.cli.interactive.history import BACK, BackError, History
+from scaffold.cli.interactive.question_prompt import Usual
+from scaffold.cli.interactive.screen import say, show, terminal
 from scaffold.errors import ScaffoldError
 from scaffold.generate import connections, parts
 from scaffold.generate.questions import names, questions
 from scaffold.generate.questions.defaults import LOGIN, User
-from scaffold.generate.questions.questions import INTERFACES, SEVERAL, Given
-from scaffold.generate.templates.template import BASE, Question, Role, Template
+from scaffold.generate.questions.questions import INTERFACES, Given
+from scaffold.generate.templates.template import BASE, PARTS, Question, Role, Template
 
 if TYPE_CHECKING:
     from scaffold.model.interfaces.definitions import Definitions
 
 ORIGIN = "your answer"
 _DONE = "nothing more"
+_WRITE, _CHANGE, _STOP = "write", "change", "stop"
 _NEVER_WITH = {Role.NODE: Role.INTERFACE, Role.INTERFACE: Role.NODE}
 """What no package holds together: interfaces have a package of their own."""
 _ANYBODY = {
@@ -44,8 +47,10 @@ class Trial(NamedTuple):
 
     name: Callable[[str], None]
     """For the name of the package alone."""
-    package: Callable[[Mapping[str, Given]], None]
-    """For all answers that there are."""
+    package: Callable[[Mapping[str, Given]], Mapping[str, Any]]
+    """For the answers that there are; returns all, those that follow from others included."""
+    preview: Callable[[Mapping[str, Given]], str]
+    """For all answers; returns the tree of what would be written."""
 
 
 def ask(
@@ -69,6 +74,7 @@ def ask(
     """
     try:
         with terminal():
+            say(f"{BACK} goes back to the question before; Ctrl+C ends, and nothing is written")
             answers = _Interview(templates, given, user, trial).answers()
     except EOFError:
         raise KeyboardInterrupt from None
@@ -97,26 +103,78 @@ class _Interview:
         self._trial = trial
         self._base = {question.name: question for question in templates[BASE].questions}
         self._answers: dict[str, Any] = {}
+        self._history = History()
 
     def answers(self) -> dict[str, Any]:
         """Ask what is not given; return the answers that are not defaults."""
+        while True:
+            self._answers = {}
+            try:
+                self._ask_all()
+                self._confirm()
+            except BackError:
+                self._history.back()
+            else:
+                return self._answers
+
+    def _ask_all(self) -> None:
         self._settle("package")
         self._settle("build_type")
         if not self._given.keys() & {parts.ADD, "node_kind", "node_name"}:
             self._ask_parts()
-        for name in ("extras", "description", "license"):
-            self._settle(name)
+        self._settle("extras")
+        self._settle("description", hint=self._description())
+        self._settle("license")
         for name in ("maintainer_name", "maintainer_email"):
             default = self._user.answer(name)
             if default is None or default.origin == LOGIN or self._wrong(name, default):
                 self._settle(name, default.value if default else None)
-        return self._answers
 
-    def _settle(self, name: str, default: object = None) -> None:
+    def _settle(self, name: str, default: object = None, hint: str = "") -> None:
         if name in self._base and name not in self._given:
-            value = self._ask(self._base[name], default)
+            question = self._base[name]
+            summaries = {
+                choice: self._templates[choice].summary
+                for choice in question.choices
+                if choice in self._templates
+            }
+            value = self._ask(question, Usual(default, hint, summaries))
             if value not in (None, "", []):
                 self._answers[name] = value
+
+    def _confirm(self) -> None:
+        """Show what would be written, and ask whether that is wanted."""
+        if not self._history.is_repeated:
+            try:
+                show(self._trial.preview(self._together()))
+            except ScaffoldError as error:
+                self._say(f"{str(error).removeprefix(f'{ORIGIN}: ')}; answer again")
+                raise BackError from None
+        choices = [
+            Choice(_WRITE, "write these files"),
+            Choice(_CHANGE, "go back to the last question"),
+            Choice(_STOP, "end, and write nothing"),
+        ]
+        decision = prompts.choose("Write the package?", choices, _WRITE)
+        if decision == _CHANGE:
+            raise BackError
+        if decision == _STOP:
+            raise KeyboardInterrupt
+
+    def _say(self, text: str) -> None:
+        """Say something once, and not again when the interview starts over."""
+        if not self._history.is_repeated:
+            say(text)
+
+    def _description(self) -> str:
+        """Return what happens without a description."""
+        if self._history.is_repeated:
+            return ""
+        try:
+            usual = self._trial.package(self._together())["description"]
+        except (KeyError, ScaffoldError):
+            return ""
+        return f"default: {usual}"
 
     def _wrong(self, name: str, default: Given) -> bool:
         """Tell whether git's name and email of the user are unusable in a package."""
@@ -130,38 +188,52 @@ class _Interview:
         """Ask for one part after the other, until they are all."""
         entries: list[dict[str, Any]] = []
         definitions = _definitions(self._user.directory)
-        while (kind := self._kind([item[parts.KIND] for item in entries])) != _DONE:
+        while True:
+            position = self._history.position
+            kind = self._kind([item[parts.KIND] for item in entries])
+            if kind == _DONE:
+                break
             entry = self._part(kind, entries, definitions)
             fault = self._contradiction([*entries, entry])
             if fault is None:
                 entries.append(entry)
             else:
                 say(f"{fault}; answer again")
+                self._history.forget(position)
         self._answers[parts.ADD] = entries
 
     def _kind(self, taken: Sequence[str]) -> str:
         """Ask for the kind of the next part; what cannot be with the others is not offered."""
         refused = {_NEVER_WITH.get(self._templates[kind].role) for kind in taken}
         choices = [
-            Choice(template.name, template.summary)
-            for template in map(self._templates.__getitem__, parts.kinds(self._templates))
-            if template.role not in refused
+            Choice(template.name, template.summary, group=section)
+            for section, kinds in parts.sections(self._templates).items()
+            for template in map(self._templates.__getitem__, kinds)
+            if template.role in PARTS
+            and template.role not in refused
             and (not template.build_types or self._build_type in template.build_types)
         ]
-        if not taken:
-            usual = self._base["node_kind"].default if "node_kind" in self._base else None
-            return prompts.choose("What is in the package?", choices, usual)
-        choices.insert(0, Choice(_DONE, is_last=True))
-        return prompts.choose("What else is in the package?", choices, _DONE)
+        question, usual = "What is in the package?", ""
+        if taken:
+            choices.insert(0, Choice(_DONE, is_last=True))
+            question, usual = "What else is in the package?", _DONE
+        elif "node_kind" in self._base:
+            usual = str(self._base["node_kind"].default)
+        return self._history.ask(lambda before: prompts.choose(question, choices, before or usual))
 
     def _contradiction(self, entries: list[dict[str, Any]]) -> str | None:
-        answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
-        together = {**_ANYBODY, **self._given, **answered, parts.ADD: Given(entries, ORIGIN)}
+        if self._history.is_repeated:
+            return None
         try:
-            self._trial.package(together)
+            self._trial.package({**self._together(), parts.ADD: Given(entries, ORIGIN)})
         except ScaffoldError as error:
             return str(error).removeprefix(f"{ORIGIN}: ")
         return None
+
+    def _together(self) -> dict[str, Given]:
+        """Return all answers that there are so far, and some for questions that come later."""
+        answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
+        return {**_ANYBODY, **self._given, **answered}
 
     def _part(
         self, kind: str, entries: list[dict[str, Any]], definitions: Definitions
@@ -172,10 +244,11 @@ class _Interview:
         for question in template.questions:
             if question.name == template.name_question:
                 free = _free(str(question.default), taken)
-                entry[question.name] = self._ask(question, free, refused=taken)
+                entry[question.name] = self._ask(question, Usual(free, refused=taken))
                 continue
             usual = self._type_so_far(template, question, entry, entries)
-            value = self._ask(question, usual, definitions=definitions)
+            words = _types(definitions, question)
+            value = self._ask(question, Usual(usual, completions=words))
             if not answer_text.is_default(question, value):
                 entry[question.name] = value
         return entry
@@ -203,44 +276,13 @@ class _Interview:
                     return str(type_)
         return None
 
-    def _ask(
-        self,
-        question: Question,
-        default: object = None,
-        *,
-        definitions: Definitions | None = None,
-        refused: Iterable[str] = (),
-    ) -> Any:  # noqa: ANN401  as the question wants
+    def _ask(self, question: Question, usual: Usual = Usual()) -> Any:  # noqa: ANN401, B008  as the question wants
         """Ask one question until the answer is acceptable; an empty one takes the default."""
-        text, _, more = question.help.partition(" (")
-        text = text[0].upper() + text[1:]
-        preset = question.default if default is None else default
-        if question.type == SEVERAL:
-            choices = [self._choice(name) for name in question.choices]
-            return prompts.several(text, choices) if choices else []
-        if question.choices:
-            return prompts.choose(
-                text, [self._choice(name) for name in question.choices], str(preset)
+        return self._history.ask(
+            lambda before: question_prompt.ask(
+                question, usual._replace(before=before), lambda value: self._fault(question, value)
             )
-        words: list[str] = []
-        if definitions is not None and question.type in INTERFACES:
-            middle = f"/{INTERFACES[question.type]}/"
-            words = [name for name in definitions.all_names() if middle in name]
-        usual = answer_text.shown(question, preset)
-
-        def judge(answer: str) -> str | None:
-            if not answer and preset is not None:
-                return None if usual not in refused else f"the package already has {usual}"
-            if answer in refused:
-                return f"the package already has {answer}"
-            return self._fault(question, answer_text.split(question, answer))
-
-        made = more.rstrip(")") or "default: derived from the other answers"
-        hint = made if preset is not None and not usual else ""
-        answer = prompts.line(text, usual, judge, hint=hint, completions=words)
-        if not answer and usual:
-            say(f"using {usual}")
-        return answer_text.split(question, answer or usual)
+        )
 
     def _fault(self, question: Question, value: object) -> str | None:
         """Return what is wrong with an answer."""
@@ -251,9 +293,6 @@ class _Interview:
         except ScaffoldError as error:
             return str(error).removeprefix(": ")
         return None
-
-    def _choice(self, name: str) -> Choice:
-        return Choice(name, self._templates[name].summary if name in self._templates else "")
 
 
 def _full_name(question: Question, entry: Mapping[str, Any], template: Template) -> str:
@@ -277,3 +316,11 @@ def _definitions(directory: str) -> Definitions:
     from scaffold.generate import payload
 
     return payload.definitions(directory)
+
+
+def _types(definitions: Definitions, question: Question) -> Sequence[str]:
+    """Return the types that a question may be answered with, to complete one."""
+    if question.type not in INTERFACES:
+        return ()
+    middle = f"/{INTERFACES[question.type]}/"
+    return [name for name in definitions.all_names() if middle in name]

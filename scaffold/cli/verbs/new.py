@@ -12,6 +12,7 @@ from scaffold.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
+    from typing import Any
 
     from scaffold.cli.interactive.wizard import Asked
     from scaffold.configuration.config import Config
@@ -102,7 +103,9 @@ def run(options: argparse.Namespace) -> int:
     if options.diff:
         terminal.show_patch(_diff(plan, above))
     else:
-        terminal.show(_summary(options, made, plan, above))
+        has_preview = command is not None and not options.dry_run
+        files = f"{plan.root}: written" if has_preview else _files(made, plan, above)
+        terminal.show(_summary(options, files, made, plan, above))
         if command is not None:
             terminal.show(f"\nThe same without questions:\n    {command}")
     return FINDINGS if _tell_by_hand(options, made, left) else CLEAN
@@ -125,7 +128,7 @@ def _ask(
     Raises:
         InputError: there is no terminal.
     """
-    from scaffold.generate import connections, destination, draft
+    from scaffold.generate import connections, destination, draft, repository
     from scaffold.generate.questions.defaults import User
 
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
@@ -138,12 +141,21 @@ def _ask(
         destination.check(options.destination_directory, name)
         _refuse_existing(options, name)
 
-    def try_package(answers: Mapping[str, Given]) -> None:
+    def try_package(answers: Mapping[str, Given]) -> Mapping[str, Any]:
         _dependencies(options, answers)
         made = draft.compose(roots, templates, answers, User(options.destination_directory))
         _refuse_conflicts(connections.conflicts(made.context["nodes"], templates))
+        return made.answers
 
-    trial = wizard.Trial(try_name, try_package)
+    def preview(answers: Mapping[str, Given]) -> str:
+        around = repository.place_of(options.destination_directory, is_parent=True)
+        user = User(options.destination_directory)
+        made = draft.draft(roots, templates, answers, user, place=around)
+        left = _left_to_owners(options, made, around)
+        plan = _plan(options, made, left)
+        return _files(made, plan, _plan_above(made, around, left, force=options.force))
+
+    trial = wizard.Trial(try_name, try_package, preview)
     return wizard.ask(templates, given, user, trial, _besides_answers(options))
 
 
@@ -319,24 +331,29 @@ def _tell_by_hand(
 
 
 def _summary(
-    options: argparse.Namespace, made: Draft, plan: WritePlan, above: WritePlan | None
+    options: argparse.Namespace, files: str, made: Draft, plan: WritePlan, above: WritePlan | None
 ) -> str:
-    """Return the tree with notes, the differences of files that exist, the next commands."""
-    from scaffold.generate.repository import MARK
-
-    lines = [*_tree(made, plan)]
-    rows = [
-        (min(os.path.relpath(file.target), file.target, key=len), f"{MARK}{file.path}")
-        for file in (above.files if above is not None else ())
-    ]
-    width = max((len(path) for path, _ in rows), default=0)
-    lines += [f"{path:{width}}  {made.rendered.notes.get(key, '')}".rstrip() for path, key in rows]
+    """Return the files, the differences of those that exist, the next commands."""
+    lines = [files]
     if not plan.is_new:
         differences = _diff(plan, above)
         lines += ["", differences.rstrip("\n")] if options.dry_run and differences else []
     if options.dry_run:
         return "\n".join([*lines, "", "Nothing was written (--dry-run)."])
     return "\n".join([*lines, "", *_next_commands(options, made)])
+
+
+def _files(made: Draft, plan: WritePlan, above: WritePlan | None) -> str:
+    """Return the tree of a package with notes, and what is written above it."""
+    from scaffold.generate.repository import MARK
+
+    rows = [
+        (min(os.path.relpath(file.target), file.target, key=len), f"{MARK}{file.path}")
+        for file in (above.files if above is not None else ())
+    ]
+    width = max((len(path) for path, _ in rows), default=0)
+    lines = [f"{path:{width}}  {made.rendered.notes.get(key, '')}".rstrip() for path, key in rows]
+    return "\n".join([*_tree(made, plan), *lines])
 
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:

@@ -72,6 +72,14 @@ _OWN: Mapping[str, Mapping[str, str]] = {
 
 NAMES = ("default", *_SAYS, *_OWN)
 
+COMMON: Mapping[str, str] = {
+    "default": "reliable, the last 10 messages wait: commands, states, events",
+    "sensor_data": "best effort, the last 5 wait: sensors, where only new values count",
+    "latched": "reliable, who comes late gets the last one: maps, descriptions",
+    "system_default": _SAYS["system_default"],
+}
+"""What suits most topics, and when."""
+
 _POLICIES: Mapping[str, tuple[str, ...]] = {
     "history": ("keep_last", "keep_all"),
     "reliability": ("reliable", "best_effort"),

@@ -83,6 +83,8 @@ class Template(NamedTuple):
     directory: str
     role: Role
     summary: str
+    section: str
+    """The heading that lists of templates show it below."""
     questions: tuple[Question, ...]
     executable_name: str
     """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
@@ -133,6 +135,7 @@ class Template(NamedTuple):
 
 _KEYS: Mapping[str, type[Any]] = {
     "summary": str,
+    "section": str,
     "questions": dict,
     "executable_name": str,
     "parameter_file": str,
@@ -167,6 +170,12 @@ _WORDS: Mapping[object, str] = {
     list: "list",
     bool: "flag",
     (str, bool): "text",
+}
+_SECTIONS = {
+    Role.NODE: "other nodes",
+    Role.INTERFACE: "interfaces",
+    Role.PROGRAM: "C++ programs",
+    Role.EXTRA: "extras",
 }
 _DEFINITIONS = frozenset({"msg", "srv", "action"})
 _QUESTION_KEYS = frozenset(
@@ -270,7 +279,7 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
     """Return the manifests of templates, from the user's cache while no file has changed."""
     paths = [os.path.join(directory, MANIFEST) for directory in directories]
     stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
-    head = b"scaffold-manifests-2\n" + digest(os.fsencode(stamps)).encode()
+    head = b"scaffold-manifests-3\n" + digest(os.fsencode(stamps)).encode()
     kept = cache.directory("manifests")
     place = os.path.join(kept, digest(os.fsencode("\n".join(paths)))) if kept else ""
     data = cache.read_sealed(place, head) if kept else None
@@ -299,6 +308,7 @@ def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]
         directory=directory,
         role=role,
         summary=manifest["summary"],
+        section=manifest.get("section", _SECTIONS.get(role, "")),
         questions=tuple(_question(path, key, value) for key, value in asked),
         executable_name=manifest.get("executable_name", "{{ node.name }}"),
         parameter_file=manifest.get("parameter_file", ""),

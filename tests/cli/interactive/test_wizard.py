@@ -18,7 +18,7 @@ from scaffold.cli.main import main
 from tests import PATIENCE
 
 pexpect = pytest.importorskip("pexpect")
-ENTER, DOWN = "\r", "\x1b[B"
+ENTER, DOWN, BACK = "\r", "\x1b[B", "<"
 SHELLS = ("bash", "zsh", "fish")
 
 
@@ -105,6 +105,7 @@ def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
     terminal.answer("License of the package:", ENTER)
     terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
     terminal.answer("Mail address:", "\x15" + mail + ENTER)
+    terminal.answer("Write the package?", ENTER)
     said, code = terminal.end()
     assert code == 0, said
     return said
@@ -171,8 +172,10 @@ def assert_same(command: str, made: Path) -> None:
 
 def test_answers_are_judged_while_they_are_typed(terminal: Terminal) -> None:
     terminal.answer("Name of the new package:", "Talker" + ENTER)
-    terminal.answer("must be lower-case words", "\x15std_msgs" + ENTER)
-    terminal.answer("existing", "\x15talker" + ENTER)
+    terminal.says("must be lower-case words")
+    terminal.answer("Name of the new package:", "\x15std_msgs" + ENTER)
+    terminal.says("existing")
+    terminal.answer("Name of the new package:", "\x15talker" + ENTER)
     terminal.says("Build system:")
 
 
@@ -236,7 +239,8 @@ def test_a_name_that_is_typed_in_full_comes_first(terminal: Terminal) -> None:
 def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: Path) -> None:
     (tmp_path / "talker").mkdir()
     terminal.answer("new package:", "talker" + ENTER)
-    terminal.answer("talker already exists", "\x15speaker" + ENTER)
+    terminal.says("talker already exists")
+    terminal.answer("new package:", "\x15speaker" + ENTER)
     terminal.says("Build system:")
 
 
@@ -272,6 +276,116 @@ def test_pasted_lines_are_one_answer(terminal: Terminal) -> None:
     terminal.says("'tal ker'")
 
 
+def test_somebody_may_go_back_and_answer_again(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "timer" + ENTER)
+    terminal.answer("Name of the node", "\x15clock" + ENTER)
+    terminal.answer("How often", BACK)
+    terminal.answer("Name of the node", "")
+    terminal.answer("clock", BACK)
+    terminal.answer("What is in the package?", "\x15publisher" + ENTER)
+    terminal.answer("Name of the node", ENTER)
+    terminal.answer("Topic to publish on", "\x15chatter" + ENTER)
+    terminal.answer("What to publish:", ENTER)
+    terminal.answer("Messages per second", ENTER)
+    terminal.answer("Quality of service", ENTER)
+    terminal.answer("What else is in the package?", BACK)
+    terminal.answer("Quality of service", BACK)
+    terminal.answer("Messages per second", "2" + BACK + ENTER)  # an edited line needs enter
+    terminal.answer("What to publish:", "\x15LaserScan" + ENTER)
+    terminal.answer("Messages per second", ENTER)
+    terminal.answer("Quality of service", ENTER)
+    terminal.answer("What else is in the package?", ENTER)
+    words = shlex.split(command_in(rest(terminal)))
+    assert words[words.index("--add") + 1] == (
+        "publisher:minimal_publisher topic=chatter message_type=LaserScan"
+    )
+
+
+def test_before_the_first_question_there_is_no_other(terminal: Terminal) -> None:
+    terminal.answer("new package:", BACK)
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.says("Build system:")
+
+
+def test_the_quality_of_service_is_chosen_from_a_menu(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
+    for question in ("Name of", "Topic to sub", "Topic to pub", "What to publish", "What to rec"):
+        terminal.answer(question, ENTER)
+    terminal.says("Quality of service:")
+    terminal.says("sensor_data")
+    terminal.says("best effort")
+    terminal.answer("settings such as", "sensor" + ENTER)
+    terminal.answer("Quality of service of what is received:", "other" + ENTER)
+    terminal.answer("Depth, profile or settings:", "reliably" + ENTER)
+    terminal.says("neither a depth")
+    terminal.answer("Depth, profile or settings:", "\x15best_effort,depth=1" + ENTER)
+    terminal.answer("What else is in the package?", ENTER)
+    words = shlex.split(command_in(rest(terminal)))
+    assert words[words.index("--add") + 1].split()[1:] == [
+        "qos=sensor_data",
+        "input_qos=best_effort,depth=1",
+    ]
+
+
+def test_kinds_are_grouped(terminal: Terminal) -> None:
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.says("What is in the package?")
+    for heading_or_kind in ("topics", "publisher", "services and actions", "service_server"):
+        terminal.says(heading_or_kind)
+    for heading_or_kind in ("transforms", "tf2_listener", "interfaces", "C++ programs"):
+        terminal.says(heading_or_kind)
+
+
+def test_the_files_are_shown_before_they_are_written(terminal: Terminal, tmp_path: Path) -> None:
+    through_the_publisher(terminal)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What the package is for", ENTER)
+    terminal.answer("License of the package:", ENTER)
+    terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
+    terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
+    terminal.says("test_speaker.py")
+    terminal.answer("Write the package?", "change" + ENTER)
+    assert not (tmp_path / "talker").exists()
+    terminal.answer("Mail address:", "\x15eve@example.com" + ENTER)
+    terminal.answer("Write the package?", ENTER)
+    said, code = terminal.end()
+    assert code == 0, said
+    assert "eve@example.com" in (tmp_path / "talker" / "package.xml").read_text()
+
+
+def test_after_the_preview_nothing_need_be_written(start: Callable[..., Terminal]) -> None:
+    known = ("--node-kind", "timer", "--maintainer-name", "Ada", "--maintainer-email", "a@x.org")
+    terminal = start(*known, "--description", "Ticks", "--extras", "ci", "--license", "MIT")
+    terminal.answer("new package:", "talker" + ENTER)
+    terminal.answer("Build system:", ENTER)
+    terminal.answer("Write the package?", "stop" + ENTER)
+    terminal.says("ros2-scaffold: interrupted")
+    assert terminal.end() == ("\n", 130)
+    assert not os.path.exists("talker")
+
+
+def test_without_a_description_the_one_that_is_shown_is_written(
+    start: Callable[..., Terminal], tmp_path: Path
+) -> None:
+    terminal = start(size=(40, 200))
+    through_the_publisher(terminal)
+    terminal.answer("What to add besides:", ENTER)
+    terminal.says("default: A ROS 2 package with the publisher node speaker")
+    terminal.child.send(ENTER)
+    terminal.answer("License of the package:", ENTER)
+    terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
+    terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
+    terminal.answer("Write the package?", ENTER)
+    assert terminal.end()[1] == 0
+    manifest = (tmp_path / "talker" / "package.xml").read_text()
+    assert "<description>A ROS 2 package with the publisher node speaker</description>" in manifest
+
+
 def test_without_a_cursor_choices_are_answered_by_name(
     start: Callable[..., Terminal], tmp_path: Path
 ) -> None:
@@ -280,6 +394,8 @@ def test_without_a_cursor_choices_are_answered_by_name(
     terminal.answer("Build system: [ament_cmake]", "setuptools\n")
     terminal.answer("'setuptools' is not in the list above", "ament_python\n")
     terminal.answer("What is in the package? [publisher]", "timer\n")
+    terminal.answer("executable: [minimal_timer]", "<\n")
+    terminal.answer("What is in the package? [timer]", "\n")
     terminal.answer("executable: [minimal_timer]", "\n")
     terminal.answer("per second: [2.0]", "\n")
     terminal.answer("What else is in the package? [nothing more]", "\n")
@@ -288,6 +404,7 @@ def test_without_a_cursor_choices_are_answered_by_name(
     terminal.answer("License of the package: [Apache-2.0]", "MIT\n")
     terminal.answer("Who maintains the package:", "Ada\n")
     terminal.answer("Mail address:", "ada@example.com\n")
+    terminal.answer("Write the package? [write]", "\n")
     said, code = terminal.end()
     assert code == 0, said
     assert "\x1b" not in said
@@ -302,6 +419,7 @@ def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Termina
     terminal.answer("Build system:", ENTER)
     terminal.answer("What to add besides:", ENTER)
     terminal.answer("License of the package:", ENTER)
+    terminal.answer("Write the package?", ENTER)
     said, code = terminal.end()
     assert code == 0, said
     assert "--maintainer-name 'Zo\\xeb'" in said
@@ -316,6 +434,7 @@ def test_the_command_has_what_was_given_before(
     terminal.answer("What the package is for", "-x `y` $z \"a\" 'b' \\\\ !" + ENTER)
     terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
     terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
+    terminal.answer("Write the package?", ENTER)
     said, code = terminal.end()
     assert code == 0, said
     command = command_in(said)
