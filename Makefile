@@ -9,7 +9,7 @@ PIP_INSTALL = $(BIN)/python -m pip --disable-pip-version-check install --quiet
 DEMO = demo
 SCAFFOLD = $(BIN)/ros2-scaffold
 # All tests of a file stay in one process: they share what they build.
-PYTEST = $(BIN)/python -m pytest --numprocesses auto --dist loadfile
+PYTEST = $(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 # Shows a command as it would be typed, and runs it.
 RUN = @show() { echo; echo "\$$ ros2-scaffold $$*"; cd $(DEMO) && ../$(SCAFFOLD) "$$@"; }; show
 

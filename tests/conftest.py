@@ -19,12 +19,17 @@ settings.load_profile("repository")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what takes hours, unless it is asked for by its marker."""
-    if "nightly" in config.option.markexpr:
-        return
-    left_out = [item for item in items if "nightly" in item.keywords]
-    config.hook.pytest_deselected(items=left_out)
-    items[:] = [item for item in items if "nightly" not in item.keywords]
+    """Leave out what takes hours, unless its marker is asked for; begin with the real builds.
+
+    pytest-xdist hands out whole files in this order: a file that takes minutes must not be the
+    last, with only one process left to do it.
+    """
+    if "nightly" not in config.option.markexpr:
+        left_out = [item for item in items if "nightly" in item.keywords]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if "nightly" not in item.keywords]
+    with_builds = {item.path for item in items if "build" in item.keywords}
+    items.sort(key=lambda item: item.path not in with_builds)
 
 
 @pytest.fixture(scope="session", autouse=True)
