@@ -39,5 +39,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with pytest.MonkeyPatch.context() as patch:
         for name in [name for name in os.environ if name.startswith(("XDG_", "ROS_HOME"))]:
             patch.delenv(name)
+        # Container images set it; each command of the tests would compile all modules again.
+        patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
         patch.setenv("HOME", empty)
         yield empty
