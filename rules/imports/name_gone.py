@@ -83,6 +83,8 @@ class NameGone(PythonRule):
                 ),
                 "b.py": "import numpy as np\n\ntry:\n    real = np.float\n"
                 "except AttributeError:\n    real = float\n",
+                "c.py": "import cv2\n\ntry:\n    width = cv2.CAP_PROP_FRAME_WIDTH\n"
+                "except AttributeError:\n    width = cv2.cv.CV_CAP_PROP_FRAME_WIDTH\n",
             },
         ),
         Example(
@@ -179,8 +181,17 @@ def _is_gone(since: str) -> bool:
     return word != "NumPy" or _numpy() >= tuple(map(int, number.split(".")))
 
 
+def _is_for_older(module: PythonModule, parent: ast.AST) -> bool:
+    """Tell whether a block runs only where the new name is not there either."""
+    if not isinstance(parent, ast.ExceptHandler) or parent.type is None:
+        return False
+    return "AttributeError" in module.text(parent.type)
+
+
 def _is_replaced(module: PythonModule, node: ast.Attribute) -> bool:
-    """Tell whether the module asks for a name, or puts it there."""
+    """Tell whether the module asks for a name, puts it there, or takes it for want of another."""
+    if any(_is_for_older(module, parent) for parent in module.parents(node)):
+        return True
     stores = [other for other in module.walk(ast.Attribute) if other.attr == node.attr]
     if any(isinstance(other.ctx, ast.Store) for other in stores):
         return True

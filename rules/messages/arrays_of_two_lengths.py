@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -22,6 +22,9 @@ _PARALLEL: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "control_msgs/msg/JointJog": ("joint_names", ("displacements", "velocities")),
 }
 
+_UNREAD = frozenset({("sensor_msgs/msg/JointState", name) for name in ("velocity", "effort")})
+_LATER = "robot_state_publisher does not look, others refuse it"
+
 
 class ArraysOfTwoLengths(MessageRule):
     """A message has names of joints, and another number of values for them.
@@ -36,6 +39,7 @@ class ArraysOfTwoLengths(MessageRule):
 
     code = "MS028"
     name = "arrays-of-two-lengths"
+    other_severities = {Severity.WARNING: "velocities and efforts of a joint state"}
     examples = (
         Example("one length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
         Example("not known", {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")}),
@@ -48,7 +52,9 @@ class ArraysOfTwoLengths(MessageRule):
             ),
             Report(
                 "8:49",
-                "velocity has 2 values for 1 names: the message is ignored; give one for each",
+                "velocity has 2 values for 1 names: robot_state_publisher does not "
+                "look, others refuse it; give one for each",
+                severity=Severity.WARNING,
             ),
         ),
     )
@@ -68,10 +74,14 @@ class ArraysOfTwoLengths(MessageRule):
                 length = _length(fields.get(name, []))
                 if count and length and count != length:
                     message = (
-                        f"{name} has {length} values for {count} names: the message is ignored; "
-                        "give one for each"
+                        f"{name} has {length} values for {count} names: {{}}; give one for each"
                     )
-                    yield self.report(module.location(fields[name][0]), message)
+                    is_read = (owner, name) not in _UNREAD
+                    yield self.report(
+                        module.location(fields[name][0]),
+                        message.format("the message is ignored" if is_read else _LATER),
+                        severity=None if is_read else Severity.WARNING,
+                    )
 
 
 def _length(values: list[ast.expr]) -> int | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -32,6 +32,7 @@ class DestroyNodeIncomplete(RclpyRule):
 
     code = "ND119"
     name = "destroy-node-incomplete"
+    severity = Severity.WARNING
     examples = (
         Example("complete", {"driver.py": _NODE.format("super().destroy_node()")}),
         Example(

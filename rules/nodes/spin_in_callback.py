@@ -54,6 +54,20 @@ class SpinInCallback(RclpyRule):
     examples = (
         Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
         Example(
+            "a node that another one has for its calls",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "        self.create_timer(1.0, self.ask)\n", ""
+                )
+                + "\n\nclass Asker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('asker')\n"
+                "        self.caller = Caller()\n"
+                "        self.create_timer(1.0, self.tick)\n\n"
+                "    def tick(self):\n        self.caller.ask()\n"
+            },
+        ),
+        Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             Report(
@@ -87,16 +101,20 @@ class SpinInCallback(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_constructors(file)
-        for function, origin, _ in in_callbacks(file):
+        for function, origin, entity in in_callbacks(file):
+            called = file.module.enclosing_class(entity.call)
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
                     continue
                 node = call.call.args[0] if call.call.args else None
                 if file.function_of(call.call) is not function or call.call.keywords:
                     continue
-                if not isinstance(node, ast.Name) or not file.evaluator.self_class(node):
-                    continue
-                message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
+                spun = file.evaluator.self_class(node) if isinstance(node, ast.Name) else None
+                if spun is None or (called and called not in file.related_classes(spun)):
+                    continue  # another node than that of the callback
+                message = (
+                    f"rclpy.{call.name}({ast.unparse(node)}) runs in {origin} of the same node"
+                )
                 yield self.report(call, f"{message}: no callback runs after that")
 
     def _check_constructors(self, file: RclpyFile) -> Iterator[Diagnostic]:

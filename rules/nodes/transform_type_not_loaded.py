@@ -53,7 +53,19 @@ class TransformTypeNotLoaded(MessageRule):
         ),
         Example(
             "imported by another module",
+            {
+                "follower.py": _NODE.format(""),
+                "main.py": "import tf2_geometry_msgs\n\nfrom follower import Follower\n",
+            },
+        ),
+        Example(
+            "imported by another program",
             {"follower.py": _NODE.format(""), "other.py": "import tf2_geometry_msgs\n"},
+            Report(
+                "follower.py:13:16",
+                "tf2_geometry_msgs is not imported: buffer.transform() raises "
+                "TypeException; add `import tf2_geometry_msgs`",
+            ),
         ),
     )
 
@@ -65,7 +77,7 @@ class TransformTypeNotLoaded(MessageRule):
             given = lookup.arguments.get("object_stamped")
             class_ = types.type_of(given) if given is not None else None
             wanted = _MODULES.get(class_.name.partition("/")[0], "") if class_ else ""
-            if _is_loaded(package, wanted):
+            if _is_loaded(package, file.module.path, wanted):
                 continue
             module = wanted or "tf2_geometry_msgs"
             message = (
@@ -75,14 +87,44 @@ class TransformTypeNotLoaded(MessageRule):
             yield self.report(file.module.location(lookup.call), message)
 
 
-def _is_loaded(package: Package, wanted: str) -> bool:
-    """Return whether a module of the package imports conversions: these, or any."""
+def _is_loaded(package: Package, path: str, wanted: str) -> bool:
+    """Return whether a module that runs with a file imports conversions: these, or any."""
     names = {wanted} if wanted else _KNOWN
-    return any(
-        item.root in names or "convert" in item.root or "registration" in item.module
+    loading = {
+        module.path
         for module in package.modules(mentioning=("tf2_",))
         for item in module.imports
-    ) or any(
+        if item.root in names or "convert" in item.root or "registration" in item.module
+    }
+    return bool(loading and loading & _together(package, path)) or any(
         module.mentions("TransformRegistration")
         for module in package.modules(mentioning=("TransformRegistration",))
     )
+
+
+def _together(package: Package, path: str) -> set[str]:
+    """Return the modules that imports connect with a file: one process may run them."""
+    uses = {
+        module.path: {
+            part
+            for item in module.imports
+            for name in (item.module, *(imported.name for imported in item.names))
+            for part in name.split(".")
+        }
+        for module in package.modules()
+    }
+    result = {path}
+    pending = [path]
+    while pending:
+        current = pending.pop()
+        for other in uses.keys() - result:
+            if _stem(other) in uses.get(current, ()) or _stem(current) in uses[other]:
+                result.add(other)
+                pending.append(other)
+    return result
+
+
+def _stem(path: str) -> str:
+    """Return the name that imports have for a module."""
+    parts = path.removesuffix(".py").split("/")
+    return parts[-2] if parts[-1] == "__init__" and len(parts) > 1 else parts[-1]

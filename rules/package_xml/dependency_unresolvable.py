@@ -10,6 +10,7 @@ from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS1_PACKAGES,
     ROS_PACKAGES,
+    is_released,
     module_of_key,
     similar_key,
     similar_package,
@@ -112,7 +113,7 @@ class DependencyUnresolvable(Rule):
 
 def _is_known(package: Package, name: str) -> bool:
     """Tell whether a name is that of a package, or has another rule that speaks of it."""
-    if name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
+    if is_released(name) or name in {*ROS_PACKAGES, *ROS1_PACKAGES, *OTHER_NAMES, package.name}:
         return True
     if (
         similar_package(name)

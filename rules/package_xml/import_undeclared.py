@@ -11,7 +11,6 @@ from scaffold.api.manifest import declared, required_packages, requirements
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
-_INTERFACES = ("_msgs", "_interfaces", "_srvs")
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
@@ -32,8 +31,7 @@ class ImportUndeclared(Rule):
     name = "import-undeclared"
     other_severities = {
         Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, what comes with "
-        "these and only launch files import, numpy where messages bring it, and torch, which many "
-        "install with pip"
+        "these and only launch files import, and torch, which many install with pip"
     }
     examples = (
         Example(
@@ -147,13 +145,10 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
-            "what comes with `ros2 launch`, and with messages",
+            "what comes with `ros2 launch`",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>sensor_msgs</exec_depend>\n</package>\n",
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
                 "launch/a.launch.py": "import ament_index_python\n",
-                "talker/__init__.py": "",
-                "talker/node.py": "import numpy\n",
             },
             Report(
                 "launch/a.launch.py:1:1",
@@ -162,18 +157,9 @@ class ImportUndeclared(Rule):
                 fix="declare ament_index_python",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "talker/node.py:1:1",
-                "imports 'numpy', which no dependency in package.xml provides; add "
-                "<exec_depend>python3-numpy</exec_depend>",
-                fix="declare python3-numpy",
-                severity=Severity.WARNING,
-            ),
             fixed={
                 "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>ament_index_python</exec_depend>\n"
-                "  <exec_depend>python3-numpy</exec_depend>\n"
-                "  <exec_depend>sensor_msgs</exec_depend>\n</package>\n"
+                "  <exec_depend>ament_index_python</exec_depend>\n</package>\n"
             },
         ),
         Example(
@@ -203,7 +189,6 @@ class ImportUndeclared(Rule):
                 "</package>\n",
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
-                "test/test_node.py": "import numpy\n",
             },
             Report(
                 "talker/node.py:2:1",
@@ -211,19 +196,11 @@ class ImportUndeclared(Rule):
                 "add <exec_depend>std_msgs</exec_depend>",
                 fix="declare std_msgs",
             ),
-            Report(
-                "test/test_node.py:1:1",
-                "imports 'numpy', which no dependency in package.xml provides; add "
-                "<test_depend>python3-numpy</test_depend>",
-                fix="declare python3-numpy",
-                severity=Severity.WARNING,
-            ),
             fixed={
                 "package.xml": '<package format="3">\n'
                 "  <name>talker</name>\n"
                 "  <exec_depend>rclpy</exec_depend>\n"
                 "  <exec_depend>std_msgs</exec_depend>\n"
-                "  <test_depend>python3-numpy</test_depend>\n"
                 "</package>\n"
             },
         ),
@@ -244,8 +221,7 @@ class ImportUndeclared(Rule):
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            comes_otherwise = _comes_with_launch(need) or _comes_with_messages(need, there)
-            comes_otherwise |= need.module in _INDEX
+            comes_otherwise = _comes_with_launch(need) or need.module in _INDEX
             yield self.report(
                 need,
                 message,
@@ -258,13 +234,6 @@ class ImportUndeclared(Rule):
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
     return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"launch_ros"}))
-
-
-def _comes_with_messages(need: requirements.Requirement, there: requirements.Declared) -> bool:
-    """Tell whether a module is numpy, which the Python code of every message needs."""
-    return need.module == "numpy" and any(
-        name == "rclpy" or name.endswith(_INTERFACES) for name in (*there.direct, *there.along)
-    )
 
 
 def _is_required(package: Package, module: str) -> bool:

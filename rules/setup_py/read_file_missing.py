@@ -26,6 +26,14 @@ class ReadFileMissing(Rule):
     examples = (
         Example("there", {"setup.py": _SETUP.format(_READ), "README.md": "# talker\n"}),
         Example(
+            "asked for first",
+            {
+                "setup.py": _SETUP.format(
+                    f"{_READ} if __import__('os').path.exists('README.md') else ''"
+                )
+            },
+        ),
+        Example(
             "missing",
             {"setup.py": _SETUP.format(_READ)},
             Report("5:27", "setup.py opens README.md, which does not exist: the build stops"),
@@ -46,7 +54,7 @@ class ReadFileMissing(Rule):
             modes = [arg.value for arg in call.args[1:] if isinstance(arg, ast.Constant)]
             name = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
             is_optional = any(
-                isinstance(parent, ast.Try | ast.If) for parent in module.parents(call)
+                isinstance(parent, ast.Try | ast.If | ast.IfExp) for parent in module.parents(call)
             )
             if not isinstance(name, str) or is_optional or "w" in "".join(map(str, modes)):
                 continue

@@ -42,6 +42,17 @@ _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
 _IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names})
 """What modules of ROS import for themselves, which their annotations alone do not show."""
+_BASES = frozenset(
+    {
+        "launch.action.Action",
+        "launch.event.Event",
+        "launch.launch_description_entity.LaunchDescriptionEntity",
+        "launch.substitution.Substitution",
+    }
+)
+"""Classes of which no object is: only classes derived from them are used."""
+_INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
+"""A service or an action, of which there are no objects either, but of its parts."""
 _FEW = 6
 """Names that a message can list."""
 
@@ -72,6 +83,21 @@ class AttributeMissing(TypeRule):
         Example(
             "what a module imports for itself",
             {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
+        ),
+        Example(
+            "an action as annotation of its feedback",
+            {
+                "asker.py": _NODE.format("destroy")
+                + "\n    def feedback(self, message: Fibonacci):\n"
+                "        print(message.feedback)\n"
+            },
+        ),
+        Example(
+            "the parts of a launch description",
+            {
+                "names.py": "from launch import LaunchDescription\n\n"
+                "names = [action.name for action in LaunchDescription().entities]\n"
+            },
         ),
         Example(
             "an attribute of ROS 1",
@@ -106,7 +132,7 @@ class AttributeMissing(TypeRule):
         if finding.message.startswith("Module"):
             shown, names = owner, module_names(finding.package, owner)
         else:
-            class_ = class_in(owner) or class_itself(owner)
+            class_ = _class_of_object(owner) or class_itself(owner)
             if not class_:
                 return None
             shown, names = full_name(class_), members(finding.package, class_)
@@ -122,6 +148,13 @@ class AttributeMissing(TypeRule):
             hint = f"; it has {', '.join(sorted(names))}" if names else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
         return self.report(finding, message, _fix(finding, node, closest) if closest else None)
+
+
+def _class_of_object(owner: str) -> str | None:
+    """Return the class of an object, unless it certainly has another than the annotation says."""
+    class_ = class_in(owner)
+    shown = full_name(class_) if class_ else ""
+    return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
 
 
 @fact

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import ast
 import collections.abc
+import sys
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Report, TypeRule, closest_name
 from scaffold.api.types import TypeFinding, module_names
+
+_IMPORTED = frozenset({*sys.stdlib_module_names, "launch", "launch_ros", "rclpy", "yaml"})
+"""What modules of ROS import for themselves, which their annotations alone do not show."""
 
 
 class NameNotInModule(TypeRule):
@@ -25,6 +29,10 @@ class NameNotInModule(TypeRule):
     kinds = frozenset({"missing-module-member"})
     examples = (
         Example("names that exist", {"talker.py": "from rclpy.node import Node\n"}),
+        Example(
+            "what a module imports for itself",
+            {"talker.py": "from rclpy.executors import time\n\nprint(time.time())\n"},
+        ),
         Example(
             "a moved name",
             {"talker.py": "from collections import Iterable\n"},
@@ -48,6 +56,8 @@ class NameNotInModule(TypeRule):
             return None
         module, name = matched.groups()
         if module.split(".")[-1].startswith("_") or name.startswith("_"):
+            return None
+        if name in _IMPORTED:
             return None
         message = f"{module!r} has no {name!r}: ImportError"
         if module == "collections" and name in collections.abc.__all__:

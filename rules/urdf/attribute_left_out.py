@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
 from scaffold.api.formats import Element
-from scaffold.api.robot import robot_file, robot_paths, robots, urdf_parts
+from scaffold.api.robot import Part, robot_file, robot_paths, robots, urdf_parts
 
 _ROBOT = (
     '<robot name="robot">\n  <link name="base_link">\n    <inertial>\n      <mass {}="2.0"/>\n'
@@ -34,6 +34,7 @@ _OF_URDF: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("geometry", "mesh"): ("filename",),
     ("visual", "material"): ("name",),
 }
+_OF_LINK = frozenset({"inertial", "visual", "geometry"})
 _OF_XACRO: Mapping[str, tuple[str, ...]] = {
     "xacro:include": ("filename",),
     "xacro:property": ("name",),
@@ -73,6 +74,15 @@ class AttributeLeftOut(Rule):
             },
         ),
         Example(
+            "a material for Gazebo, in a macro that others call",
+            {
+                "materials.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="black">\n    <visual>\n      <material>\n'
+                "        <diffuse>0 0 0 1</diffuse>\n      </material>\n    </visual>\n"
+                "  </xacro:macro>\n</robot>\n",
+            },
+        ),
+        Example(
             "another name",
             {"robot.urdf": _ROBOT.format("val")},
             Report(
@@ -97,7 +107,7 @@ class AttributeLeftOut(Rule):
             if robot.file.is_robot and robot.root.get("name") is None:
                 message = "<robot> has no 'name': urdfdom refuses the whole file"
                 yield self.report(robot.root, message)
-        for part in urdf_parts(package):
+        for part in filter(_is_urdf, urdf_parts(package)):
             holder = part.holder.tag if part.holder is not None else ""
             for name in _OF_URDF.get((holder, part.tag), ()):
                 if name not in part.attributes:
@@ -114,6 +124,16 @@ class AttributeLeftOut(Rule):
                 for name in _missing(element):
                     message = f"<{element.tag}> has no {name!r}: xacro stops here"
                     yield self.report(element.name_location, message)
+
+
+def _is_urdf(part: Part) -> bool:
+    """Tell whether a part is not that of a macro that may be called for Gazebo."""
+    holder = part.holder
+    if holder is None or holder.tag not in _OF_LINK:
+        return True
+    while holder is not None and holder.tag != "link":
+        holder = holder.holder
+    return holder is not None
 
 
 def _missing(element: Element) -> list[str]:

@@ -35,6 +35,10 @@ class MacroCallUnfit(Rule):
         Example("as defined", {"robot.xacro": _ROBOT.format('name="left" y="1"', _ORIGIN)}),
         Example("the default", {"robot.xacro": _ROBOT.format('name="left"', _ORIGIN)}),
         Example(
+            "a default with a quote too many, which xacro reads",
+            {"robot.xacro": _ROBOT.format('name="left" y="1"', _ORIGIN).replace("y:=0", "y:='''")},
+        ),
+        Example(
             "left out",
             {"robot.xacro": _ROBOT.format('y="1"', _ORIGIN)},
             Report("10:4", "macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'"),

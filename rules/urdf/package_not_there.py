@@ -38,6 +38,7 @@ class PackageNotThere(Rule):
                 "package.xml": _MANIFEST,
                 "a.xacro": _ROBOT.format("turret_description"),
                 "b.xacro": _ROBOT.format("my_arm"),
+                "c.xacro": _ROBOT.format("turtlebot3_gazebo"),
             },
         ),
         Example(

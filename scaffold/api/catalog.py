@@ -11,14 +11,15 @@ from scaffold.model.catalog import (
     module_of_key,
     similar_key,
     similar_package,
-    transitive_dependencies,
 )
+from scaffold.model.released import is_released, transitive_dependencies
 
 __all__ = [
     "BUILD_TOOLS",
     "OTHER_NAMES",
     "ROS1_PACKAGES",
     "ROS_PACKAGES",
+    "is_released",
     "keys_of_module",
     "module_of_key",
     "similar_key",

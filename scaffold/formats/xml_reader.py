@@ -18,13 +18,17 @@ _ONE_BYTE_CODECS = ("ascii", "cp125", "iso8859-", "koi8-")
 _CONTINUATION = bytes(range(0x80, 0xC0))
 
 
-def parse(source: Source) -> Document:
+def parse(source: Source, *, has_namespaces: bool = True) -> Document:
     """Read an XML file; nothing outside of it is ever read.
+
+    Args:
+        source: The file.
+        has_namespaces: Whether its readers know namespaces, and refuse prefixes without.
 
     Raises:
         ParseError: the file is not well-formed, or has a document type declaration.
     """
-    return _Reader(source).read()
+    return _Reader(source, has_namespaces=has_namespaces).read()
 
 
 def decode(path: str, data: bytes) -> Source:
@@ -81,7 +85,8 @@ class _Offsets:
 class _Reader:
     """Builds the elements from the events of expat."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, *, has_namespaces: bool) -> None:
+        self.has_namespaces = has_namespaces
         self.source = source
         self.data = source.text.encode("utf-8", "surrogatepass")
         self.offset = _same if source.text.isascii() else _Offsets(self.data)
@@ -104,7 +109,7 @@ class _Reader:
         parser.XmlDeclHandler = self._declare
         parser.StartDoctypeDeclHandler = self._doctype
         self._run(parser)
-        if self.prefixed:
+        if self.prefixed and self.has_namespaces:
             self._run(expat.ParserCreate("utf-8", " "))
         assert self.root is not None, "expat demands a root element"  # noqa: S101  for mypy
         return Document(

@@ -10,6 +10,7 @@ from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.python.values import UNKNOWN, Unknown
+from scaffold.model.released import is_released
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -104,7 +105,7 @@ def exists(package: Package, name: str) -> bool:
 
 def meant_package(package: Package, use: Reference) -> Suggestion | None:
     """Return the package that an unknown package name certainly refers to."""
-    if exists(package, use.name):
+    if exists(package, use.name) or is_released(use.name):
         return None
     own = programs_of(package).sources
     if isinstance(use.executable, str) and use.executable in own:

@@ -7,10 +7,11 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module, transitive_dependencies
+from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
 from scaffold.model.python.module import is_in_tests
+from scaffold.model.released import transitive_dependencies
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 

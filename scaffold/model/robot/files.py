@@ -54,7 +54,10 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
     def read() -> RobotFile | None:
         try:
             source = xml_reader.decode(path, package.data(path))
-            return RobotFile(package, path, xml_reader.parse(source).root)
+            # urdfdom knows no namespaces: an element of Drake's needs no declaration.
+            is_xacro = not path.endswith(".urdf") or "xacro" in source.text
+            root = xml_reader.parse(source, has_namespaces=is_xacro).root
+            return RobotFile(package, path, root)
         except ParseError as error:
             if "DOCTYPE" in error.message or not package.bytes_of(path).strip():
                 return None

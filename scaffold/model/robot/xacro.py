@@ -33,7 +33,7 @@ _MOST_DEPTH = 40
 _MOST_PARTS = 30_000
 """Elements of one robot; the largest of the public ones has 4 000."""
 _EXPRESSION = r"\$\{[^}]{0,900}\}|\$\([^)]{0,900}\)"
-_DEFAULT = rf"(?:{_EXPRESSION}|'[^']*'|\"[^\"]*\"|(?!{_EXPRESSION})[^\s'\"])*"
+_DEFAULT = rf"(?:{_EXPRESSION}|'[^']*'(?:'(?=\s|$))?|\"[^\"]*\"|(?!{_EXPRESSION})[^\s'\"])*"
 _PARAMETER = re.compile(rf"\s*([^\s:=]+)\s*:?=\s*(\^\|?)?({_DEFAULT})(?=\s|$)")
 _PARAMETER_NAME = re.compile(r"\s*(\S+)")
 _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})

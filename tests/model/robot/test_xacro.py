@@ -7,7 +7,9 @@ import pytest
 from scaffold.files.tree import MemoryTree
 from scaffold.model.package import Package
 from scaffold.model.robot.expressions import evaluate, literal, truth
+from scaffold.model.robot.files import robot_file
 from scaffold.model.robot.robots import robots
+from scaffold.source import ParseError
 
 HEAD = '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 
@@ -114,3 +116,19 @@ def test_a_condition_is_a_truth_or_refused() -> None:
     assert [truth(value) for value in ("true", "0", 1.0, False)] == [True, False, True, False]
     with pytest.raises(ValueError, match="invalid literal"):
         truth("yes")
+
+
+def test_a_default_may_have_a_quote_too_many() -> None:
+    text = (
+        '<xacro:macro name="m" params="a:=\'\'\'"><link name="[${a}]"/></xacro:macro>'
+        '<xacro:m a="given"/>'
+    )
+    assert links(a=text) == ["[given]"]
+
+
+def test_an_element_of_other_readers_needs_no_namespace_in_urdf() -> None:
+    text = b'<robot name="a"><link name="a"/><drake:proximity_properties/></robot>'
+    files = Package(MemoryTree({"a.urdf": text, "a.xacro": text}))
+    assert robot_file(files, "a.urdf") is not None
+    with pytest.raises(ParseError, match='"drake:" is not declared'):
+        robot_file(files, "a.xacro")
