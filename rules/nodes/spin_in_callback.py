@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
@@ -68,6 +69,16 @@ class SpinInCallback(RclpyRule):
             },
         ),
         Example(
+            "a spin before the node ends",
+            {
+                "caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)").replace(
+                    "self.ask)", "self.tick)"
+                )
+                + "\n    def tick(self):\n        if self.is_done:\n            self.ask()\n"
+                "            self.destroy_node()\n            raise SystemExit\n"
+            },
+        ),
+        Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             Report(
@@ -102,19 +113,21 @@ class SpinInCallback(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_constructors(file)
         for function, origin, entity in in_callbacks(file):
-            called = file.module.enclosing_class(entity.call)
+            called = file.module.enclosing_class(entity.call) if entity else None
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:
                     continue
                 node = call.call.args[0] if call.call.args else None
                 if file.function_of(call.call) is not function or call.call.keywords:
                     continue
-                spun = file.evaluator.self_class(node) if isinstance(node, ast.Name) else None
+                if not isinstance(node, ast.Name):
+                    continue
+                spun = file.evaluator.self_class(node)
                 if spun is None or (called and called not in file.related_classes(spun)):
                     continue  # another node than that of the callback
-                message = (
-                    f"rclpy.{call.name}({ast.unparse(node)}) runs in {origin} of the same node"
-                )
+                if _is_last(file, function):
+                    continue
+                message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(call, f"{message}: no callback runs after that")
 
     def _check_constructors(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -133,6 +146,33 @@ class SpinInCallback(RclpyRule):
             )
             severity = None if outside else Severity.WARNING
             yield self.report(call, message, severity=severity)
+
+
+def _is_last(file: RclpyFile, function: ast.AST) -> bool:
+    """Tell whether callbacks call a function at the end of the node alone."""
+    start = {executed.function for executed in in_constructors(file)}
+    calls = [
+        attribute
+        for attribute in file.module.index.attributes(getattr(function, "name", ""))
+        if file.function_of(attribute) not in start
+    ]
+    return bool(calls) and all(_ends_after(file, call) for call in calls)
+
+
+def _ends_after(file: RclpyFile, node: ast.AST) -> bool:
+    """Tell whether the block of a call goes on with what ends the node."""
+    child = node
+    for parent in file.module.parents(node):
+        block = getattr(parent, "body", None)
+        if isinstance(block, list) and child in block:
+            later = block[block.index(child) + 1 :]
+            return any(
+                isinstance(statement, ast.Raise)
+                or re.search(r"\b(?:destroy_node|shutdown|exit)\(", file.module.text(statement))
+                for statement in later
+            )
+        child = parent
+    return False
 
 
 def _is_self(file: RclpyFile, call: ast.Call) -> bool:

@@ -25,6 +25,7 @@ from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
+from scaffold.distributions import target
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
@@ -316,7 +317,8 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
     except ViewError:
         return ()
     message = (
-        "a package of ROS 1: Jazzy has no 'catkin' to build it with, and it is not checked; "
+        f"a package of ROS 1: {target().title} has no 'catkin' to build it with, and it is not "
+        "checked; "
         "migrate it, or put COLCON_IGNORE next to package.xml"
     )
     return (PackageOfRos1().report(catkin, message),)
