@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.ament.settings import settings_of
 from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
@@ -25,7 +26,6 @@ from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
-from scaffold.distributions import target
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
@@ -316,9 +316,9 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
             return ()
     except ViewError:
         return ()
+    title = distributions.target().title
     message = (
-        f"a package of ROS 1: {target().title} has no 'catkin' to build it with, and it is not "
-        "checked; "
+        f"a package of ROS 1: {title} has no 'catkin' to build it with, and it is not checked; "
         "migrate it, or put COLCON_IGNORE next to package.xml"
     )
     return (PackageOfRos1().report(catkin, message),)
