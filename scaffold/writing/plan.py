@@ -19,6 +19,8 @@ from scaffold.errors import ConflictError, InputError
 from scaffold.files.disk import digest
 from scaffold.record import NamedTuple
 from scaffold.writing import new_files, transaction
+from scaffold.writing.change import Replacement, state_of
+from scaffold.writing.stage import TREE, Stage, sweep
 
 if TYPE_CHECKING:
     from scaffold.files.tree import DiskTree
@@ -103,7 +105,7 @@ class WritePlan:
                     _refuse_changed(tree, path, before)
                 content = files.get(path, before if before is not None else b"")
                 data = content.encode() if isinstance(content, str) else content
-                seen = None if before is None else transaction.state_of(before, mode)
+                seen = None if before is None else state_of(before, mode)
                 state = _state(before, mode, data, executable=path in executable)
                 if path in remove and path not in files:
                     state = State.REMOVED if before is not None else State.SAME
@@ -167,14 +169,14 @@ class WritePlan:
             message = f"{_refusal(error, self.root, around)}; nothing was written"
             raise InputError(message) from error
 
-    def _write_whole(self, around: Sequence[transaction.Replacement]) -> None:
+    def _write_whole(self, around: Sequence[Replacement]) -> None:
         """Write a directory next to its place and rename it."""
         parent = os.path.dirname(self.root)
         while not os.path.lexists(parent):
             parent = os.path.dirname(parent)
-        transaction.sweep(parent)
-        with transaction.Stage.made(parent) as stage:
-            place = stage.file(transaction.TREE)
+        sweep(parent)
+        with Stage.made(parent) as stage:
+            place = stage.file(TREE)
             os.mkdir(place)
             new_files.adopt(place, parent)
             for file in self.changes:
@@ -183,14 +185,14 @@ class WritePlan:
             transaction.appear(place, self.root, around)
 
 
-def _replacements(plans: Sequence[WritePlan], root: str) -> list[transaction.Replacement]:
+def _replacements(plans: Sequence[WritePlan], root: str) -> list[Replacement]:
     """Return the changes by real file: two paths may be links to the same one."""
-    result: dict[str, transaction.Replacement] = {}
+    result: dict[str, Replacement] = {}
     for plan in plans:
         for file in plan.changes:
             path = os.path.relpath(file.target, root).replace(os.sep, "/")
             content = None if file.state is State.REMOVED else file.content
-            new = transaction.Replacement(path, file.seen, content, file.executable)
+            new = Replacement(path, file.seen, content, file.executable)
             if result.setdefault(path, new) != new:
                 raise ConflictError(
                     f"{file.path} in {plan.root} is another name of a file that is to have other "

@@ -20,7 +20,7 @@ import pytest
 from scaffold.cli.main import main
 from scaffold.errors import ConflictError, InputError, LockedError
 from scaffold.files import cache, temporary
-from scaffold.writing import lock, rename, transaction
+from scaffold.writing import lock, rename, stage, transaction
 from scaffold.writing.plan import WritePlan
 
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
@@ -165,7 +165,7 @@ def test_a_new_package_and_files_around_it_are_one_transaction(tmp_path: Path) -
         if not killed_writer(top / "src" / "p", at, around=AROUND_AFTER):
             break
         notes = heal(top / "src" / "p") if (top / "src" / "p").exists() else []
-        transaction.sweep(str(top / "src"))
+        stage.sweep(str(top / "src"))
         assert tree(top) in (AROUND_BEFORE, after), at
         outcomes.update(note.rpartition(" ")[2] for note in notes)
     assert tree(top) == after
@@ -508,7 +508,7 @@ def test_new_sweeps_what_a_killed_new_left(tmp_path: Path) -> None:
     (left,) = tmp_path.iterdir()
     assert temporary.is_temporary(left.name)
     theirs = write(tmp_path / temporary.name(), {"thesis.txt": "mine"})
-    with transaction.Stage.made(str(tmp_path)) as alive:
+    with stage.Stage.made(str(tmp_path)) as alive:
         WritePlan.of(tmp_path / "p", {"a/b": "2"}).write()
         names = {path.name for path in tmp_path.iterdir()}
     assert names == {"p", theirs.name, os.path.basename(alive.path)}

@@ -284,16 +284,17 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     """Return the directory of a package; raise if it is there and may not be overwritten."""
     from scaffold.cli import writing
     from scaffold.errors import ConflictError
-    from scaffold.writing import transaction
+    from scaffold.writing.stage import sweep
+    from scaffold.writing.transaction import is_unfinished
 
     directory = os.path.normpath(os.path.join(options.destination_directory, name))
     if os.path.islink(directory):
         raise ConflictError(f"{directory} is a link to {os.path.realpath(directory)}")
     if os.path.lexists(directory) and not options.force:
         # A killed run may have got this far, or further.
-        transaction.sweep(options.destination_directory)
-        transaction.sweep(directory)
-        if transaction.is_unfinished(directory):
+        sweep(options.destination_directory)
+        sweep(directory)
+        if is_unfinished(directory):
             with writing.held(directory, is_dry=options.dry_run or options.diff):
                 pass
         hint = "--force overwrites the files that differ"

@@ -1,0 +1,99 @@
+"""What happens to a file: its state before and after, and how it is called in messages."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Sequence
+
+from scaffold.files.disk import digest
+from scaffold.record import NamedTuple
+
+_OTHER = "other"
+"""The state of what is not a regular file or cannot be read."""
+
+
+class Change(NamedTuple):
+    """What happens to one file; states are as ``state`` returns them."""
+
+    path: str
+    """Relative to the root, without links; it may lead out of the root with ``..``."""
+    before: str | None
+    after: str | None
+
+    def reversed(self) -> Change:
+        """Return the change that undoes this one."""
+        return Change(self.path, self.after, self.before)
+
+
+class ChangedError(Exception):
+    """A file is not what it was when it was read."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(path)
+        self.path = path
+
+
+class Replacement(NamedTuple):
+    """What a file is to become."""
+
+    path: str
+    """Relative to the root, without links; it may lead out of the root with ``..``."""
+    before: str | None
+    """Its state when it was read."""
+    content: bytes | None
+    """``None`` if the file is to go."""
+    executable: bool
+
+
+def state(path: str) -> str | None:
+    """Return what tells the state of a file: its content and whether it is executable.
+
+    ``None`` if there is no file. Anything irregular or unreadable is not a file of ours.
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return None
+    except OSError:
+        return _OTHER
+    with open(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode):
+            return _OTHER
+        return state_of(file.read(), status.st_mode)
+
+
+def state_of(content: bytes, mode: int) -> str:
+    """Return the state of a file with this content and mode."""
+    return f"{digest(content)}{'+x' if mode & stat.S_IXUSR else ''}"
+
+
+def join(root: str, path: str) -> str:
+    """Return a path below a root, or around it; the root need not be there, as a new package."""
+    return os.path.normpath(os.path.join(root, *path.split("/")))
+
+
+def leads_out(path: str) -> bool:
+    """Tell whether a path leads out of the root that it is relative to."""
+    return os.path.isabs(path) or ".." in path.split("/")
+
+
+def shown(root: str, path: str) -> str:
+    """Return how a message names a file: relative to the root, unless it is outside."""
+    return join(root, path) if leads_out(path) else path
+
+
+def refusal(root: str, changed: Sequence[str], left: Sequence[str]) -> str:
+    """Return the message for files that somebody else has changed."""
+    message = f"{_names(root, changed)} changed after it was read"
+    if left:
+        return f"{message}; all was undone but {_names(root, left)}, which changed as well"
+    return f"{message}; nothing was written: run this again"
+
+
+def _names(root: str, paths: Sequence[str]) -> str:
+    """Return the names of files for a message, those of the root first."""
+    inside = [path for path in paths if not leads_out(path)]
+    outside = [join(root, path) for path in paths if leads_out(path)]
+    return ", ".join([*([f"{', '.join(inside)} in {root}"] if inside else []), *outside])

@@ -1,0 +1,110 @@
+"""The hidden directory of a package that changes wait in."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from scaffold.files import temporary
+from scaffold.writing.lock import try_lock
+
+TREE = "tree"
+"""What a stage calls the directory that is to appear whole."""
+JOURNAL = "journal"
+NEW_JOURNAL = "journal.new"
+"""The journal while it is being written."""
+MARK = "mark"
+"""A file that a journal names by what cannot be copied."""
+SPARE = ".old"
+"""The suffix of a replaced file where the kernel cannot exchange two."""
+
+
+class Stage:
+    """A hidden directory for what is written, on the file system of the place that it is for."""
+
+    def __init__(self, parent: str, path: str) -> None:
+        self.parent = parent
+        self.path = path
+
+    @classmethod
+    @contextmanager
+    def made(cls, parent: str) -> Iterator[Stage]:
+        """Make a stage in a directory, and remove it when the block ends."""
+        stage = cls(parent, os.path.join(parent, temporary.name()))
+        os.mkdir(stage.path, 0o700)
+        try:
+            lock = try_lock(stage.path)
+        except OSError:
+            lock = None  # no locks on this file system: no cleanup there
+        else:
+            if lock is None:  # swept before it was locked
+                with cls.made(parent) as another:
+                    yield another
+                return
+        try:
+            yield stage
+        finally:
+            if not os.path.lexists(stage.file(JOURNAL)):
+                stage.remove()
+            if lock is not None:
+                os.close(lock)
+
+    def file(self, name: str) -> str:
+        """Return the path of a file in it."""
+        return os.path.join(self.path, name)
+
+    def follow(self, parent: str) -> None:
+        """Note that the directory which it is in has another name now."""
+        self.parent, self.path = parent, os.path.join(parent, os.path.basename(self.path))
+
+    def remove(self) -> bool:
+        """Remove it with what this module has put into it; tell whether that was all."""
+        with suppress(OSError):
+            names = os.listdir(self.path)
+            if not all(_is_of_stage(name) for name in names):
+                return False
+            for name in names:
+                if name == TREE:
+                    shutil.rmtree(self.file(name), ignore_errors=True)
+                else:
+                    os.unlink(self.file(name))
+            os.rmdir(self.path)
+            return True
+        return False
+
+
+def sweep(parent: str) -> None:
+    """Remove the stages of dead processes that made directories in ``parent``."""
+    for name in temporary_names(parent):
+        path = os.path.join(parent, name)
+        if has_journal(parent, name):
+            continue  # a package's own, not for anybody but its next writer
+        with suppress(OSError):
+            descriptor = try_lock(path)
+            if descriptor is not None:
+                Stage(parent, path).remove()
+                os.close(descriptor)
+
+
+def temporary_names(directory: str) -> list[str]:
+    """Return the names in a directory that stages may have."""
+    try:
+        names = sorted(filter(temporary.is_temporary, os.listdir(directory)))
+    except OSError:
+        return []
+    return [name for name in names if not os.path.islink(os.path.join(directory, name))]
+
+
+def has_journal(directory: str, name: str) -> bool:
+    """Tell whether the stage of this name has a journal: its run was interrupted."""
+    return os.path.lexists(os.path.join(directory, name, JOURNAL))
+
+
+def _is_of_stage(name: str) -> bool:
+    """Tell whether this module gives this name to what it puts into a stage."""
+    number = name
+    while number.endswith(SPARE):
+        number = number.removesuffix(SPARE)
+    return name in {TREE, MARK, JOURNAL, NEW_JOURNAL} or number.isdecimal()
