@@ -57,6 +57,7 @@ def _page(one: Distribution) -> Iterator[str]:
     yield f"Supported {one.fact('support')}; Python {one.python_version}, {versions}."
     yield ""
     yield from _build(one)
+    yield from _linters(one)
     with distributions.targeting(one):
         yield from _table("Removed", [item for item in _changes() if item.is_removed])
         yield from _table("Deprecated", [item for item in _changes() if item.is_deprecated])
@@ -78,6 +79,23 @@ def _build(one: Distribution) -> Iterator[str]:
     )
     if one.fact("wheels.available"):
         yield "- There are wheels for Python, which need no installation of ROS 2."
+    yield ""
+
+
+def _linters(one: Distribution) -> Iterator[str]:
+    versions = ", ".join(f"{name} {version}" for name, version in one.fact("linters").items())
+    yield "## Linters"
+    yield ""
+    yield f"The style verdict is that of {versions}."
+    yield ""
+    if "flake8-docstrings" not in one.fact("linters"):
+        yield "- Docstrings are judged by ament_pep257 alone: flake8 has no plugin for them."
+    unknown = one.fact("copyright.unknown_licenses")
+    if unknown:
+        names = ", ".join(f"`{name}`" for name in unknown)
+        yield f"- ament_copyright does not know the license {names} any more."
+    if one.fact("copyright.is_case_sensitive"):
+        yield "- ament_copyright wants the word `Copyright` with a capital letter, in line comments."
     yield ""
 
 

@@ -1,4 +1,4 @@
-"""Python style and docstrings of packages, with the verdict of the Jazzy ament linters."""
+"""Python style and docstrings of packages, with the verdict of the target's ament linters."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING
 
-from scaffold import distributions, time_limit
+from scaffold import time_limit
 from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
 from scaffold.ament.finding import CRASHED, TOO_LARGE, UNFOLLOWED, UNPARSABLE, Finding
 from scaffold.ament.findings_cache import Cache
 from scaffold.ament.flake8.options import AMENT
+from scaffold.ament.linters import of_target
 from scaffold.ament.settings import Note, PackageSettings, Settings, settings_of
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.edits import Edit, Fix, Safety
@@ -49,8 +50,7 @@ def _identity() -> str:
                 place = os.path.relpath(folder, top)
                 own.append(f"{place}/{name}:{status.st_size}:{status.st_mtime_ns}")
     own.sort()
-    syntax = distributions.target().python_version
-    return f"{sys.version_info[:3]}{syntax}{own}{ruff.identity()}"
+    return f"{sys.version_info[:3]}{of_target().identity}{own}{ruff.identity()}"
 
 
 class _File:
@@ -157,11 +157,10 @@ class StyleCheck:
         def of_ruff() -> Sequence[RuffDiagnostic]:
             return self._results().get(file.on_disk, [])
 
-        name = file.path.rpartition("/")[2]
         try:
             with time_limit.limited():
                 parsed = package.parsed_module(file.path)
-                findings = check(name, file.data, of_ruff, file.settings, parsed)
+                findings = check(file.path, file.data, of_ruff, file.settings, parsed)
         except ScaffoldError:
             raise
         except Exception as error:  # noqa: BLE001  one bad file must not end the run for all
@@ -221,7 +220,7 @@ class StyleCheck:
             file = _File(path, data, settings)
             if self._cache is not None:
                 key = [(item.linters, item.key) for item in settings]
-                file.key = self._cache.key(path.rpartition("/")[2], key, data)
+                file.key = self._cache.key(path, key, data)
                 file.findings = self._cache.get(file.key)
             if file.findings is None:
                 file.on_disk = self._place(package, file, len(files))

@@ -7,6 +7,7 @@ import re
 from contextlib import suppress
 from functools import lru_cache
 
+from scaffold import distributions
 from scaffold.ament.files import broken_links, lintable
 from scaffold.configuration import content
 from scaffold.files.disk import LargeFileError
@@ -21,7 +22,7 @@ REPOSITORY_FILES = (CONTRIBUTING, "LICENSE")
 
 _DATA = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "licences.tsv")
 _YEARS = r"\d{4}(?:-\d{4})?(?:,\s*\d{4}(?:-\d{4})?)*"
-_NOTICE = rf"copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
+_NOTICE = rf"Copyright(?:\s+\(c\))?\s+({_YEARS}),?\s+([^\n]+)$"
 _NEAR = 12  # words that a header must share with a known one to be called a variant of it
 _HOLDER = 12  # words that the name of a copyright holder has at most
 
@@ -101,7 +102,10 @@ def read(path: str, data: bytes) -> Header:
     start = _behind_first_lines(text)
     if start is None:
         return Header(path, at, unreadable="the file ends after its first line")
-    for block in (_line_comments(text, start), _block_comment(text, start)):
+    blocks = [_line_comments(text, start)]
+    if distributions.target().fact("copyright.reads_block_comments"):
+        blocks.append(_block_comment(text, start))
+    for block in blocks:
         notices, rest = _notices(block)
         if notices:
             first = notices[0].split("\n", 1)[0]
@@ -181,8 +185,10 @@ def _notices(block: str) -> tuple[list[str], str]:
     """Return the copyright notices, and what follows the last one."""
     result: list[str] = []
     end = 0
-    notice = re.compile(_NOTICE, re.IGNORECASE | re.MULTILINE)
-    for word in re.finditer("copyright", block, re.IGNORECASE):
+    is_exact = distributions.target().fact("copyright.is_case_sensitive")
+    flags = re.RegexFlag(0) if is_exact else re.IGNORECASE
+    notice = re.compile(_NOTICE, re.MULTILINE | flags)
+    for word in re.finditer("Copyright", block, flags):
         if word.start() < end or not _begins_line(block, word.start(), end):
             continue
         match = notice.match(block, word.start())
@@ -246,6 +252,12 @@ def contributing(licence: str) -> str | None:
         return None
 
 
+def _known(kind: str) -> tuple[KnownText, ...]:
+    """Return the texts of a kind that the linter of the target knows."""
+    unknown = distributions.target().fact("copyright.unknown_licenses")
+    return tuple(item for item in known_texts()[kind] if item.licence not in unknown)
+
+
 @lru_cache(maxsize=1)
 def known_texts() -> dict[str, list[KnownText]]:
     """Return the texts that ament_copyright knows, by kind: ``header``, or the name of a file."""
@@ -257,10 +269,14 @@ def known_texts() -> dict[str, list[KnownText]]:
     return result
 
 
-@lru_cache(maxsize=256)
 def identify(text: str) -> str | None:
     """Return the SPDX identifier of the license header in a text whose spaces are joined."""
-    for known_text in known_texts()["header"]:
+    return _identified(text, _known("header"))
+
+
+@lru_cache(maxsize=256)
+def _identified(text: str, known: tuple[KnownText, ...]) -> str | None:
+    for known_text in known:
         if _in_order(text, known_text.sections):
             return known_text.licence
     return None
@@ -285,7 +301,7 @@ def departure(text: str) -> tuple[str, str, str] | None:
     """
     best: tuple[int, str, str, str] | None = None
     words = text.split()
-    for known_text in known_texts()["header"]:
+    for known_text in _known("header"):
         same, expected, given = _compare(words, [part.split() for part in known_text.sections])
         enough = min(_NEAR, sum(map(len, (part.split() for part in known_text.sections))) // 2)
         if same >= enough and (best is None or same > best[0]):
@@ -312,7 +328,7 @@ def _compare(words: list[str], sections: list[list[str]]) -> tuple[int, list[str
 def identify_file(name: str, data: bytes) -> str | None:
     """Return the SPDX identifier of a LICENSE or CONTRIBUTING.md, ``None`` if it is unknown."""
     text = " ".join(data.decode("utf-8", "replace").split())
-    for known_text in known_texts()[name]:
+    for known_text in _known(name):
         last = -1
         for mark in known_text.sections:
             at = _find_marked(text, mark)

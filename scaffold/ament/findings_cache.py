@@ -11,6 +11,7 @@ import os
 from collections.abc import Callable, Sequence
 
 from scaffold.ament.finding import Finding
+from scaffold.ament.flake8.builtins import hidden_module
 from scaffold.files import cache
 from scaffold.files.disk import digest
 
@@ -32,17 +33,18 @@ class Cache:
         directory = cache.directory("style")
         return None if directory is None else cls(directory, depends_on())
 
-    def key(self, name: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
+    def key(self, path: str, settings: Sequence[tuple[int, str]], data: bytes) -> str:
         """Return the key of a file: of its bytes and of what else rules look at.
 
         Args:
-            name: Its name.
+            path: Its path in the package.
             settings: The linters that look at it, with what they are asked for.
             data: Its bytes.
         """
+        name = path.rpartition("/")[2]
         is_private = name.startswith("_") and any(asked for _, asked in settings)
         kind = name if is_private else "init" if name == "__init__.py" else "module"
-        facts = f"{kind} {settings}".encode("utf-8", "surrogateescape")
+        facts = f"{kind} {hidden_module(path)} {settings}".encode("utf-8", "surrogateescape")
         return digest(b"%s\0%s\0%s" % (self._salt, facts, data))
 
     def get(self, key: str) -> list[Finding] | None:

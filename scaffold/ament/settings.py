@@ -16,6 +16,7 @@ from scaffold.ament.calls import Arguments, Call, directory_of, linter_calls
 from scaffold.ament.finding import FLAKE8, PEP257, Finding
 from scaffold.ament.flake8 import options as flake8
 from scaffold.ament.flake8.options import EXCLUDED, Options, OptionsError, matches, normal
+from scaffold.ament.linters import of_target
 from scaffold.ament.pep257 import codes as pep257
 from scaffold.ament.use import linter_tests
 from scaffold.record import NamedTuple
@@ -46,8 +47,11 @@ class Settings(NamedTuple):
         linters = finding.linters & self.linters
         if linters & FLAKE8 and not self.flake8.reports(finding.code):
             linters &= ~FLAKE8
-        if finding.code.startswith("D") and finding.code not in self.pep257:
-            linters &= ~PEP257
+        if finding.code in pep257.ALL:
+            if not of_target().has("flake8-docstrings"):
+                linters &= ~FLAKE8
+            if finding.code not in self.pep257:
+                linters &= ~PEP257
         return linters
 
     @property
@@ -119,7 +123,7 @@ class PackageSettings:
                     return True
             elif run.asked.for_file(full, self._directory).reports(code):
                 convention = pep257.CONVENTIONS.get(run.asked.docstring_convention, pep257.ALL)
-                if not code.startswith("D") or code in convention:
+                if code not in pep257.ALL or code in convention:
                     return True
         return False
 

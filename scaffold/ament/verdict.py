@@ -12,7 +12,7 @@ from scaffold import distributions
 from scaffold.ament.codes import CODES
 from scaffold.ament.finding import FLAKE8, PEP257, TOO_LARGE, UNPARSABLE, Finding, Replacement
 from scaffold.ament.flake8 import builtins as shadowing
-from scaffold.ament.flake8 import complexity, comprehensions, noqa, quotes
+from scaffold.ament.flake8 import complexity, comprehensions, noqa, plugins, quotes
 from scaffold.ament.flake8.import_order import check as import_order
 from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.flake8.pycodestyle import (
@@ -25,7 +25,7 @@ from scaffold.ament.flake8.pycodestyle import (
     physical,
     statements,
 )
-from scaffold.ament.flake8.pyflakes import flakes, literals, redefinitions
+from scaffold.ament.flake8.pyflakes import flakes, indirect_names, literals, redefinitions
 from scaffold.ament.pep257 import complete
 from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.python_text.logical import LogicalLine
@@ -44,13 +44,14 @@ _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
 """Codes on which ruff's verdict is pycodestyle's."""
 
-_OWN = (blank_lines, statements, redefinitions, comprehensions, literals)
+_OWN = (blank_lines, statements, redefinitions, indirect_names, comprehensions, literals)
 _CONFIGURED = (
     indentation,
     continuation,
     quotes,
     import_order,
     shadowing,
+    plugins,
     optional,
     complexity,
 )
@@ -58,7 +59,7 @@ _CONFIGURED = (
 
 
 def check(
-    name: str,
+    path: str,
     data: bytes,
     ask_ruff: Callable[[], Sequence[RuffDiagnostic]],
     settings: Sequence[Settings],
@@ -67,7 +68,7 @@ def check(
     """Return the findings of one file.
 
     Args:
-        name: The name of the file, without its directory.
+        path: The path of the file in its package.
         data: Its bytes.
         ask_ruff: Waits for ruff and returns its diagnostics; called after our own
             rules, which run at the same time as ruff.
@@ -76,7 +77,7 @@ def check(
     """
     decoded = decode(data)
     is_same = parsed is not None and parsed.source.text.removeprefix(BOM) == decoded.text
-    text = PythonText(name, decoded.text, parsed.index if parsed and is_same else None)
+    text = PythonText(path, decoded.text, parsed.index if parsed and is_same else None)
     if text.why_unchecked:
         linters = settings[0].linters
         return [Finding(TOO_LARGE, 1, 1, text.why_unchecked, linters=linters)]

@@ -31,15 +31,18 @@ _FIXED_WITH: dict[Safety | None, str] = {
 
 _PLUGINS = {
     "A": "flake8-builtins",
+    "B": "flake8-blind-except",
     "C": "flake8-comprehensions",
+    "CNL": "flake8-class-newline",
     "D": "pydocstyle",
+    "D0": "flake8-deprecated",
     "E": "pycodestyle",
     "F": "pyflakes",
     "I": "flake8-import-order",
     "Q": "flake8-quotes",
     "W": "pycodestyle",
 }
-"""Where a style code is from, by its first letter."""
+"""Where a style code is from, by its beginning; the longest decides."""
 _STYLE_HEAD = """\
 ## Python style and docstrings
 
@@ -77,7 +80,8 @@ def style_page(style: AmentCode) -> str:
 def style_text(style: AmentCode) -> str:
     """Return what a code of flake8 or pydocstyle is about and who defines it, as Markdown."""
     text = style.summary[0].upper() + style.summary[1:]
-    source = f"{_PLUGINS[style.code[0]]}, as {linters(style)[0]} runs it"
+    plugin = max((start for start in _PLUGINS if style.code.startswith(start)), key=len)
+    source = f"{_PLUGINS[plugin]}, as {linters(style)[0]} runs it"
     if style.is_optional:
         source += " where the configuration that a package hands to it asks for this"
     return f"{text}.\n\n**Source.** {source}."

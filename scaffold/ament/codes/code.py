@@ -18,7 +18,7 @@ LINTERS: Mapping[int, str] = {
     XMLLINT: "ament_xmllint",
     COPYRIGHT: "ament_copyright",
 }
-"""Who reports a code on Jazzy; the values of several are added up."""
+"""Who reports a code; the values of several are added up."""
 
 
 class AmentCode(NamedTuple):

@@ -1,10 +1,16 @@
-"""A001 to A003: names that hide a builtin, with the verdict of flake8-builtins 2.1.0."""
+"""A001 to A006: names that hide a builtin or a module of the standard library.
+
+The verdict is that of flake8-builtins: from 2.5 on it has codes of their own for imports, modules
+and the arguments of lambdas.
+"""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
+from scaffold.ament import linters, standard_library
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.python_text.text import PythonText
@@ -33,9 +39,16 @@ _NAMES = """
 
 BUILTINS = frozenset(_NAMES.split())
 """The builtins of Python 3.12 without those that flake8-builtins lets pass."""
+_NEWER = {
+    (3, 11): frozenset({"BaseExceptionGroup", "ExceptionGroup"}),
+    (3, 13): frozenset({"PythonFinalizationError"}),
+}
+"""Those that a Python brought."""
+_MODULES_THAT_PASS = frozenset({"__future__", "__main__", "setup", "test"})
 
 _Comprehension = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 _Function = (ast.FunctionDef, ast.AsyncFunctionDef)
+_Import = (ast.Import, ast.ImportFrom)
 _BINDING = (
     ast.Assign,
     ast.AnnAssign,
@@ -46,8 +59,7 @@ _BINDING = (
     ast.AsyncWith,
     *_Comprehension,
     ast.ExceptHandler,
-    ast.Import,
-    ast.ImportFrom,
+    *_Import,
     *_Function,
     ast.ClassDef,
 )
@@ -57,7 +69,8 @@ Named = Iterator[tuple[str, int, int]]
 
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the names that hide a builtin."""
-    builtins = BUILTINS
+    target = linters.of_target()
+    builtins = _builtins(target.python)
     if options.builtins or options.builtins_ignorelist:
         builtins = builtins.difference(options.builtins_ignorelist).union(options.builtins)
     in_class = {
@@ -68,6 +81,9 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     }
     for node in text.nodes(*_BINDING):
         code = "A003" if id(node) in in_class else "A001"
+        if isinstance(node, _Import) and _has_codes_of_imports():
+            yield from _imports(text, node, builtins)
+            continue
         for name, line, column in _bound(node):
             if name in builtins:
                 kind = "attribute of a class" if code == "A003" else "variable"
@@ -77,6 +93,55 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
                 if argument.arg in builtins:
                     line, column = argument.lineno, argument.col_offset
                     yield _finding(text, "A002", "argument", argument.arg, line, column)
+
+    if _has_codes_of_imports():
+        yield from _lambdas(text, builtins)
+        yield from _module(text, options)
+
+
+def _has_codes_of_imports() -> bool:
+    return linters.of_target().since("flake8-builtins", 2, 5)
+
+
+@lru_cache
+def _builtins(python: tuple[int, int]) -> frozenset[str]:
+    names = BUILTINS
+    for since, newer in _NEWER.items():
+        names = names | newer if python >= since else names - newer
+    return names
+
+
+def _imports(
+    text: PythonText, node: ast.Import | ast.ImportFrom, builtins: frozenset[str]
+) -> Iterator[Finding]:
+    for name, line, column in _at(node, [alias.asname or alias.name for alias in node.names]):
+        if name in builtins:
+            yield _finding(text, "A004", "import", name, line, column)
+
+
+def _lambdas(text: PythonText, builtins: frozenset[str]) -> Iterator[Finding]:
+    for node in text.nodes(ast.Lambda):
+        for argument in _arguments(node):
+            if argument.arg in builtins:
+                place = argument.lineno, argument.col_offset
+                yield _finding(text, "A006", "argument of a lambda", argument.arg, *place)
+
+
+def hidden_module(path: str) -> str:
+    """Return the module of the standard library whose name a file or its package has."""
+    if not _has_codes_of_imports():
+        return ""
+    *_, directory, file = ("", *path.split("/"))
+    name = directory if file == "__init__.py" else file.removesuffix(".py")
+    is_hidden = name in standard_library.modules() and name not in _MODULES_THAT_PASS
+    return name if is_hidden else ""
+
+
+def _module(text: PythonText, options: Options) -> Iterator[Finding]:
+    name = hidden_module(text.path)
+    if name and name not in options.builtins_allowed_modules:
+        message = f"the module '{name}' hides that of the standard library"
+        yield Finding("A005", 1, 2, message)
 
 
 def _finding(text: PythonText, code: str, kind: str, name: str, line: int, column: int) -> Finding:
@@ -101,7 +166,7 @@ def _bound(node: ast.AST) -> Named:  # noqa: C901  one branch for each kind of s
             yield from _at(node, _flat(generator.target, starred=False))
     elif isinstance(node, ast.ExceptHandler):
         yield from _at(node, [node.name or ""])
-    elif isinstance(node, (ast.Import, ast.ImportFrom)):
+    elif isinstance(node, _Import):
         yield from _at(node, [alias.asname or "" for alias in node.names])
     elif isinstance(node, (*_Function, ast.ClassDef)):
         yield from _at(node, [node.name])
@@ -133,6 +198,6 @@ def _flat(target: ast.expr | None, *, starred: bool) -> list[str]:
     return [element.id for element in elements if isinstance(element, ast.Name)]
 
 
-def _arguments(node: ast.FunctionDef | ast.AsyncFunctionDef) -> list[ast.arg]:
+def _arguments(node: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> list[ast.arg]:
     arguments = node.args
     return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]

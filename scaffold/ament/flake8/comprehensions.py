@@ -1,4 +1,4 @@
-"""C400 to C419: calls that a literal or a comprehension would replace.
+"""C400 to C420: calls that a literal or a comprehension would replace.
 
 flake8-comprehensions looks at names and syntax alone; ruff also asks whether the name still refers
 to the builtin, and places some findings at the argument instead of the call.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
 
@@ -18,11 +19,31 @@ _CASTS = {
     "list": {"list", "tuple"},
     "tuple": {"list", "tuple"},
 }
+_SINCE = {"C417": (3, 9), "C418": (3, 10), "C419": (3, 10), "C420": (3, 16)}
+"""The versions that brought codes."""
+_PAIR = 2
 _Copy = ast.ListComp | ast.SetComp | ast.DictComp
 
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the calls and comprehensions that can be written shorter."""
+    unknown = _unknown_codes()
+    for finding in _findings(text):
+        if finding.code not in unknown:
+            yield finding
+
+
+def _unknown_codes() -> frozenset[str]:
+    """Return the codes that the version of the target does not have."""
+    target = linters.of_target()
+    return frozenset(
+        code
+        for code, version in _SINCE.items()
+        if not target.since("flake8-comprehensions", *version)
+    )
+
+
+def _findings(text: PythonText) -> Iterator[Finding]:
     inner_maps: set[ast.AST] = set()
     for call in text.nodes(ast.Call):
         if isinstance(call.func, ast.Name) and (code := _call(call, call.func.id, inner_maps)):
@@ -35,6 +56,8 @@ def check(text: PythonText) -> Iterator[Finding]:
     for copy in copies:
         if _copies(copy):
             yield _finding(text, "C416", copy)
+        elif _repeats(copy):
+            yield _finding(text, "C420", copy)
 
 
 def _finding(text: PythonText, code: str, node: ast.expr) -> Finding:
@@ -98,7 +121,12 @@ def _of_one(node: ast.Call, name: str, first: ast.expr) -> str:
         return "C418" if name == "dict" and not node.keywords else ""
     if isinstance(first, (ast.Tuple, ast.List)):
         if name == "dict":
-            pairs = all(isinstance(elt, ast.Tuple) and _is_pair(elt) for elt in first.elts)
+            kind = (
+                ast.Tuple
+                if linters.of_target().since("flake8-comprehensions", 3, 9)
+                else (ast.Tuple, ast.List)
+            )
+            pairs = all(isinstance(elt, kind) and len(elt.elts) == _PAIR for elt in first.elts)
             return "C406" if pairs else ""
         return {"tuple": "C409", "list": "C410", "set": "C405"}.get(name, "")
     return ""
@@ -143,10 +171,23 @@ def _copies(node: _Copy) -> bool:
         return False
     target = node.generators[0].target
     if isinstance(node, ast.DictComp):
+        if not linters.of_target().since("flake8-comprehensions", 3, 9):
+            return False
         if not _is_pair(target) or not isinstance(target, ast.Tuple):
             return False
         return _same_name(node.key, target.elts[0]) and _same_name(node.value, target.elts[1])
     return _same_name(node.elt, target)
+
+
+def _repeats(node: _Copy) -> bool:
+    """Tell whether a comprehension gives all keys the same constant."""
+    if not isinstance(node, ast.DictComp) or len(node.generators) != 1:
+        return False
+    (generator,) = node.generators
+    is_plain = not generator.ifs and not generator.is_async
+    return (
+        is_plain and isinstance(node.value, ast.Constant) and _same_name(node.key, generator.target)
+    )
 
 
 def _same_name(node: ast.expr, two: ast.expr) -> bool:

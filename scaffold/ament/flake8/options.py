@@ -36,8 +36,8 @@ EXCLUDED: Names = (
     ".eggs",
     "*.egg",
 )
-PLUGINS: Names = ("A00", "C4", "C90", "D", "E", "F", "I", "Q0", "W")
-"""The beginnings of codes that the plugins of Jazzy registered."""
+PLUGINS: Names = ("A00", "B90", "C4", "C90", "CNL", "D", "E", "F", "I", "Q0", "W")
+"""The beginnings of codes that plugins of the distributions registered."""
 IMPORT_STYLES = ("appnexus", "cryptography", "edited", "google", "pep8", "pycharm", "smarkets")
 CONVENTIONS = ("all", "google", "numpy", "pep257")
 PROPERTIES = "property,cached_property,functools.cached_property"
@@ -70,6 +70,7 @@ class Options(NamedTuple):
     disable_noqa: bool = False
     builtins: Names = ()
     builtins_ignorelist: Names = ()
+    builtins_allowed_modules: Names = ()
     application_import_names: Names = ()
     application_package_names: Names = ()
     import_order_style: str = "cryptography"
@@ -279,6 +280,7 @@ _CONVERSIONS: Mapping[str, Callable[[SectionProxy, str], Any]] = {
     "max_complexity": _number,
     **dict.fromkeys(("select", "extend_select", "builtins", "builtins_ignorelist"), _names),
     **dict.fromkeys(("application_import_names", "application_package_names"), _names),
+    "builtins_allowed_modules": _names,
     **dict.fromkeys(("exclude", "extend_exclude", "filename", "require_plugins"), _names),
     **dict.fromkeys(("ignore", "extend_ignore"), _ignored_codes),
     **dict.fromkeys(("hang_closing", "disable_noqa", "doctests", "avoid_escape"), _switch),

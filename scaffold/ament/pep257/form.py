@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from itertools import takewhile
 
 from scaffold.ament.finding import FLAKE8, PEP257, Finding
+from scaffold.ament.linters import of_target
 from scaffold.ament.pep257.definitions import CLASS, Definition, definitions, leading_space
 from scaffold.ament.python_text.text import PythonText
 
@@ -31,6 +32,7 @@ PROPERTIES = frozenset({"property", "cached_property", "functools.cached_propert
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield the findings about the docstrings of a file, with the linters that report them."""
+    has_properties = of_target().since("pydocstyle", 6, 2)
     for definition in definitions(text):
         messages = dict(_judge(definition))
         if messages:
@@ -38,7 +40,7 @@ def check(text: PythonText) -> Iterator[Finding]:
         at = definition.literal
         for code, message in messages.items():
             linters = PEP257 | (FLAKE8 if code in IN_FLAKE8 else 0)
-            if code == "D401" and PROPERTIES.intersection(definition.decorators):
+            if code == "D401" and has_properties and PROPERTIES.intersection(definition.decorators):
                 linters &= ~FLAKE8
             if definition.skipped == "all" or code in definition.skipped:
                 linters &= ~PEP257
@@ -63,7 +65,8 @@ def _judge(definition: Definition) -> Violations:
         yield "D300", "the docstring is bytes: both linters of ament crash on it"
         return
     if not definition.value.strip():
-        yield "D419", "the docstring is empty"
+        if of_target().since("pydocstyle", 6, 2):
+            yield "D419", "the docstring is empty"
         return
     for item in _CHECKS:
         yield from item(definition)

@@ -1,7 +1,7 @@
-"""Tokenizes f-strings on Pythons before 3.12, whose tokenizer returns them as one string.
+"""F-strings as tokens of their parts, as on Python 3.12, or as one string, as before.
 
-The tokens are those of Python 3.12, on which the linters run on Jazzy: spaces, operators and
-line breaks inside the braces count there.
+The linters see what the Python of their distribution sees: from 3.12 on, spaces, operators and
+line breaks inside the braces count.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 import tokenize
 from bisect import bisect_left
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from tokenize import TokenInfo
 
 from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_MIDDLE, FSTRING_START, Position
@@ -166,3 +166,29 @@ class _Opened:
 def _moved(place: Position, row: int, column: int) -> Position:
     """Translate a position within ``(expression)`` to one in the file."""
     return row + place[0] - 1, place[1] + (column - 1 if place[0] == 1 else 0)
+
+
+def close_up(tokens: Sequence[TokenInfo], lines: Sequence[str]) -> list[TokenInfo]:
+    """Return the tokens of some lines with every f-string as one string."""
+    result: list[TokenInfo] = []
+    depth = 0
+    first: TokenInfo | None = None
+    for token in tokens:
+        if token.type == FSTRING_START:
+            first = first or token
+            depth += 1
+        elif token.type == FSTRING_END and first is not None:
+            depth -= 1
+            if depth == 0:
+                result.append(_joined(first, token, lines))
+                first = None
+        elif first is None:
+            result.append(token)
+    return result
+
+
+def _joined(first: TokenInfo, last: TokenInfo, lines: Sequence[str]) -> TokenInfo:
+    (row, column), (end_row, end) = first.start, last.end
+    *whole, rest = lines[row - 1 : end_row]
+    text = "".join((*whole, rest[:end]))[column:]
+    return TokenInfo(tokenize.STRING, text, first.start, last.end, "".join((*whole, rest)))

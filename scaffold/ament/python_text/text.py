@@ -58,13 +58,15 @@ class PythonText:
     """The views that the checks share; each is made when first asked for.
 
     Args:
-        name: The name of the file without its directory.
+        path: The path of the file in its package.
         text: Its text, with universal newlines and without a byte order mark.
         index: The nodes of its syntax tree, where it has been parsed before.
     """
 
-    def __init__(self, name: str, text: str, index: ScopeIndex | None = None) -> None:
-        self.name = name
+    def __init__(self, path: str, text: str, index: ScopeIndex | None = None) -> None:
+        self.path = path
+        """The path of the file in its package."""
+        self.name = path.rpartition("/")[2]
         """The name of the file without its directory."""
         self.text = text
         *ended, rest = text.split("\n")

@@ -1,8 +1,10 @@
-"""Tokens as in Python 3.12, whatever Python is running."""
+"""Tokens as the linters of the target see them, whatever Python is running."""
 
 from __future__ import annotations
 
 import tokenize
+
+from scaffold.ament import linters
 
 NAME = tokenize.NAME
 NUMBER = tokenize.NUMBER
@@ -23,6 +25,9 @@ NEWLINES = frozenset({NL, NEWLINE})
 LAYOUT = frozenset({NL, NEWLINE, INDENT, DEDENT})
 SILENT = LAYOUT | {COMMENT}
 
+OPEN_FSTRINGS = (3, 12)
+"""The first Python that has tokens for what is inside of an f-string."""
+
 Token = tokenize.TokenInfo
 Position = tuple[int, int]
 """Row from 1, column from 0."""
@@ -35,8 +40,9 @@ def read(lines: list[str]) -> list[Token]:
         tokens = list(tokenize.generate_tokens(feed))
     except (tokenize.TokenError, SyntaxError, StopIteration):
         return []
-    if FSTRING_START < 0:
-        from scaffold.ament.python_text.fstrings import open_up
+    are_open, are_wanted_open = FSTRING_START > 0, linters.of_target().python >= OPEN_FSTRINGS
+    if are_open == are_wanted_open:
+        return tokens
+    from scaffold.ament.python_text import fstrings
 
-        return open_up(tokens)
-    return tokens
+    return fstrings.open_up(tokens) if are_wanted_open else fstrings.close_up(tokens, lines)

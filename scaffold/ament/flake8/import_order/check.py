@@ -1,4 +1,4 @@
-"""I100, I101, I201, I202, I666: the order of imports, in the style that is asked for.
+"""I100, I101, I201, I202, I300, I666: the order of imports, in the style that is asked for.
 
 That of ament is called ``google``. Only statements that start in the first column count. Each is
 compared with the one before it: first by group (``__future__``, standard library, third party,
@@ -9,9 +9,10 @@ comes between these, and in whether the case of letters counts.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
+from scaffold.ament import linters, standard_library
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.import_order.stdlib import STDLIB
 from scaffold.ament.flake8.options import AMENT, Options
@@ -36,6 +37,9 @@ SHOWN = 60
 """Characters of a statement in a message."""
 
 Folded = tuple[str, str]
+_Import = ast.Import | ast.ImportFrom
+_NAME = "flake8-import-order"
+_TO_FIRST_FOR_TYPES = 3
 
 
 class Statement(NamedTuple):
@@ -50,6 +54,8 @@ class Statement(NamedTuple):
     names: tuple[Folded, ...]
     shown: str
     is_from: bool
+    is_for_types: bool = False
+    """Whether it is in a block for type checkers, which counts from 0.19 on."""
 
     @property
     def key(self) -> tuple[int, int, tuple[Folded, ...], tuple[Folded, ...]]:
@@ -112,10 +118,13 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     style = _Style(options.import_order_style)
     findings: list[Finding] = []
     before: Statement | None = None
-    for node in _nodes(text.tree):
-        statement = describe(node, options)
+    for_types = _for_types(text) if linters.of_target().since(_NAME, 0, 19) else ()
+    for node in _nodes(text.tree, for_types):
+        statement = describe(node, options)._replace(is_for_types=node in for_types)
         findings.extend(_judge(statement, style))
-        if before is not None:
+        if before is not None and statement.is_for_types and not before.is_for_types:
+            findings.extend(_first_for_types(before, statement))
+        elif before is not None:
             findings.extend(_compare(before, statement, text.lines, style))
         before = statement
     is_known = style.name == AMENT.import_order_style and not options.application_import_names
@@ -126,10 +135,40 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     yield from findings
 
 
-def _nodes(tree: ast.Module | None) -> Iterator[ast.Import | ast.ImportFrom]:
-    for node in tree.body if tree else ():
-        if isinstance(node, (ast.Import, ast.ImportFrom)) and node.col_offset == 0:
-            yield node
+def _nodes(tree: ast.Module | None, for_types: Collection[ast.stmt]) -> list[_Import]:
+    own = [
+        node
+        for node in (tree.body if tree else ())
+        if isinstance(node, (ast.Import, ast.ImportFrom)) and node.col_offset == 0
+    ]
+    more = [node for node in for_types if isinstance(node, (ast.Import, ast.ImportFrom))]
+    return sorted([*own, *more], key=lambda node: (node.lineno, node.col_offset))
+
+
+def _for_types(text: PythonText) -> set[ast.stmt]:
+    """Return the statements of ``if TYPE_CHECKING:`` and of its ``else``."""
+    if "TYPE_CHECKING" not in text.text:
+        return set()
+    aliases = {
+        alias.asname or alias.name
+        for node in text.nodes(ast.Import)
+        for alias in node.names
+        if alias.name == "typing"
+    }
+    written = {"TYPE_CHECKING", *(f"{name}.TYPE_CHECKING" for name in ("typing", *aliases))}
+    return {
+        statement
+        for node in text.nodes(ast.If)
+        if ast.unparse(node.test) in written
+        for statement in (*node.body, *node.orelse)
+    }
+
+
+def _first_for_types(before: Statement, statement: Statement) -> Iterator[Finding]:
+    """Yield I300: the blank line and the ``if`` between two imports are three lines on."""
+    if statement.line - before.end_line != _TO_FIRST_FOR_TYPES:
+        message = "no single blank line between the imports and the block for type checkers"
+        yield Finding("I300", statement.line, 1, message)
 
 
 def describe(node: ast.Import | ast.ImportFrom, options: Options = AMENT) -> Statement:
@@ -168,11 +207,16 @@ def _group(module: str, options: Options) -> int:
             return OWN
         if module in _company_names(options):
             return OF_COMPANY
-        if module in STDLIB:
+        if module in _standard_library():
             return STANDARD
         module, is_deeper, _ = module.rpartition(".")
         if not is_deeper:
             return THIRD_PARTY
+
+
+def _standard_library() -> frozenset[str]:
+    has_own_list = not linters.of_target().since(_NAME, 0, 19)
+    return STDLIB if has_own_list else standard_library.modules()
 
 
 def _company_names(options: Options) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The modules that flake8-import-order 0.18.2 counts as the standard library.
+"""The modules that flake8-import-order before 0.19 counts as the standard library.
 
 It knows modules of all Python versions up to 3.8 or so, and not the newest ones (``tomllib``,
 ``graphlib``), so ``sys.stdlib_module_names`` would give another verdict. Found by asking it about

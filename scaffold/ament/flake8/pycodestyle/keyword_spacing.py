@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.tokens import NAME, NL, OP, Position
@@ -29,11 +30,16 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
         else:
             message = "whitespace is missing around the '=' of an annotated argument"
         yield Finding(code, row, column + 1, message)
+    is_for_all = linters.of_target().since("pycodestyle", 2, 9)
     for token, following in pairwise(logical.tokens):
         if (
             token.end == following.start
             and token.type == NAME
-            and _needs_blank(token.string, following.string)
+            and (
+                _needs_blank(token.string, following.string)
+                if is_for_all
+                else (logical.first, token.string, following.string) == ("from", "import", "(")
+            )
         ):
             row, column = token.end
             message = f"whitespace is missing after '{token.string}'"
@@ -48,12 +54,22 @@ def _needs_blank(word: str, following: str) -> bool:
     return following not in ":\n"
 
 
+def _has_type_parameters(logical: LogicalLine) -> bool:
+    """Tell whether defaults in square brackets are those of type parameters (PEP 696)."""
+    return (
+        linters.of_target().since("pycodestyle", 2, 12, 1)
+        and re.match(r"(async\s+def|def|class|type)\s+\w+\[", logical.text) is not None
+    )
+
+
 def _around_equals(logical: LogicalLine) -> Iterator[tuple[Position, str]]:
     depth = 0
     end: Position = logical.tokens[0].start
     code = ""
     annotated = False
     in_def = re.match(r"(async\s+def|def)\b", logical.text) is not None
+    generic = "[" if _has_type_parameters(logical) else ""
+    brackets: list[str] = []
     for token in logical.tokens:
         if token.type == NL:
             continue
@@ -62,8 +78,13 @@ def _around_equals(logical: LogicalLine) -> Iterator[tuple[Position, str]]:
         code = ""
         text = token.string if token.type == OP else ""
         depth += (text in ("(", "[")) - (text in (")", "]"))
+        if text in ("(", "["):
+            brackets.append(text)
+        elif text in (")", "]") and brackets:
+            brackets.pop()
         if text == "=" and depth:
-            code = "E252" if annotated and depth == 1 else "E251"
+            is_default = depth == 1 and (annotated or brackets == [generic])
+            code = "E252" if is_default else "E251"
             if (token.start == end) == (code == "E252"):
                 yield end, code
         elif text == ":" and in_def and depth == 1:

@@ -10,6 +10,7 @@ import keyword
 import re
 from collections.abc import Iterator
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.tokens import (
@@ -39,12 +40,13 @@ CODES = frozenset(_CODES.split())
 """Codes of ruff that make a line worth a look."""
 
 CANDIDATES = (
-    r"[,;:]\\\n"
+    r"[,;:]\\\n|,\]"
     r"|\{[^{}\n]*:[^{}\n]*\{"
     r"|\S(?:  | ?\t)[ \t]*[-+*/|!<=>%&^:]"
     r"|[-+*/|!<=>%&^](?:  | ?\t)"
 )
-"""What ruff passes over: a comma before a backslash, a format within a format, spaces at ``->``."""
+"""What ruff passes over: a comma before a backslash or a bracket, a format within a format, spaces
+at ``->``."""
 
 ARITHMETIC_CANDIDATES = r"|[-+*/@]"
 """Likewise for E226, which the configuration of ament leaves out."""
@@ -57,8 +59,12 @@ _ONE_SIDED = "whitespace is missing on a side of an operator"
 
 def check(logical: LogicalLine) -> Iterator[Finding]:
     """Yield the places of a logical line where spaces are missing."""
+    is_by_token = linters.of_target().since("pycodestyle", 2, 11)
     for (row, column), code, message in _Scan(logical).faults():
-        yield Finding(code, row, column + 1, message)
+        if code != "E231" or is_by_token:
+            yield Finding(code, row, column + 1, message)
+    if not is_by_token:
+        yield from _tight_punctuation(logical)
     for pattern, codes, what in (
         (_OPERATOR, ("E221", "E222", "E223", "E224"), "operator"),
         (_KEYWORD, ("E272", "E271", "E274", "E273"), "keyword"),
@@ -73,6 +79,19 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
                     continue
                 row, column = logical.position(item.start(group))
                 yield Finding(code, row, column + 1, f"{whitespace} {side} the {what}")
+
+
+def _tight_punctuation(logical: LogicalLine) -> Iterator[Finding]:
+    """Yield E231 as pycodestyle did before 2.11: by the text of the line alone."""
+    line = logical.text
+    for item in re.finditer(r"[,;:](?=[^ \t])", line):
+        at, before = item.start(), line[: item.start()]
+        following = line[at + 1]
+        is_slice = before.count("[") > before.count("]") and before.rfind("{") < before.rfind("[")
+        if (item[0] == ":" and (is_slice or following == "=")) or item[0] + following == ",)":
+            continue
+        row, column = logical.position(at)
+        yield Finding("E231", row, column + 1, f"whitespace is missing after '{item[0]}'")
 
 
 class _Scan:

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding, Replacement
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import PythonText
@@ -15,6 +17,7 @@ from scaffold.ament.python_text.tokens import (
     COMMENT,
     FSTRING_END,
     FSTRING_START,
+    NAME,
     OP,
     Position,
     Token,
@@ -32,6 +35,8 @@ _SINGLETON = r"(?:(\bNone|\bFalse|\bTrue)\s*)?([=!]=)\s*(?(1)|(None|False|True))
 _NEGATION = r"\b(?<!is\s)(not)\s+[^][)(}{\s]+\s+(in|is)\s"
 # linear: Python refuses more than 200 parentheses that are open at a time
 _TYPES = r"[=!]=\s+type\s*\(([^)]*[^ )]) *\)|\btype\s*\([^)]*[^ )] *\)\s+[=!]="
+_TYPES_2_12 = _TYPES.replace(r"\btype", r"(?<!\.)\btype")
+_TYPES_2_8 = r"(?:[=!]=|is(?:\s+not)?)\s+type(?:s\.\w+Type|\s*\(([^)]*[^ )]) *\))"
 _SPACE = r"[\[({][ \t]|[ \t][\]}),;:](?!=)"
 _AMBIGUOUS = ("l", "O", "I")
 
@@ -41,9 +46,10 @@ Faults = Iterator[tuple[int, str, str]]
 
 def check(text: PythonText) -> Iterator[Finding]:
     """Yield what is wrong with statements."""
+    is_modern = linters.of_target().since("pycodestyle", 2, 11)
     for pattern, judge in (
         (_SPACE + r"|\n[,;:]", spaces),
-        (r"[=!]=", comparisons),
+        (r"[=!]=" if is_modern else r"[=!]=|\bis\b[^\n]*\btype", comparisons),
         (r"\bnot\b", negations),
         (r"[;]|=[\s\\]*lambda\b", compounds),
         (r"^[ \t]*except\b[^\n]*:", bare_except),
@@ -57,7 +63,16 @@ def check(text: PythonText) -> Iterator[Finding]:
         yield from needless_backslashes(logical)
     for logical in _candidates(text, r"\b[lOI]\b"):
         yield from ambiguous_names(logical)
+    if linters.of_target().since("pycodestyle", 2, 12):
+        for logical in _candidates(text, r"^[ \t]*@\s"):
+            yield from _placed(logical, spaced_decorator(logical.text))
     yield from late_imports(text)
+
+
+def spaced_decorator(line: str) -> Faults:
+    """E204: spaces after the ``@`` of a decorator."""
+    if re.match(r"@\s", line):
+        yield 1, "E204", "whitespace after '@'"
 
 
 def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
@@ -175,11 +190,19 @@ def comparisons(line: str) -> Faults:
         wanted = "is" if item[2] == "==" else "is not"
         code = "E711" if value == "None" else "E712"
         yield item.start(2), code, f"comparison to {value} with '{item[2]}', not '{wanted}'"
-    types = re.search(_TYPES, line)
+    types = re.search(_types(), line)
     if types:
         inside = (types[1] or "").strip()
         if not (inside.isidentifier() and inside not in ("None", "True", "False")):
             yield types.start(), "E721", "types compared with '==', not with 'is' or isinstance()"
+
+
+def _types() -> str:
+    """Return what E721 looks for."""
+    target = linters.of_target()
+    if target.since("pycodestyle", 2, 12):
+        return _TYPES_2_12
+    return _TYPES if target.since("pycodestyle", 2, 11) else _TYPES_2_8
 
 
 def negations(line: str) -> Faults:
@@ -231,8 +254,38 @@ def compounds(line: str) -> Faults:  # noqa: C901  one scan for all of them
         at = line.find(";", at + 1)
 
 
-def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:  # noqa: C901  one scan for all
+def ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:
     """E741, E742, E743: names that look like digits."""
+    if linters.of_target().since("pycodestyle", 2, 9):
+        return _ambiguous_names(logical)
+    return _ambiguous_names_2_8(logical)
+
+
+def _ambiguous_names_2_8(logical: LogicalLine) -> Iterator[Finding]:
+    tokens = logical.tokens
+    is_definition = False
+    depth = 0
+    for before, token in pairwise(tokens):
+        is_definition = is_definition or before.string == "def"
+        if depth == 0 and (before.type, token.string) == (NAME, "("):
+            depth = 1
+        elif depth and token.type == OP:
+            depth += (token.string == "(") - (token.string == ")")
+        name: Token | None = None
+        if token.type == OP and "=" in token.string and not depth and before.string in _AMBIGUOUS:
+            name = before
+        is_bound = before.string in ("as", "for", "global", "nonlocal") or is_definition
+        if is_bound and token.string in _AMBIGUOUS:
+            name = token
+        if name is not None:
+            yield _ambiguous("E741", "variable", name.string, name.start)
+        if before.string == "class" and token.string in _AMBIGUOUS:
+            yield _ambiguous("E742", "class", token.string, token.start)
+        if before.string == "def" and token.string in _AMBIGUOUS:
+            yield _ambiguous("E743", "function", token.string, token.start)
+
+
+def _ambiguous_names(logical: LogicalLine) -> Iterator[Finding]:  # noqa: C901  one scan for all
     tokens = logical.tokens
     depth = 0
     function: int | None = None
@@ -272,15 +325,21 @@ def _ambiguous(code: str, kind: str, name: str, at: tuple[int, int]) -> Finding:
 
 
 def needless_backslashes(logical: LogicalLine) -> Iterator[Finding]:
-    """E502: a backslash between brackets, unless a comment precedes it."""
+    """E502: a backslash between brackets, unless a comment precedes it.
+
+    From 2.12 on, a comment counts for its own line only.
+    """
     depth = start = end = 0
     backslash: tuple[int, int] | None = None
+    is_one_line = linters.of_target().since("pycodestyle", 2, 12)
+    has_comment = False
     for token in logical.tokens:
-        if token.type == COMMENT:
-            return
-        if token.start[0] != start and depth and backslash:
-            message = "the backslash between brackets is not needed"
-            yield Finding("E502", backslash[0], backslash[1], message)
+        has_comment = has_comment or token.type == COMMENT
+        if token.start[0] != start:
+            if depth and backslash and not has_comment:
+                message = "the backslash between brackets is not needed"
+                yield Finding("E502", backslash[0], backslash[1], message)
+            has_comment = has_comment and not is_one_line
         if token.end[0] != end:
             line = logical.lines[token.end[0] - 1].rstrip("\n")
             backslash = (token.end[0], len(line)) if line.endswith("\\") else None

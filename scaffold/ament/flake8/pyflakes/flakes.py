@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.pyflakes import local_names
 from scaffold.ament.python_text.text import PythonText
@@ -22,7 +23,10 @@ def translate(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterat
     has_star_use = any(item.code == "F405" for item in diagnostics)
     # A second import of the same names takes the place of the first.
     last_stars = {item.message: item.line for item in diagnostics if item.code == "F403"}
+    has_unused_annotations = linters.of_target().since("pyflakes", 3)
     for diagnostic in diagnostics:
+        if diagnostic.code == "F842" and not has_unused_annotations:
+            continue
         finding = plain(diagnostic)
         if diagnostic.code == "F401":
             node = imports.get(finding.line)

@@ -12,6 +12,7 @@ import builtins
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
+from scaffold.ament import linters
 from scaffold.ament.finding import Finding
 from scaffold.ament.python_text.text import PythonText
 from scaffold.model.python.scopes import ScopeIndex, children
@@ -71,7 +72,7 @@ class _Binding:
         if self.kind == IMPORTED and other.kind == SUBMODULE:
             return self.full_name == other.full_name
         if self.kind == DEFINED and other.kind == ASSIGNED:
-            return True
+            return linters.of_target().since("pyflakes", 3)
         return other.is_definition
 
 
@@ -447,7 +448,7 @@ def _branches(node: ast.AST | None) -> list[Sequence[ast.AST]]:
         return [node.body]
     if isinstance(node, ast.Try):
         return [[*node.body, *node.orelse], *([handler] for handler in node.handlers)]
-    if isinstance(node, ast.Match):
+    if isinstance(node, ast.Match) and linters.of_target().since("pyflakes", 3):
         return [case.body for case in node.cases]
     return []
 

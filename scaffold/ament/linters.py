@@ -1,0 +1,50 @@
+"""The linters of Python style that the target has, with their versions.
+
+They are ``[linters]`` in the profile of a distribution. A check asks for the version that brought
+or changed a verdict, or whether a plugin is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from scaffold import distributions
+from scaffold.distributions import Distribution
+from scaffold.record import NamedTuple
+
+
+class Linters(NamedTuple):
+    """The linters of a distribution."""
+
+    versions: Mapping[str, tuple[int, ...]]
+    """By the name of the package that brings them."""
+    python: tuple[int, int]
+    """What they run on: they see strings and builtins as this Python does."""
+
+    def has(self, name: str) -> bool:
+        """Tell whether a linter or plugin is there."""
+        return name in self.versions
+
+    def since(self, name: str, *version: int) -> bool:
+        """Tell whether a linter is there and at least of a version."""
+        return self.versions.get(name, ()) >= version
+
+    @property
+    def identity(self) -> str:
+        """What verdicts depend on, for what remembers them."""
+        return f"{self.python}{sorted(self.versions.items())}"
+
+
+_OF: dict[Distribution, Linters] = {}
+
+
+def of_target() -> Linters:
+    """Return the linters of the target."""
+    target = distributions.target()
+    if target not in _OF:
+        versions = {
+            name: tuple(map(int, version.split(".")))
+            for name, version in target.fact("linters").items()
+        }
+        _OF[target] = Linters(versions, target.python)
+    return _OF[target]

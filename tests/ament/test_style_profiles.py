@@ -1,0 +1,80 @@
+"""The style verdict of each distribution is that of its linters."""
+
+from __future__ import annotations
+
+import pytest
+
+from scaffold import distributions
+from scaffold.ament import StyleCheck
+from scaffold.ament import copyright as notices
+from scaffold.distributions import ORDER, named
+from scaffold.model.package import Package
+from tests.ament.profile_cases import BY_FILE, CASES
+
+
+def codes(name: str) -> dict[str, set[str]]:
+    """Return what is found in the files of all cases, for a distribution."""
+    with distributions.targeting(named(name)):
+        package = Package.of(BY_FILE)
+        found: dict[str, set[str]] = {path: set() for path in BY_FILE}
+        for item in StyleCheck([package]).diagnostics(package):
+            found[item.location.path].add(item.code)
+        return found
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_each_distribution_has_the_verdict_of_its_linters(name: str) -> None:
+    found = codes(name)
+    wrong = [
+        case
+        for case, path in zip(CASES, BY_FILE, strict=True)
+        if (case.code in found[path]) != (name in case.reported_for)
+    ]
+    assert wrong == []
+
+
+def test_docstrings_are_those_of_pep257_where_flake8_has_no_plugin_for_them() -> None:
+    files = {
+        "package.xml": "<package><name>a</name></package>\n",
+        "setup.py": "",
+        "a/__init__.py": '"""does things"""\n',
+        "test/test_pep257.py": (
+            "from ament_pep257.main import main\n\n\n"
+            "def test_pep257():\n    assert main(argv=['--ignore', 'D400', 'D403']) == 0\n"
+        ),
+    }
+    reported = {}
+    for name in ORDER:
+        with distributions.targeting(named(name)):
+            package = Package.of(files)
+            found = StyleCheck([package]).diagnostics(package)
+            reported[name] = "D400" in {item.code for item in found}
+    assert reported == {"humble": True, "jazzy": True, "kilted": True, "lyrical": False}
+
+
+def test_license_texts_are_those_that_the_linter_of_the_target_knows() -> None:
+    (known,) = [item for item in notices.known_texts()["header"] if item.licence == "BSD-2.0"]
+    text = "# Copyright 2026 Ada\n" + "".join(
+        f"# {section}\n" for section in " Ada ".join(known.sections).splitlines()
+    )
+    licences = {}
+    for name in ORDER:
+        with distributions.targeting(named(name)):
+            licences[name] = notices.read("a.py", text.encode()).licence
+    assert licences == {
+        "humble": "BSD-2.0",
+        "jazzy": "BSD-2.0",
+        "kilted": "BSD-2.0",
+        "lyrical": None,
+    }
+
+
+def test_notices_are_those_that_the_linter_of_the_target_finds() -> None:
+    lower = b"# copyright 2026 Ada\n"
+    block = b"/*\n * Copyright 2026 Ada\n * All of it.\n */\n"
+    holders = {}
+    for name in ORDER:
+        with distributions.targeting(named(name)):
+            holders[name] = [notices.read("a.cpp", text).holders for text in (lower, block)]
+    some = [("Ada",), ("Ada",)]
+    assert holders == {"humble": [(), ()], "jazzy": some, "kilted": some, "lyrical": some}

@@ -1,0 +1,149 @@
+"""The style verdict for each distribution, compared with the linters that it has.
+
+Each set of linters is installed into an environment of its own, with the Python of the distribution
+or the nearest that this machine has.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from scaffold import distributions
+from scaffold.ament import StyleCheck
+from scaffold.ament.pep257.codes import AMENT as PEP257_CODES
+from scaffold.distributions import ORDER, named
+from scaffold.model.package import Package
+from tests.ament import style_cases
+from tests.ament.profile_cases import BY_FILE
+
+pytestmark = pytest.mark.nightly
+
+GROUPS = (
+    "WHITESPACE_AND_STATEMENTS",
+    "LINES_AND_NOQA",
+    "CONTINUATION_LINES",
+    "NAMES",
+    "IMPORTS",
+    "BUILTINS",
+    "DEFINITIONS",
+)
+Found = set[tuple[str, int, str]]
+
+
+def interpreter(wanted: tuple[int, int]) -> str:
+    """Return a Python of a version, or of the nearest one before that is not 3.11."""
+    known = [wanted, (3, 13), (3, 12)] if wanted >= (3, 12) else [wanted]
+    for major, minor in known:
+        paths = [f"python{major}.{minor}", *_of_pyenv(f"{major}.{minor}")]
+        for path in paths:
+            if shutil.which(path):
+                return path
+    pytest.skip(f"no Python {wanted[0]}.{wanted[1]} to run its linters with")
+
+
+def _of_pyenv(version: str) -> list[str]:
+    root = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"))
+    return [str(path) for path in root.glob(f"versions/{version}.*/bin/python")]
+
+
+@pytest.fixture(scope="module", params=ORDER)
+def oracle(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Oracle:
+    """Return the linters of a distribution."""
+    return Oracle(request.param, tmp_path_factory.mktemp("linters"))
+
+
+class Oracle:
+    """The linters of a distribution in an environment of their own."""
+
+    def __init__(self, name: str, directory: Path) -> None:
+        self.name = name
+        self.distribution = named(name)
+        python = interpreter(self.distribution.python)
+        subprocess.run([python, "-m", "venv", str(directory / "venv")], check=True)
+        self._python = str(directory / "venv" / "bin" / "python")
+        wanted = [f"{name}=={version}" for name, version in self._versions().items()]
+        # pkg_resources, which old plugins import; and the interface that flake8 4 reads them by.
+        wanted += ["setuptools<60"]
+        if self._versions()["flake8"].startswith("4."):
+            wanted += ["importlib-metadata<5"]
+        subprocess.run([self._python, "-m", "pip", "install", "--quiet", *wanted], check=True)
+        self._configuration = directory / "ament_flake8.ini"
+        import ament_flake8
+
+        own = Path(ament_flake8.__file__).parent / "configuration" / "ament_flake8.ini"
+        shutil.copy(own, self._configuration)
+
+    def _versions(self) -> dict[str, str]:
+        return {str(name): str(value) for name, value in self.distribution.fact("linters").items()}
+
+    def run(self, directory: Path) -> Found:
+        """Return what the linters find; a file at which flake8 itself fails is left out."""
+        paths = [str(path.relative_to(directory)) for path in sorted(directory.rglob("*.py"))]
+        return self._flake8(directory, paths) | self._pydocstyle(directory)
+
+    def _flake8(self, directory: Path, paths: list[str]) -> Found:
+        done = self._call(
+            directory, "flake8", "--jobs=1", f"--config={self._configuration}", *paths
+        )
+        if "Traceback" in done.stderr:
+            if len(paths) == 1:
+                (directory / paths[0]).unlink()
+                return set()
+            half = len(paths) // 2
+            return self._flake8(directory, paths[:half]) | self._flake8(directory, paths[half:])
+        found = re.findall(r"(?m)^(\S+?):(\d+):\d+: ([A-Z]+\d+)", done.stdout)
+        return {(path, int(line), code) for path, line, code in found}
+
+    def _pydocstyle(self, directory: Path) -> Found:
+        select = f"--select={','.join(sorted(PEP257_CODES))}"
+        done = self._call(directory, "pydocstyle", select, "--match=.*\\.py", ".")
+        found = re.findall(r"(?m)^\./(\S+?):(\d+) .*\n\s+(D\d+):", done.stdout)
+        return {(path, int(line), code) for path, line, code in found}
+
+    def _call(self, directory: Path, module: str, *words: str) -> subprocess.CompletedProcess[str]:
+        command = [self._python, "-P" if "3.10" not in self._python else "-s", "-m", module, *words]
+        environment = {**os.environ, "PYTHONWARNINGS": "ignore"}
+        return subprocess.run(
+            command, cwd=directory, env=environment, capture_output=True, text=True, check=False
+        )
+
+
+def ours(oracle: Oracle, directory: Path) -> Found:
+    """Return what we find for the distribution."""
+    with distributions.targeting(oracle.distribution):
+        package = Package.at(directory)
+        found = StyleCheck([package]).diagnostics(package)
+    return {(item.location.path, item.location.line, item.code) for item in found}
+
+
+def differences(oracle: Oracle, directory: Path) -> dict[str, tuple[Found, Found]]:
+    """Return what only the linters and what only we find, by the text of the file."""
+    real, own = oracle.run(directory), ours(oracle, directory)
+    paths = {path for path, _, _ in real ^ own if (directory / path).exists()}
+    return {
+        (directory / path).read_text(): (
+            {item for item in real - own if item[0] == path},
+            {item for item in own - real if item[0] == path},
+        )
+        for path in paths
+    }
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_same_findings(oracle: Oracle, tmp_path: Path, group: str) -> None:
+    for at, case in enumerate(getattr(style_cases, group)):
+        (tmp_path / f"case_{at:04}.py").write_bytes(case.encode())
+    assert differences(oracle, tmp_path) == {}
+
+
+def test_same_findings_where_the_distributions_differ(oracle: Oracle, tmp_path: Path) -> None:
+    for path, text in BY_FILE.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    assert differences(oracle, tmp_path) == {}
