@@ -95,7 +95,7 @@ def _linters(one: Distribution) -> Iterator[str]:
         names = ", ".join(f"`{name}`" for name in unknown)
         yield f"- ament_copyright does not know the license {names} any more."
     if one.fact("copyright.is_case_sensitive"):
-        yield "- ament_copyright wants the word `Copyright` with a capital letter, in line comments."
+        yield "- ament_copyright reads notices in line comments, with a capital `Copyright`."
     yield ""
 
 

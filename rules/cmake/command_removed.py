@@ -48,6 +48,7 @@ class CommandRemoved(Rule):
 
     code = "CM110"
     name = "command-removed"
+    is_fixed_for_all = True
     other_severities = {Severity.INFO: "the distribution still has it, and warns"}
     examples = (
         Example(

@@ -31,6 +31,7 @@ class MinimumVersionUnfit(Rule):
     code = "CM005"
     name = "minimum-version-unfit"
     severity = Severity.WARNING
+    is_fixed_for_all = True
     other_severities = {
         Severity.ERROR: "the CMake of the distribution stops",
         Severity.INFO: "the CMake of the distribution warns",

@@ -30,6 +30,7 @@ class NameDeprecated(PythonRule):
 
     code = "IM051"
     name = "name-deprecated"
+    is_fixed_for_all = True
     severity = Severity.INFO
     examples = (
         Example("the new name", {"talker.py": _NODE.format("warning")}, distro="kilted"),

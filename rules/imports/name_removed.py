@@ -32,6 +32,7 @@ class NameRemoved(PythonRule):
 
     code = "IM050"
     name = "name-removed"
+    is_fixed_for_all = True
     examples = (
         Example("still there", {"talker.py": _NODE.format("", "warn")}),
         Example("the new name", {"talker.py": _NODE.format("", "warning")}, distro="lyrical"),

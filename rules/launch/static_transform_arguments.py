@@ -42,6 +42,7 @@ class StaticTransformArguments(Rule):
 
     code = "LF080"
     name = "static-transform-arguments"
+    is_fixed_for_all = True
     examples = (
         Example("still known", {"launch/a.launch.py": _LAUNCH.format(_OLD)}),
         Example("names", {"launch/a.launch.py": _LAUNCH.format(_NEW)}, distro="lyrical"),

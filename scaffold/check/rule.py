@@ -128,6 +128,8 @@ class Rule:
     """Severities that a diagnostic may have instead, each with the condition for it."""
     release_refused: ClassVar[str] = ""
     """Why no release is made of what has this flaw: then it is an error with `check --release`."""
+    is_fixed_for_all: ClassVar[bool] = False
+    """Whether what a fix writes for a distribution runs on those before, which need no fix."""
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]

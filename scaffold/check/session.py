@@ -89,6 +89,8 @@ class Session:
         self._rules = [rule for rule in selected if not isinstance(rule, TypeRule)]
         self._ran = {rule.code for rule in self._rules}
         self._type_rules = [rule for rule in selected if isinstance(rule, TypeRule)]
+        self.codes_fixed_for_all = {rule.code for rule in selected if rule.is_fixed_for_all}
+        """See `Rule.is_fixed_for_all`."""
         self._has_types = has_types
         self._types: TypeFindings | None = None
         self.types_failure = ""

@@ -7,17 +7,53 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
+from scaffold.check.session import Session
 
 if TYPE_CHECKING:
     from scaffold.check.result import Result
     from scaffold.diagnostic import Diagnostic
     from scaffold.distributions import Distribution
+    from scaffold.model.discovery.targets import Target
 
+    Agreed = frozenset[tuple[str, str, str]]
     Key = tuple[str, tuple[object, ...], str]
 
 _TITLES = "|".join(name.capitalize() for name in distributions.NAMES)
 _NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
 """What a message may say of the distribution that it is about."""
+
+
+class AgreedSession(Session):
+    """Offers, where packages are for several distributions, the fixes that are right for all."""
+
+    agreed: Agreed | None = None
+    """What `agreed` returns; ``None`` to offer all fixes."""
+
+    def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+        reported = super()._report(target, diagnostics)
+        if self.agreed is None:
+            return reported
+        directory = target.package.directory
+        return [
+            item
+            if item.code in self.codes_fixed_for_all
+            or (directory, item.location.path, item.code) in self.agreed
+            else item._replace(fix=None)
+            for item in reported
+        ]
+
+
+def agreed(by_distribution: Mapping[Distribution, Sequence[Result]]) -> Agreed:
+    """Return the codes, with directory and file, that are found for all distributions."""
+    found = [
+        {
+            (result.package.directory, item.location.path, item.code)
+            for result in results
+            for item in result.diagnostics
+        }
+        for results in by_distribution.values()
+    ]
+    return frozenset.intersection(*map(frozenset, found))
 
 
 def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Result]:

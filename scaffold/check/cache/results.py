@@ -154,8 +154,8 @@ class ResultCache:
         code: int,
         output: str | None,
         warnings: Sequence[str] = (),
-    ) -> None:
-        """Remember a complete run.
+    ) -> CachedRun | None:
+        """Remember a complete run, and return it; ``None`` if files changed meanwhile.
 
         Args:
             slot: Where.
@@ -171,7 +171,7 @@ class ResultCache:
             disk.stamp(ruff.executable())
         disk.note(self._outside)
         if not (disk.is_settled and holds(disk.seen)):
-            return
+            return None
         identities = [item.package.identity for item in self._targets]
         needs = Needs([item.package for item in self._targets], identities)
         trees: list[Seen | None] = []
@@ -181,7 +181,9 @@ class ResultCache:
             record = self._records.get(at) or _new(target, result, needed, self._results[at])
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             records.append(tuple(record))
-        slot.save(CachedRun(disk.seen, trees, records, code, output, (*warnings,)))
+        run = CachedRun(dict(disk.seen), trees, records, code, output, (*warnings,))
+        slot.save(run)
+        return run
 
 
 def _new(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from scaffold import distributions
 from scaffold.cli import baselines, distro, flags, since, terminal
@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
     from scaffold.configuration.config import Config
-    from scaffold.distributions import Distribution
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.reporters import ReportOptions
+
+    _Kind = TypeVar("_Kind", bound=Session)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -178,44 +179,18 @@ def run(options: argparse.Namespace) -> int:
     validate_answers(settings, of_user=False)
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
-    session = _session(options, rules, choices)
     options.policy = choices.policy()
     options.distributions = distro.chosen(options.distro, settings)
     options.notes = distro.note(options.distributions)
     if len(options.distributions) > 1:
-        return _check_several(options, session, disk)
+        from scaffold.check.several import AgreedSession
+        from scaffold.cli.several_targets import SeveralTargets
+
+        agreeing = _session(options, rules, choices, AgreedSession)
+        return SeveralTargets(options, agreeing, settings, disk).run()
+    session = _session(options, rules, choices, _kind_of_session(options))
     with distributions.targeting(options.distributions[0]):
         return _run(options, session, settings, disk, directory)
-
-
-def _check_several(options: argparse.Namespace, session: Session, disk: Disk) -> int:
-    """Check for several distributions, one after the other; nothing is remembered."""
-    from scaffold.check.several import merged
-    from scaffold.cli import reports
-    from scaffold.cli.interactive import progress
-    from scaffold.errors import InputError
-
-    for flag in ("fix", "diff", "add_noqa", "reference", "stdin_filename", "since"):
-        if getattr(options, flag):
-            raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
-    by_distribution: dict[Distribution, list[Result]] = {}
-    notes = options.notes
-    targets: list[Target] = []
-    for distribution in options.distributions:
-        options.notes = notes
-        with distributions.targeting(distribution):
-            targets = find_targets(options, session, disk)
-            by_distribution[distribution] = list(
-                progress.shown(session.run(targets), len(targets), "packages")
-            )
-        options.notes += _foreign_note(session, by_distribution[distribution])
-        _note_types(session)
-    results = merged(by_distribution)
-    if options.write_baseline:
-        return baselines.write(options, results)
-    results = baselines.hide(options, results, targets, session)
-    reports.write(options, results, _report_options(options))
-    return _exit_code(options, session, results)
 
 
 def _run(
@@ -233,7 +208,7 @@ def _run(
         return _fix(options, session, targets)
     if options.reference:
         return _reference(targets)
-    is_unfinished = _note_unfinished(targets)
+    is_unfinished = note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
     slot = None if is_forgotten else _slot(options, targets)
@@ -241,29 +216,29 @@ def _run(
     targets = change.targets() if change else targets
     memory = ResultCache(slot.last if slot else None, targets, is_saved=slot is not None)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
-    options.notes += _foreign_note(session, results)
-    _note_types(session)
+    options.notes += foreign_note(session, results)
+    note_types(session)
     if options.write_baseline:
         return baselines.write(options, results)
     if change:
         results, note = change.limit(results, session)
         options.notes += (note,)
     reported = baselines.hide(options, results, targets, session)
-    output = reports.write(options, reported, _report_options(options))
-    code = _exit_code(options, session, reported)
+    output = reports.write(options, reported, report_options(options))
+    code = final_code(options, session, reported)
     if slot is not None and not session.types_failure:
         memory.save(slot, disk, results, code, output, settings.warnings)
     return code
 
 
-def _note_types(session: Session) -> None:
+def note_types(session: Session) -> None:
     """Say that types were not checked, and why."""
     if session.types_failure:
         failure = session.types_failure
         terminal.error(f"types are not checked: {failure}; --no-types leaves them out")
 
 
-def _exit_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:
+def final_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:
     """Return the exit code; packages that could not be checked decide it."""
     from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
 
@@ -271,15 +246,20 @@ def _exit_code(options: argparse.Namespace, session: Session, results: list[Resu
     return USAGE_ERROR if session.types_failure and code != INTERNAL_ERROR else code
 
 
-def _session(options: argparse.Namespace, rules: list[type[Rule]], choices: Choices) -> Session:
-    selection = choices.selection(options.select, options.ignore)
+def _kind_of_session(options: argparse.Namespace) -> type[Session]:
     from scaffold.check.session import Session
 
-    kind = Session
     if options.add_noqa:
         from scaffold.check.fixes.noqa import SuppressingSession
 
-        kind = SuppressingSession
+        return SuppressingSession
+    return Session
+
+
+def _session(
+    options: argparse.Namespace, rules: list[type[Rule]], choices: Choices, kind: type[_Kind]
+) -> _Kind:
+    selection = choices.selection(options.select, options.ignore)
     return kind(
         rules,
         selection,
@@ -328,7 +308,7 @@ def find_targets(options: argparse.Namespace, session: Session, disk: Disk | Non
     return targets
 
 
-def _foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
+def foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
     """Return the note about skipped files that are not the user's, if there are any."""
     from scaffold.model.discovery.foreign import ENVIRONMENTS, WHERE
     from scaffold.reporters.summary import count
@@ -355,12 +335,12 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     if options.fix:
         result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
         (result,) = baselines.hide(options, [result], [target], session)
-        terminal.write_error(reports.text([result], _report_options(options)))
+        terminal.write_error(reports.text([result], report_options(options)))
     else:
         (result,) = baselines.hide(options, session.run_batch([target]), [target], session)
-        _note_types(session)
-        reports.write(options, [result], _report_options(options))
-    return _exit_code(options, session, [result])
+        note_types(session)
+        reports.write(options, [result], report_options(options))
+    return final_code(options, session, [result])
 
 
 def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry | None:
@@ -370,13 +350,19 @@ def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry 
     slot: CacheEntry | None = getattr(options, "slot", None)
     if slot is None or not options.whole_packages:
         return slot
-    flags = {name: value for name, value in vars(options).items() if name not in {"paths", "slot"}}
-    return CacheEntry.of(
-        [repr(sorted(flags.items())), *(target.package.directory for target in targets)]
-    )
+    return CacheEntry.of([options.distributions[0].name, flags_key(options, targets)])
 
 
-def _report_options(options: argparse.Namespace) -> ReportOptions:
+def flags_key(options: argparse.Namespace, targets: Sequence[Target]) -> str:
+    """Return what the findings in some packages depend on besides their files: the flags."""
+    kept_out = {"paths", "slot", "notes", "distributions", "distro"}
+    flags = {name: value for name, value in vars(options).items() if name not in kept_out}
+    directories = [target.package.directory for target in targets]
+    return repr((sorted(flags.items()), directories))
+
+
+def report_options(options: argparse.Namespace) -> ReportOptions:
+    """Return what a report needs to know of the flags."""
     from scaffold.diagnostic import Severity
     from scaffold.reporters import ReportOptions
 
@@ -407,12 +393,12 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
     results = baselines.hide(options, results, checked, session)
-    _note_types(session)
+    note_types(session)
     code = _report_fixes(options, session, results, written)
     return USAGE_ERROR if has_failed else code
 
 
-def _note_unfinished(targets: Sequence[Target]) -> bool:
+def note_unfinished(targets: Sequence[Target]) -> bool:
     """Note the packages that an interrupted run was changing; return whether there are any."""
     from scaffold.cli import writing
 
@@ -441,8 +427,8 @@ def _report_fixes(
         )
     if options.diff:
         return FINDINGS if count else CLEAN
-    reports.write(options, results, _report_options(options))
-    return _exit_code(options, session, results)
+    reports.write(options, results, report_options(options))
+    return final_code(options, session, results)
 
 
 def _reference(targets: Sequence[Target]) -> int:

@@ -837,3 +837,24 @@ def test_a_change_of_what_a_node_declares_reaches_the_launch_files_that_set_it(
     assert "launch/node_3.launch.py" in before
     assert "launch/node_3.launch.py" not in after
     assert "launch/node_2.launch.py" in after
+
+
+# -- several distributions
+
+
+def test_a_check_for_several_distributions_is_remembered(
+    runs: Runs, source: Path, package: Path
+) -> None:
+    make_package(source, "listener")
+    words = (".", "--distro", "jazzy,lyrical", "--no-types")
+    first = runs(*words)
+    assert sorted(runs.checked) == ["listener", "listener", "talker", "talker"]
+    assert runs(*words) == first
+    assert runs.checked == []
+    (package / "talker" / "talk.py").write_text("class A:\n    def f(self):\n        pass\n")
+    assert "CNL100" in runs(*words)
+    assert runs.checked == ["talker", "talker"]
+    runs(".", "--distro", "lyrical", "--no-types")
+    runs(*words, "--ignore", "CNL100")
+    assert "CNL100" in runs(*words)
+    assert runs.checked == []

@@ -1,0 +1,155 @@
+"""``check`` for several distributions: one check for each, and one report."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+from scaffold.cli import baselines, fixing, terminal
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+    from scaffold.check.cache.runs import CachedRun, CacheEntry
+    from scaffold.check.result import Result
+    from scaffold.check.several import AgreedSession
+    from scaffold.configuration.config import Config
+    from scaffold.distributions import Distribution
+    from scaffold.files.disk import Disk
+    from scaffold.model.discovery.targets import Target
+
+    ByDistribution = dict[Distribution, list[Result]]
+
+ONE_AT_A_TIME = ("add_noqa", "reference", "stdin_filename", "since")
+"""The flags that work for one distribution only."""
+
+
+class SeveralTargets:
+    """A check for several distributions.
+
+    Args:
+        options: The flags of `check`.
+        session: The rules.
+        settings: The configuration.
+        disk: Notes what is accessed outside of the packages.
+    """
+
+    def __init__(
+        self,
+        options: argparse.Namespace,
+        session: AgreedSession,
+        settings: Config,
+        disk: Disk,
+    ) -> None:
+        self._options = options
+        self._session = session
+        self._settings = settings
+        self._disk = disk
+        self._notes = options.notes
+        self._targets: Sequence[Target] = ()
+        self._runs: list[CachedRun | None] = []
+
+    def run(self) -> int:
+        """Check, or fix; return the exit code."""
+        from scaffold.errors import InputError
+
+        for flag in ONE_AT_A_TIME:
+            if getattr(self._options, flag):
+                raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
+        if self._options.fix or self._options.diff:
+            return self._fix()
+        return self._report(self._checked(), is_saved=True)
+
+    def _fix(self) -> int:
+        """Fix what is right for all of them, and report what is left for each."""
+        from scaffold.check.several import agreed
+        from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
+        from scaffold.cli.verbs.check import find_targets, fix_count
+
+        options, session = self._options, self._session
+        *others, latest = options.distributions
+        session.agreed = agreed(self._checked())
+        with distributions.targeting(latest, kept=others):
+            targets = find_targets(options, session, None)
+            written, has_failed = fixing.write(
+                options, session, targets, lambda: find_targets(options, session, None)
+            )
+        session.agreed = None
+        count = sum(item.applied for item in written)
+        if options.diff:
+            terminal.say(f"{fix_count(count)}, nothing written")
+            return FINDINGS if count else CLEAN
+        terminal.say(f"{fix_count(count)} applied")
+        code = self._report(self._checked(), is_saved=False)
+        return USAGE_ERROR if has_failed else code
+
+    def _checked(self) -> ByDistribution:
+        """Check for each; what an earlier run found is taken from it."""
+        from scaffold.check.cache.results import ResultCache
+        from scaffold.cli.interactive import progress
+        from scaffold.cli.verbs import check
+
+        options, session = self._options, self._session
+        by_distribution: ByDistribution = {}
+        self._runs = []
+        for distribution in options.distributions:
+            options.notes = self._notes
+            with distributions.targeting(distribution):
+                self._targets = check.find_targets(options, session, self._disk)
+                slot = self._slot(distribution)
+                memory = ResultCache(
+                    slot.last if slot else None, self._targets, is_saved=slot is not None
+                )
+                results = list(progress.shown(memory.run(session), len(self._targets), "packages"))
+                by_distribution[distribution] = results
+                if slot is not None and not session.types_failure:
+                    self._runs.append(memory.save(slot, self._disk, results, 0, None))
+            options.notes += check.foreign_note(session, results)
+            check.note_types(session)
+        return by_distribution
+
+    def _report(self, by_distribution: ByDistribution, *, is_saved: bool) -> int:
+        from scaffold.check.several import merged
+        from scaffold.cli import reports
+        from scaffold.cli.verbs import check
+
+        options, session = self._options, self._session
+        results = merged(by_distribution)
+        if options.write_baseline:
+            return baselines.write(options, results)
+        reported = baselines.hide(options, results, self._targets, session)
+        output = reports.write(options, reported, check.report_options(options))
+        code = check.final_code(options, session, reported)
+        slot = getattr(options, "slot", None)
+        if is_saved and slot is not None:
+            self._save_whole(slot, code, output)
+        return code
+
+    def _slot(self, distribution: Distribution) -> CacheEntry | None:
+        """Return where the results for one distribution are remembered."""
+        from scaffold.check.cache.runs import CacheEntry
+        from scaffold.cli.verbs import check
+
+        options = self._options
+        is_unfinished = check.note_unfinished(self._targets)
+        if self._settings.content or is_unfinished or options.write_baseline:
+            return None
+        if getattr(options, "slot", None) is None:
+            return None
+        return CacheEntry.of([distribution.name, check.flags_key(options, self._targets)])
+
+    def _save_whole(self, slot: CacheEntry, code: int, output: str | None) -> None:
+        """Remember the report, for a run after which nothing has changed."""
+        from scaffold.check.cache.runs import CachedRun
+
+        runs = [run for run in self._runs if run is not None]
+        if len(runs) < len(self._options.distributions):
+            return
+        trees = []
+        for of_package in zip(*(run.trees for run in runs), strict=True):
+            known = [tree for tree in of_package if tree is not None]
+            whole = len(known) == len(of_package)
+            trees.append({k: v for tree in known for k, v in tree.items()} if whole else None)
+        outside = {key: value for run in runs for key, value in run.outside.items()}
+        slot.save(CachedRun(outside, trees, (), code, output, (*self._settings.warnings,)))
