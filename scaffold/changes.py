@@ -83,7 +83,11 @@ class Change(NamedTuple):
             return self.advice
         if self.has_replacement:
             return f"use {replacement}"
-        return f"use {replacement}, which is new in {self.since.title}: older ones need a branch"
+        use = f"use {replacement}, which is new in {self.since.title}"
+        older = [item for item in distributions.kept() if item.place < self.since.place]
+        if not older:
+            return f"{use}: older ones need a branch"
+        return f"{use}: nothing suits {distributions.titles(older)} as well, so write a branch"
 
 
 def _is_past(first: Distribution | None) -> bool:
@@ -97,8 +101,19 @@ def _entries() -> dict[str, list[dict[str, Any]]]:
 
 @cache
 def of_kind(kind: str) -> tuple[Change, ...]:
-    """Return the changes of a kind: ``name``, ``call``, ``command``."""
+    """Return the changes of a kind: ``name``, ``call``, ``command``, ``launch``, ``interface``."""
     return tuple(_change(entry) for entry in _entries()[kind])
+
+
+def removed_interface(name: str) -> Change | None:
+    """Return why the target does not have an interface, or a field of one.
+
+    Args:
+        name: ``package/msg/Name``, or that with ``.field``.
+    """
+    return next(
+        (item for item in of_kind("interface") if item.names[0] == name and item.is_removed), None
+    )
 
 
 def _change(entry: dict[str, Any]) -> Change:

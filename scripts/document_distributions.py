@@ -16,7 +16,7 @@ from scaffold.distributions import ALIASES, DEFAULT, ORDER, Distribution, named
 DOCS = Path(__file__).parent.parent / "docs" / "distributions"
 FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher"})
 """What rules of their own fix."""
-KINDS = ("name", "call", "command", "launch")
+KINDS = ("name", "call", "command", "launch", "interface")
 _INTRODUCTION = """\
 # Distributions
 

@@ -77,6 +77,16 @@ class MinimumVersionUnfit(Rule):
             distro="lyrical",
         ),
         Example(
+            "newer than the CMake of the distribution",
+            {"CMakeLists.txt": _LISTS.format("3.25")},
+            Report(
+                "1:32",
+                "CMake 3.22 of Humble is older than 3.25: CMake stops",
+                severity=Severity.ERROR,
+            ),
+            distro="humble",
+        ),
+        Example(
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("2.8.3")},
             Report(
@@ -111,7 +121,11 @@ class MinimumVersionUnfit(Rule):
                 if numbers is None:
                     return
                 message, wanted, severity = _verdict(version.value, numbers)
-                if message:
+                own = _numbers(target().fact("cmake"))
+                if own is not None and numbers > own:
+                    message = f"{_cmake()} is older than {version.value}: CMake stops"
+                    yield self.report(version, message, severity=Severity.ERROR)
+                elif message:
                     edit = Edit("CMakeLists.txt", version.start, version.end, wanted)
                     fix = Fix(f"write {wanted}", (edit,))
                     yield self.report(version, message, fix, severity=severity)
@@ -121,7 +135,7 @@ def _verdict(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity
     """Return a message, the version to write and another severity; no message if all is well."""
     stops = target().fact("build.cmake_minimum_error_below")
     warns = target().fact("build.cmake_minimum_warning_below")
-    cmake = f"CMake {target().fact('cmake').rpartition('.')[0]} of {target().title}"
+    cmake = _cmake()
     if stops and numbers < (_numbers(stops) or _OLDEST):
         message = f"{cmake} stops at {version}: it supports {stops} and newer"
         return message, warns, Severity.ERROR
@@ -132,6 +146,10 @@ def _verdict(version: str, numbers: tuple[int, int]) -> tuple[str, str, Severity
         message = f"CMake 4 stops at {version}: it supports 3.5 and newer; ROS 2 asks for {_WANTED}"
         return message, _WANTED, None
     return "", "", None
+
+
+def _cmake() -> str:
+    return f"CMake {target().fact('cmake').rpartition('.')[0]} of {target().title}"
 
 
 def _numbers(version: str) -> tuple[int, int] | None:

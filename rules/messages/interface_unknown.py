@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import KINDS, Definitions, closest_word
 from scaffold.api.messages import MessageTypes, interfaces_named
 
@@ -74,6 +75,18 @@ class InterfaceUnknown(MessageRule):
             Report("3:22", "'Trigger' is not in std_srvs: ImportError; it is in std_srvs.srv"),
         ),
         Example(
+            "a message that is gone",
+            {"talker.py": "from geometry_msgs.msg import Pose2D\n"},
+            Report(
+                "1:31",
+                "geometry_msgs.msg.Pose2D was removed in Lyrical: ImportError; use "
+                "geometry_msgs/msg/Pose, or a message of your own with x, y and "
+                "theta: which is right depends on who reads it (common_interfaces "
+                "283)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "from a package of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
             Report("1:31", "my_msgs.msg has no 'Bet'; did you mean 'Beat'?"),
@@ -106,6 +119,10 @@ def _flaw(definitions: Definitions, owner: str, kind: str, name: str) -> str | N
         return f"{owner} has no module {kind!r}; did you mean '{owner}.{module}'?"
     if kind not in KINDS or name in names or any(name.startswith(f"{x}_") for x in names):
         return None
+    change = removed_interface(f"{owner}/{kind}/{name}")
+    if change is not None:
+        state = f"{change.state}: ImportError; {change.advice}"
+        return f"{owner}.{kind}.{name} {state} ({change.source})"
     hint = closest_word(name, names)
     elsewhere = [match for match in definitions.matches(name) if match.endswith(f"/{name}")]
     if elsewhere and (not hint or not names):

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
 from scaffold.api.python import is_for_ros1
@@ -101,6 +102,20 @@ class MessageFieldUnknown(MessageRule):
             ),
         ),
         Example(
+            "a field that is gone",
+            {
+                "talker.py": "from lifecycle_msgs.msg import TransitionEvent\n\n"
+                "event = TransitionEvent()\nevent.timestamp = 3\n"
+            },
+            Report(
+                "4:7",
+                "'timestamp' of lifecycle_msgs/msg/TransitionEvent was removed in "
+                "Lyrical: use stamp, a builtin_interfaces/msg/Time; timestamp "
+                "counted nanoseconds (rcl_interfaces 2.4)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "an unknown part of a service",
             {"talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n"},
             Report(
@@ -134,6 +149,9 @@ def _flaw(types: MessageTypes, node: ast.Attribute) -> str | None:
 
 
 def _message(owner: MessageClass, name: str) -> str:
+    change = removed_interface(f"{owner.name}.{name}")
+    if change is not None:
+        return f"{name!r} of {owner.name} {change.state}: {change.advice} ({change.source})"
     fields = [field.name for field in owner.section.fields]
     hint = closest_word(name, [*fields, *(constant.name for constant in owner.section.constants)])
     if not hint and fields:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.distributions import target
 
+_STOPPING = 78
+"""The first setuptools that stopped at dashes; 78.0.2 put that off."""
 _CFG = "[develop]\nscript{0}dir=$base/lib/talker\n[install]\ninstall{0}scripts=$base/lib/talker\n"
 
 
@@ -23,6 +26,7 @@ class SetupCfgKeyDashed(Rule):
     code = "SP005"
     name = "setup-cfg-key-dashed"
     severity = Severity.WARNING
+    is_fixed_for_all = True
     examples = (
         Example("underscores", {"setup.py": "", "setup.cfg": _CFG.format("_")}),
         Example(
@@ -38,6 +42,18 @@ class SetupCfgKeyDashed(Rule):
             ),
             fixed={"setup.cfg": _CFG.format("_")},
         ),
+        Example(
+            "dashes, where setuptools is about to stop",
+            {"setup.py": "", "setup.cfg": "[develop]\nscript-dir=$base/lib/talker\n"},
+            Report(
+                "setup.cfg:2:1",
+                "setuptools 78.1.1 of Lyrical is about to stop at 'script-dir': use "
+                "'script_dir' instead of 'script-dir'",
+                fix="write script_dir",
+            ),
+            fixed={"setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n"},
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -50,5 +66,11 @@ class SetupCfgKeyDashed(Rule):
             if "-" in option.key:
                 right = option.key.replace("-", "_")
                 message = f"use {right!r} instead of {option.key!r}"
+                setuptools = target().fact("setuptools")
+                if int(setuptools.partition(".")[0]) >= _STOPPING:
+                    message = (
+                        f"setuptools {setuptools} of {target().title} is about to stop at "
+                        f"{option.key!r}: {message}"
+                    )
                 fix = Fix(f"write {right}", (cfg.rename(option, right),))
                 yield self.report(option.key_location, message, fix)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.changes import Change, of_kind
+from scaffold.changes import Change, of_kind, removed_interface
 from scaffold.distributions import Distribution, target
 
-__all__ = ["Change", "Distribution", "of_kind", "target"]
+__all__ = ["Change", "Distribution", "of_kind", "removed_interface", "target"]

@@ -95,7 +95,8 @@ class SeveralTargets:
         self._runs = []
         for distribution in options.distributions:
             options.notes = self._notes
-            with distributions.targeting(distribution):
+            others = [item for item in options.distributions if item is not distribution]
+            with distributions.targeting(distribution, kept=others):
                 self._targets = check.find_targets(options, session, self._disk)
                 slot = self._slot(distribution)
                 memory = ResultCache(
@@ -137,7 +138,9 @@ class SeveralTargets:
             return None
         if getattr(options, "slot", None) is None:
             return None
-        return CacheEntry.of([distribution.name, check.flags_key(options, self._targets)])
+        names = [item.name for item in options.distributions]
+        key = check.flags_key(options, self._targets)
+        return CacheEntry.of([distribution.name, *names, key])
 
     def _save_whole(self, slot: CacheEntry, code: int, output: str | None) -> None:
         """Remember the report, for a run after which nothing has changed."""
