@@ -3,7 +3,7 @@
 
 VENV = .venv
 BIN = $(VENV)/bin
-PYTHONS = python3 python3.12 python3.13 python3.11 python3.10
+PYTHONS = python3 python3.12 python3.13 python3.14 python3.11 python3.10
 PIP_INSTALL = $(BIN)/python -m pip --disable-pip-version-check install --quiet
 
 DEMO = demo
@@ -25,7 +25,7 @@ help:
 	@echo 'make test-quick  the tests without real builds'
 	@echo 'make nightly     broken packages through `check`, and killed runs; takes hours'
 	@echo 'make test-rules  the examples of all rules, in a small environment; PYTEST_ARGS=...'
-	@echo 'make versions    all tests on every Python from 3.10 to 3.13 that is installed'
+	@echo 'make versions    all tests on every Python from 3.10 to 3.14 that is installed'
 	@echo 'make lint        ruff, mypy and the direction of imports, on the whole repository'
 	@echo 'make format      let ruff format the code'
 	@echo 'make examples    write what rules report now into their examples; CODES=... for some'

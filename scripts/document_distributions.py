@@ -12,6 +12,7 @@ from pathlib import Path
 from scaffold import changes, distributions
 from scaffold.changes import Change
 from scaffold.distributions import ALIASES, DEFAULT, ORDER, Distribution, named
+from scaffold.model.rclpy.api import names_of
 
 DOCS = Path(__file__).parent.parent / "docs" / "distributions"
 FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher"})
@@ -64,6 +65,7 @@ def _page(one: Distribution) -> Iterator[str]:
     changed = [item for item in _changes() if item.changed and one.place >= item.changed.place]
     yield from _table("Changed", changed)
     yield from _interfaces(one)
+    yield from _members(one)
 
 
 def _build(one: Distribution) -> Iterator[str]:
@@ -134,6 +136,41 @@ def _interfaces(one: Distribution) -> Iterator[str]:
         for what, names in rows:
             if names:
                 yield f"- {what}: {', '.join(f'`{name}`' for name in names)}"
+
+
+def _members(one: Distribution) -> Iterator[str]:
+    """Yield how the public members of rclpy differ from those of the distribution before."""
+    before = named(ORDER[max(ORDER.index(one.name) - 1, 0)])
+    old, new = _public(before), _public(one)
+    lines: list[str] = []
+    for class_ in sorted(old.keys() | new.keys()):
+        added = sorted(new.get(class_, set()) - old.get(class_, set()))
+        gone = sorted(old.get(class_, set()) - new.get(class_, set()))
+        if class_ not in old:
+            lines.append(f"- `{class_}` is new")
+        elif class_ not in new:
+            lines.append(f"- `{class_}` is gone")
+        elif added or gone:
+            changes_ = [f"has {_listed(added)}"] * bool(added)
+            changes_ += [f"lacks {_listed(gone)}"] * bool(gone)
+            lines.append(f"- `{class_}` {', '.join(changes_)}")
+    if lines:
+        yield ""
+        yield f"## Classes of rclpy, compared with {before.title}"
+        yield ""
+        yield from lines
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def _public(one: Distribution) -> dict[str, set[str]]:
+    return {
+        name: {member for member in members if not member.startswith("_")}
+        for name, members in names_of(one).items()
+        if name.startswith("rclpy.") and name.rpartition(".")[2][:1].isupper()
+    }
 
 
 def _definitions(one: Distribution) -> dict[str, str]:

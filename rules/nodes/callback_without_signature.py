@@ -1,0 +1,111 @@
+"""ND130: callbacks of subscriptions have a signature that Python can read."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.distributions import target
+from scaffold.api.rclpy import RclpyFile, Subscription
+
+_NODE = (
+    "from collections import deque\n\nfrom rclpy.node import Node\nfrom std_msgs.msg import String"
+    "\n\n\nclass Listener(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('listener')\n"
+    "        self.heard = {}\n"
+    "        self.create_subscription(String, 'chatter', {}, 10)\n"
+)
+
+
+class CallbackWithoutSignature(RclpyRule):
+    """A subscription calls a method of a deque or a set, whose signature Python does not know.
+
+    **Why.** From Jazzy on, rclpy asks Python for the signature, to see whether the callback takes
+    the message alone; before Python 3.13 there is none for ``deque.append``: ``ValueError: no
+    signature found for builtin``.
+
+    **Fix.** Pass ``lambda msg: self.heard.append(msg)``. No automatic fix: whether the attribute
+    is another object later, the rule does not know.
+
+    **Source.** ``rclpy/subscription.py``, ``Subscription.callback``; ``inspect.signature``.
+    """
+
+    code = "ND130"
+    name = "callback-without-signature"
+    since = "0.2"
+    examples = (
+        Example("a list", {"listener.py": _NODE.format("[]", "self.heard.append")}),
+        Example(
+            "a function",
+            {"listener.py": _NODE.format("deque()", "lambda msg: self.heard.append(msg)")},
+        ),
+        Example(
+            "rclpy does not ask",
+            {"listener.py": _NODE.format("deque()", "self.heard.append")},
+            distro="humble",
+        ),
+        Example(
+            "Python knows it",
+            {"listener.py": _NODE.format("deque()", "self.heard.append")},
+            distro="lyrical",
+        ),
+        Example(
+            "a deque",
+            {"listener.py": _NODE.format("deque()", "self.heard.append")},
+            Report(
+                "11:53",
+                "Python 3.12 knows no signature of 'collections.deque.append': "
+                "rclpy raises ValueError; pass lambda msg: self.heard.append(msg)",
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        unknown = target().fact("callbacks.without_signature")
+        if not unknown or not file.module.mentions(*{name.rpartition(".")[2] for name in unknown}):
+            return
+        for entity, callback in file.callbacks:
+            if not isinstance(entity, Subscription):
+                continue
+            method = _method(file, callback.node)
+            if method in unknown:
+                text = file.module.text(callback.node)
+                message = (
+                    f"Python {target().python_version} knows no signature of '{method}': rclpy "
+                    f"raises ValueError; pass lambda msg: {text}(msg)"
+                )
+                yield self.report(callback, message)
+
+
+def _method(file: RclpyFile, node: ast.expr) -> str:
+    """Return the full name of a method of an object that the file makes: ``set.add``."""
+    if not isinstance(node, ast.Attribute):
+        return ""
+    kinds = {_kind(file, value) for value in _values(file, node.value)}
+    return f"{kinds.pop()}.{node.attr}" if len(kinds) == 1 else ""
+
+
+def _values(file: RclpyFile, node: ast.expr) -> list[ast.expr]:
+    """Return what is assigned to a name, or to an attribute of ``self`` or ``cls``."""
+    if not isinstance(node, ast.Attribute) or not isinstance(node.value, ast.Name):
+        value = file.evaluator.single_value(node)
+        return [value] if isinstance(value, ast.expr) else []
+    return [
+        statement.value
+        for statement in file.module.walk(ast.Assign)
+        for target_ in statement.targets
+        if isinstance(target_, ast.Attribute)
+        and target_.attr == node.attr
+        and file.module.text(target_.value) in {"self", "cls"}
+    ]
+
+
+def _kind(file: RclpyFile, value: ast.expr) -> str:
+    if isinstance(value, ast.Set):
+        return "set"
+    if not isinstance(value, ast.Call):
+        return ""
+    plain = value.func.id if isinstance(value.func, ast.Name) else ""
+    return file.module.qualified_name(value.func) or plain
