@@ -10,6 +10,7 @@ import os
 import re
 import shutil
 import subprocess
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -74,9 +75,10 @@ class Oracle:
             wanted += ["importlib-metadata<5"]
         subprocess.run([self._python, "-m", "pip", "install", "--quiet", *wanted], check=True)
         self._configuration = directory / "ament_flake8.ini"
-        import ament_flake8
-
-        own = Path(ament_flake8.__file__).parent / "configuration" / "ament_flake8.ini"
+        spec = find_spec("ament_flake8")
+        assert spec is not None
+        assert spec.origin is not None
+        own = Path(spec.origin).parent / "configuration" / "ament_flake8.ini"
         shutil.copy(own, self._configuration)
 
     def _versions(self) -> dict[str, str]:
