@@ -12,6 +12,9 @@ _LAUNCH = (
     "def generate_launch_description():\n    return LaunchDescription([])\n"
 )
 
+_INCLUDED = frozenset({"include", "includes"})
+"""Directories of files that others include; nobody launches them."""
+
 
 class LaunchFileEnding(LaunchRule):
     """A launch file has a name that ``ros2 launch`` does not offer.
@@ -29,6 +32,7 @@ class LaunchFileEnding(LaunchRule):
     severity = Severity.WARNING
     examples = (
         Example("both endings", {"launch/a.launch.py": _LAUNCH, "launch/b_launch.py": _LAUNCH}),
+        Example("what others include", {"launch/include/nodes.py": _LAUNCH}),
         Example(
             "neither",
             {"launch/talk.py": _LAUNCH},
@@ -42,7 +46,8 @@ class LaunchFileEnding(LaunchRule):
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
         directory, _, name = launch.path.rpartition("/")
-        if name.endswith("launch.py") or "launch" not in directory.split("/"):
+        parts = directory.split("/")
+        if name.endswith("launch.py") or "launch" not in parts or _INCLUDED & {*parts}:
             return
         if launch.function is not None and not package.has(f"{directory}/__init__.py"):
             message = (

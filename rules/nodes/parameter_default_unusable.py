@@ -58,6 +58,10 @@ class ParameterDefaultUnusable(RclpyRule):
             {"talker.py": _NODE.format("None", "dynamic_typing=True", "Parameter.Type.STRING")},
         ),
         Example(
+            "the type in the descriptor",
+            {"talker.py": _NODE.format("None", "type=4", "Parameter.Type.STRING")},
+        ),
+        Example(
             "no default",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
             Report("9:40", "parameter 'rate' needs a default or a Parameter.Type: ValueError"),
@@ -182,7 +186,7 @@ def _type_problem(parameter: Parameter) -> str:
         parameter.default_node is None and "name" in parameter.arguments
     )
     is_alone = parameter.descriptor_node is None and "name" in parameter.arguments
-    if not is_none or parameter.descriptor.is_dynamic or is_alone:
+    if not is_none or parameter.descriptor.is_dynamic or is_alone or parameter.descriptor.is_typed:
         return ""
     name = repr(parameter.name) if isinstance(parameter.name, str) else "of this name"
     return f"parameter {name} needs a default or a Parameter.Type: ValueError"

@@ -64,6 +64,10 @@ class RateAsPeriod(RclpyRule):
             ),
         ),
         Example(
+            "what is called a rate, in seconds",
+            {"talker.py": _NODE.format("rate").replace(".value\n", ".value  # rate in seconds\n")},
+        ),
+        Example(
             "milliseconds",
             {"talker.py": _NODE.format("self.timer_ms")},
             Report("9:40", "milliseconds where seconds are expected; divide by 1000"),
@@ -131,7 +135,7 @@ class RateAsPeriod(RclpyRule):
         self, file: RclpyFile, given: ast.expr, words: frozenset[str], number: float | None
     ) -> Iterator[Diagnostic]:
         is_clear = not words.isdisjoint(_CLEAR)
-        if number is None and not is_clear:
+        if (number is None and not is_clear) or _is_in_seconds(file, given):
             return
         if number is not None and (number <= 1 or (not is_clear and number < _LEAST_RATE)):
             return
@@ -150,6 +154,13 @@ class RateAsPeriod(RclpyRule):
 
 _LEAST_RATE = 1.5
 """Of what is called a rate: below it may be seconds."""
+
+
+def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:
+    """Tell whether the file says somewhere that what is given are seconds."""
+    name = given.attr if isinstance(given, ast.Attribute) else getattr(given, "id", "")
+    pattern = rf"\b{re.escape(name)}\b[^\n]*(?:\bsec|\}} ?s\b)"
+    return bool(name) and re.search(pattern, file.module.source.text) is not None
 
 
 def _is_milliseconds(number: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import generations, is_interface_package
 from scaffold.api.manifest import Manifest
 
@@ -43,6 +44,15 @@ class InterfaceDeclarationsMissing(Rule):
     }
     examples = (
         Example("all three", {"package.xml": _MANIFEST.format(_BUILD + _RUN + _MEMBER), **_FILES}),
+        Example(
+            "another message package brings the generators along",
+            {
+                "package.xml": _MANIFEST.format(
+                    _RUN + "  <depend>nav_2d_msgs</depend>\n" + _MEMBER
+                ),
+                **_FILES,
+            },
+        ),
         Example(
             "without the group",
             {"package.xml": _MANIFEST.format(_BUILD + _RUN), **_FILES},
@@ -151,6 +161,7 @@ class InterfaceDeclarationsMissing(Rule):
 def _missing(manifest: Manifest, package: Package) -> Iterator[tuple[str, str, str]]:
     """Yield what is not declared: words, tag and text."""
     build = manifest.build_names | manifest.run_names
+    build |= transitive_dependencies(build)
     if build.isdisjoint(_GENERATORS):
         tag = "buildtool_depend"
         yield f"no <{tag}> {_GENERATORS[0]}", tag, _GENERATORS[0]

@@ -17,6 +17,9 @@ _NODE = (
     "        self.rate = self.get_parameter('rate').value\n"
 )
 _LAUNCH = (".py", ".launch.xml", ".launch.yaml", ".launch.yml")
+_PARAMETERS = (".yaml", ".yml")
+_ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
+"""Of other packages, which may start the node."""
 
 
 class RequiredNeverSet(RclpyRule):
@@ -40,6 +43,19 @@ class RequiredNeverSet(RclpyRule):
             {
                 "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
                 "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
+            },
+        ),
+        Example(
+            "set by another package of the workspace",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
+            },
+            neighbours={
+                "bringup": {
+                    "package.xml": "<package><name>bringup</name></package>\n",
+                    "launch/all.launch.py": "PARAMETERS = [{'rate': 3.0}]\n",
+                }
             },
         ),
         Example(
@@ -83,10 +99,18 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
             is_of_node = is_of_node or not isinstance(node.node_name, str)
             if is_of_node and any(entry.name == name for entry in section.entries):
                 return True
+    if _mentions(package, name, _LAUNCH):
+        return True
+    return any(_mentions(other, name, _ELSEWHERE) for other in package.workspace)
+
+
+def _mentions(package: Package, name: str, endings: tuple[str, ...]) -> bool:
+    """Tell whether a launch file, or a file in YAML next to those, has a name."""
+    wanted = re.compile(rf"\b{re.escape(name)}\b")
     for path in package.files:
-        if path.endswith(_LAUNCH) and "launch" in path.lower():
+        if path.endswith(endings) and (not path.endswith(".py") or "launch" in path.lower()):
             try:
-                if re.search(rf"\b{re.escape(name)}\b", package.source(path).text):
+                if wanted.search(package.source(path).text):
                     return True
             except ViewError:
                 continue

@@ -40,6 +40,11 @@ class AngleInDegrees(Rule):
                 "a.urdf": _ROBOT.format("revolute", "1.5708", "-3.14", "6.2832"),
                 "b.urdf": _ROBOT.format("revolute", "0", "-31.4", "31.4"),
                 "c.urdf": _ROBOT.format("prismatic", "0", "0", "90"),
+                "d.xacro": '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                "  <xacro:property name=\"yaw\" value=\"${xacro.load_yaml('a.yaml')['yaw']}\"/>\n"
+                '  <link name="a"/>\n  <link name="b"/>\n  <joint name="c" type="fixed">\n'
+                '    <parent link="a"/>\n    <child link="b"/>\n'
+                '    <origin rpy="0 0 ${pi - yaw * pi / 180 }"/>\n  </joint>\n</robot>\n',
             },
         ),
         Example(
@@ -65,7 +70,7 @@ class AngleInDegrees(Rule):
 
 def _angles(part: Part) -> Iterator[tuple[str, str]]:
     """Yield the angles of an element, each with the name of its attribute."""
-    if part.tag == "origin":
+    if part.tag == "origin" and is_known(part.attributes.get("rpy", "")):
         for word in part.attributes.get("rpy", "").split():
             yield "rpy", word
     joint = part.holder

@@ -449,3 +449,9 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert list(tmp_path.iterdir()) == []
     check(Package.of({"a.py": "x=1\n"}))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_in_a_file_that_another_program_runs_is_a_warning() -> None:
+    files = {".cmake-format.py": 'with section("format"):\n    pass\n'}
+    reported = check(Package.of(files))
+    assert [d.severity for d in reported if d.code == "F821"] == [Severity.WARNING]

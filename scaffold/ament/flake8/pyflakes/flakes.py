@@ -108,7 +108,8 @@ class _Stricter:
     def is_made_when_run(self, diagnostic: RuffDiagnostic) -> bool:
         """Tell whether the module may have a name that nothing in its text defines."""
         if diagnostic.code == "F821":
-            return self._executes_text
+            # A configuration such as .cmake-format.py is run by its program, with names from there.
+            return self._executes_text or self._text.name.startswith(".")
         return diagnostic.code == "F822" and self._has_getattr
 
     @cached_property

@@ -59,9 +59,10 @@ class Descriptor(NamedTuple):
     is_dynamic: bool
     is_read_only: bool
     ranges: list[Range]
+    is_typed: bool
 
 
-_PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[])
+_PLAIN = Descriptor(is_dynamic=False, is_read_only=False, ranges=[], is_typed=False)
 
 
 def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
@@ -83,7 +84,7 @@ def descriptor_of(file: RclpyFile, node: ast.expr | None) -> Descriptor | None:
             if bounds is None:
                 return None
             ranges.append(bounds)
-    return Descriptor(is_dynamic, is_read_only, ranges)
+    return Descriptor(is_dynamic, is_read_only, ranges, is_typed="type" in fields)
 
 
 def message_made(file: RclpyFile, node: ast.expr, kind: str) -> dict[str, ast.expr] | None:
