@@ -10,9 +10,6 @@ if TYPE_CHECKING:
 
     Parser: TypeAlias = argparse.ArgumentParser | argparse._ArgumentGroup  # noqa: SLF001  it has no other name
 
-ANSWERED_BY_FILE = "; their questions are answered with --answers"
-"""The flags of a verb are laid out before ``--content`` is read."""
-
 
 def add_looking(parser: Parser) -> None:
     """Define the flags of verbs that write, for users who want a preview."""
@@ -24,14 +21,25 @@ def add_looking(parser: Parser) -> None:
     )
 
 
-def add_content(parser: Parser, note: str = "") -> None:
-    """Define the flag for templates of a team; a note says what else the verb's users must know."""
+def content_in(parser: argparse.ArgumentParser) -> list[str]:
+    """Return the content that a command line names, before the flags of its templates are known."""
+    from argparse import ArgumentParser
+
+    first = ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
+    first.add_argument("--content", action="append", nargs="?", default=[])
+    options, _ = first.parse_known_args(parser.get_default("command_line"))
+    return [text for text in options.content if text]
+
+
+def add_content(parser: Parser) -> None:
+    """Define the flag for templates of a team."""
     parser.add_argument(
         "--content",
         action="append",
         default=[],
         metavar="DIR",
-        help=f"a directory with templates/ of your own{note}",
+        help="a directory with templates/ of your own, or URL@REV of a git repository with one "
+        "that `ros2-scaffold trust URL` trusts",
     )
 
 

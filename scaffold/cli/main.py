@@ -86,7 +86,8 @@ def _run(given: list[str]) -> int:
 
     from scaffold.cli.parser import build_parser
 
-    options = build_parser(verb, comes_first=given[:1] == [verb]).parse_args(given)
+    parser = build_parser(verb, comes_first=given[:1] == [verb], words=given)
+    options = parser.parse_args(given)
     options.slot = slot
     os.getcwd()  # if it was removed, each verb would report something else
     return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))

@@ -62,13 +62,16 @@ def nearest(word: str, words: Sequence[str]) -> str:
     return f"; did you mean {closest[0]!r}?" if closest else ""
 
 
-def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Parser:
+def build_parser(
+    verb: str | None = None, *, comes_first: bool = False, words: Sequence[str] = ()
+) -> _Parser:
     """Return the parser.
 
     Args:
         verb: The only verb to define in full; the others are listed but not imported. ``None``
             defines all, as tab completion needs.
         comes_first: No option that might request the list precedes the verb.
+        words: What the user wrote: the templates that it names have flags of their own.
     """
     parser = _Parser(
         prog="ros2-scaffold",
@@ -85,5 +88,6 @@ def build_parser(verb: str | None = None, *, comes_first: bool = False) -> _Pars
         if verb == name:
             parser.chosen = verb_parser
         if verb is None or verb == name:
+            verb_parser.set_defaults(command_line=words)
             import_module(f"scaffold.cli.verbs.{name}").add_arguments(verb_parser)
     return parser

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from scaffold.configuration import keys, trust
+from scaffold.configuration.content import is_url
 from scaffold.errors import ConfigError
 from scaffold.files import home
 from scaffold.files.disk import Disk
@@ -333,4 +334,7 @@ def _content(disk: Disk, entries: object, path: str) -> list[str]:
     ):
         raise ConfigError(f"{path}: content must be a list of directories")
     base = disk.real(os.path.dirname(path))
-    return [os.path.join(base, os.path.expanduser(entry)) for entry in entries]
+    return [
+        entry if is_url(entry) else os.path.join(base, os.path.expanduser(entry))
+        for entry in entries
+    ]

@@ -10,7 +10,11 @@ TYPE_CHECKING = False  # the one of typing is slow to import, and every start ne
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from scaffold.configuration.git_content import Revision
+
 _KINDS = ("rules", "templates")
+_revisions: dict[str, Revision] = {}
+"""Those that this run uses, by their directories."""
 _HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
@@ -20,6 +24,31 @@ def built_in() -> str:
     return packaged if os.path.isdir(packaged) else os.path.dirname(_HERE)
 
 
+def is_url(text: str) -> bool:
+    """Tell whether content is in a git repository somewhere else: ``URL@REV``."""
+    host, colon, _ = text.partition(":")
+    return "://" in text or bool(colon and "@" in host and "/" not in host)
+
+
+def _directory(base: str) -> str:
+    if not is_url(base):
+        return base
+    from scaffold.configuration import git_content
+
+    revision = git_content.resolve(base)
+    _revisions[revision.directory] = revision
+    return revision.directory
+
+
+def revisions(roots: Sequence[str]) -> list[Revision]:
+    """Return the revisions of git repositories that directories of content are in."""
+    return [
+        revision
+        for directory, revision in _revisions.items()
+        if any(root.startswith(os.path.join(directory, "")) for root in roots)
+    ]
+
+
 def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
     """Return the directories of ``kind`` (``rules`` or ``templates``).
 
@@ -27,11 +56,14 @@ def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
 
     Args:
         kind: The name of the directory.
-        own: Content directories of the user, each with the same layout as the built-in one.
+        own: Content directories of the user, each with the same layout as the built-in one, or
+            revisions of git repositories.
 
     Raises:
-        ConfigError: one of the user's is no directory, or holds nothing of any kind.
+        ConfigError: one of the user's is no directory, or holds nothing of any kind; a repository
+            is not trusted, cannot be fetched, or has no such revision.
     """
+    own = [_directory(base) for base in own]
     for base in own:
         if not os.path.isdir(base):
             raise ConfigError(f"{base}: no such directory; --content or the configuration names it")

@@ -1,6 +1,7 @@
 """The directories whose configuration may name rules and templates, which are code.
 
-The user trusts them by name. A directory is trusted exactly, as git's ``safe.directory``: not what
+The user trusts them by name, and git repositories that content comes from by their addresses. A
+directory is trusted exactly, as git's ``safe.directory``: not what
 is below it. The list is a file of the user's configuration, a line for each: the owner that the
 directory had then, and its real path. Whoever puts another directory there is another owner.
 """
@@ -18,7 +19,9 @@ from scaffold.files.disk import Disk
 FILE = "trusted"
 """In the directory of the user's configuration."""
 
-_ABOUT = "# Directories trusted by `ros2-scaffold trust`: owner and path.\n"
+_OF_URLS = "git"
+"""Instead of an owner, in front of the address of a repository."""
+_ABOUT = "# Trusted by `ros2-scaffold trust`: owner and path of directories; git and URL.\n"
 
 
 def is_trusted(disk: Disk, directory: str) -> bool:
@@ -34,6 +37,34 @@ def is_trusted(disk: Disk, directory: str) -> bool:
 
 def trusted(disk: Disk) -> dict[str, str]:
     """Return the owners of the trusted directories by their real paths."""
+    return {place: owner for place, owner in _entries(disk).items() if owner != _OF_URLS}
+
+
+def is_trusted_url(url: str) -> bool:
+    """Tell whether the user trusts a repository by its address."""
+    return _entries(Disk()).get(url) == _OF_URLS
+
+
+def trusted_urls() -> list[str]:
+    """Return the addresses of the repositories that the user trusts."""
+    return [url for url, owner in _entries(Disk()).items() if owner == _OF_URLS]
+
+
+def add_url(url: str) -> None:
+    """Trust a repository, whatever is in it later, by its address.
+
+    Raises:
+        InputError: it cannot be an address.
+        ConfigError: the list cannot be written.
+    """
+    if url.startswith("-") or url.split() != [url]:
+        raise InputError(f"{url!r}: not the address of a repository")
+    with _locked() as path:
+        _write(path, {**_entries(Disk()), url: _OF_URLS})
+
+
+def _entries(disk: Disk) -> dict[str, str]:
+    """Return the owners of directories by their real paths, and addresses of repositories."""
     path = _path()
     if path is None or not disk.is_file(path):
         return {}
@@ -44,7 +75,7 @@ def trusted(disk: Disk) -> dict[str, str]:
     entries: dict[str, str] = {}
     for line in text.splitlines(keepends=False):
         owner, _, directory = line.partition(" ")
-        if owner.isdecimal() and os.path.isabs(directory):
+        if owner == _OF_URLS or (owner.isdecimal() and os.path.isabs(directory)):
             entries[directory] = owner
     return entries
 
@@ -65,20 +96,20 @@ def add(directory: str) -> str:
     if disk.is_shared(real):
         raise InputError(f"{directory}: everybody may write there, so it cannot be trusted")
     with _locked() as path:
-        _write(path, {**trusted(Disk()), real: disk.owner(real)})
+        _write(path, {**_entries(Disk()), real: disk.owner(real)})
     return real
 
 
 def remove(directory: str) -> str:
-    """Stop trusting a directory, which may be gone, and return its path in the list.
+    """Stop trusting a directory, which may be gone, or an address; return it as it is listed.
 
     Raises:
         InputError: it is not trusted.
         ConfigError: the list cannot be written.
     """
     with _locked() as path:
-        entries = trusted(Disk())
-        names = (os.path.realpath(directory), os.path.abspath(directory))
+        entries = _entries(Disk())
+        names = (directory, os.path.realpath(directory), os.path.abspath(directory))
         name = next((name for name in names if name in entries), None)
         if name is None:
             raise InputError(

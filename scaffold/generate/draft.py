@@ -43,6 +43,8 @@ class Draft(NamedTuple):
     """Every answer, as in an answers file."""
     day: date
     """The date in its files."""
+    roots: Sequence[str]
+    """The directories of the templates."""
 
 
 class Order(NamedTuple):
@@ -98,6 +100,7 @@ def draft(
         conflicts=tuple(conflicts(context["nodes"], templates)),
         answers=composed.answers,
         day=date.fromisoformat(context["date"]),
+        roots=roots,
     )
 
 

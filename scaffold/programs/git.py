@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping, Sequence
 
 from scaffold.programs import search
 
@@ -18,8 +19,10 @@ _PROTECTION = (
 )
 _NO_TRANSPORT = {"GIT_ALLOW_PROTOCOL": "none"}
 """A clone without all objects would fetch them, by programs that its configuration names."""
+_NETWORK = {"GIT_ALLOW_PROTOCOL": "https:ssh:file", "GIT_TERMINAL_PROMPT": "0"}
 SECONDS = 10
 """After which git is given up; a file that the configuration includes may be a pipe."""
+SECONDS_TO_FETCH = 120
 
 
 def run(*words: str, directory: str, data: bytes = b"") -> subprocess.CompletedProcess[bytes]:
@@ -34,6 +37,28 @@ def run(*words: str, directory: str, data: bytes = b"") -> subprocess.CompletedP
         OSError: git cannot be started.
         subprocess.TimeoutExpired: it did not end.
     """
+    return _run(words, directory, _NO_TRANSPORT, SECONDS, data)
+
+
+def fetch(url: str, directory: str) -> subprocess.CompletedProcess[bytes]:
+    """Fetch the tags and branches of a repository that the user trusts.
+
+    Args:
+        url: Its address.
+        directory: A bare repository of our own, which follows it.
+
+    Raises:
+        OSError: git cannot be started.
+        subprocess.TimeoutExpired: it did not end.
+    """
+    refs = [f"+refs/{kind}/*:refs/{kind}/*" for kind in ("heads", "tags")]
+    words = ("--git-dir=.", "fetch", "--quiet", "--prune", "--no-tags", "--", url, *refs)
+    return _run(words, directory, _NETWORK, SECONDS_TO_FETCH)
+
+
+def _run(
+    words: Sequence[str], directory: str, more: Mapping[str, str], seconds: int, data: bytes = b""
+) -> subprocess.CompletedProcess[bytes]:
     program = search.find("git")
     if program is None:
         raise FileNotFoundError("git")
@@ -41,7 +66,7 @@ def run(*words: str, directory: str, data: bytes = b"") -> subprocess.CompletedP
         [program, *_PROTECTION, "-C", directory, *words],
         input=data,
         capture_output=True,
-        env={**os.environ, **_NO_TRANSPORT},
-        timeout=SECONDS,
+        env={**os.environ, **more},
+        timeout=seconds,
         check=False,
     )

@@ -41,69 +41,32 @@ def _name(data: bytes, like: _Blob) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-class Commit:
-    """A commit of the repository around a directory.
+class Objects:
+    """The files of a commit.
 
     Args:
-        directory: A directory in the work tree.
-        revision: What the user calls the commit.
+        directory: In or of the repository.
+        name: The hash of the commit.
+        origin: Who names it, for messages.
 
     Raises:
-        InputError: there is no git, no repository, or no such commit.
+        InputError: there is no git, or it fails.
     """
 
-    def __init__(self, directory: str, revision: str) -> None:
-        self._revision = revision
+    def __init__(self, directory: str, name: str, origin: str) -> None:
         self._directory = directory
-        top = self._run("rev-parse", "--show-toplevel")
-        if top is None:
-            raise InputError(f"--since {revision}: git has no repository of yours at {directory}")
-        self.top = os.fsdecode(top.removesuffix(b"\n"))
-        """The top of the work tree."""
-        self._directory = self.top
-        words = ("--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
-        name = self._run("rev-parse", *words)
-        if not name:
-            raise InputError(f"--since {revision}: git knows no such commit")
-        self._name = os.fsdecode(name.strip())
+        self._name = name
+        self._origin = origin
 
     def _run(self, *words: str, data: bytes = b"") -> bytes | None:
         """Return the output of a command, ``None`` if it fails."""
         try:
             done = git.run(*words, directory=self._directory, data=data)
         except FileNotFoundError:
-            raise InputError(f"--since {self._revision}: git is not installed") from None
+            raise InputError(f"{self._origin}: git is not installed") from None
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise InputError(f"--since {self._revision}: git failed: {error}") from error
+            raise InputError(f"{self._origin}: git failed: {error}") from error
         return done.stdout if done.returncode == 0 else None
-
-    @cached_property
-    def listed(self) -> frozenset[str]:
-        """The paths of the files in the work tree that git does not ignore, and of removed ones."""
-        listed = self._run("ls-files", "-z", "--cached", "--others", "--exclude-standard") or b""
-        return frozenset(os.fsdecode(path) for path in listed.split(b"\0") if path)
-
-    def changed(self) -> frozenset[str]:
-        """Return the paths, relative to the top, of files that are not as in the commit.
-
-        Files that git ignores are skipped; new and removed ones are not.
-        """
-        blobs = self.files()
-        there = {path for path in self.listed if os.path.lexists(os.path.join(self.top, path))}
-        differing = {path for path in there & blobs.keys() if not self._is_same(path, blobs[path])}
-        return frozenset((there ^ blobs.keys()) | differing)
-
-    def _is_same(self, path: str, blob: _Blob) -> bool:
-        place = os.path.join(self.top, path)
-        try:
-            if os.path.islink(place):
-                return _name(os.fsencode(os.readlink(place)), blob) == blob.name
-            data = read_file(place)
-        except OSError:
-            return False
-        if _name(data, blob) == blob.name:
-            return True
-        return b"\r\n" in data and _name(data.replace(b"\r\n", b"\n"), blob) == blob.name
 
     def files(self) -> dict[str, _Blob]:
         """Return all files of the commit by path; submodules are skipped."""
@@ -148,8 +111,8 @@ class Commit:
             yield path, output[start:stop]
             start = stop + 1
 
-    def export(self, directory: str) -> None:
-        """Write the files of the commit into an empty directory of our own."""
+    def export(self, directory: str, *, with_links: bool = True) -> None:
+        """Write the files of the commit, links among them if wanted, into an empty directory."""
         blobs = self.files()
         links: list[tuple[str, bytes]] = []
         for path, data in self.read(blobs):
@@ -163,6 +126,61 @@ class Commit:
             flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
             with open(os.open(place, flags, bits), "wb") as file:
                 file.write(data)
-        for place, target in links:  # the last ones: nothing is written through a link
+        for place, target in links if with_links else ():
+            # The last ones: nothing is written through a link.
             os.makedirs(os.path.dirname(place), exist_ok=True)
             os.symlink(target, os.fsencode(place))
+
+
+class Commit(Objects):
+    """A commit of the repository around a directory.
+
+    Args:
+        directory: A directory in the work tree.
+        revision: What the user calls the commit.
+
+    Raises:
+        InputError: there is no git, no repository, or no such commit.
+    """
+
+    def __init__(self, directory: str, revision: str) -> None:
+        super().__init__(directory, "", f"--since {revision}")
+        top = self._run("rev-parse", "--show-toplevel")
+        if top is None:
+            raise InputError(f"--since {revision}: git has no repository of yours at {directory}")
+        self.top = os.fsdecode(top.removesuffix(b"\n"))
+        """The top of the work tree."""
+        self._directory = self.top
+        words = ("--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
+        name = self._run("rev-parse", *words)
+        if not name:
+            raise InputError(f"--since {revision}: git knows no such commit")
+        self._name = os.fsdecode(name.strip())
+
+    @cached_property
+    def listed(self) -> frozenset[str]:
+        """The paths of the files in the work tree that git does not ignore, and of removed ones."""
+        listed = self._run("ls-files", "-z", "--cached", "--others", "--exclude-standard") or b""
+        return frozenset(os.fsdecode(path) for path in listed.split(b"\0") if path)
+
+    def changed(self) -> frozenset[str]:
+        """Return the paths, relative to the top, of files that are not as in the commit.
+
+        Files that git ignores are skipped; new and removed ones are not.
+        """
+        blobs = self.files()
+        there = {path for path in self.listed if os.path.lexists(os.path.join(self.top, path))}
+        differing = {path for path in there & blobs.keys() if not self._is_same(path, blobs[path])}
+        return frozenset((there ^ blobs.keys()) | differing)
+
+    def _is_same(self, path: str, blob: _Blob) -> bool:
+        place = os.path.join(self.top, path)
+        try:
+            if os.path.islink(place):
+                return _name(os.fsencode(os.readlink(place)), blob) == blob.name
+            data = read_file(place)
+        except OSError:
+            return False
+        if _name(data, blob) == blob.name:
+            return True
+        return b"\r\n" in data and _name(data.replace(b"\r\n", b"\n"), blob) == blob.name

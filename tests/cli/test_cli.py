@@ -393,3 +393,19 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="0"):
         main(["--version"])
     assert capsys.readouterr().out.startswith("ros2-scaffold 0.")
+
+
+@pytest.mark.parametrize("verb", ["new", "add"])
+def test_the_help_of_what_generates_is_in_groups(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main([verb, "--help"])
+    lines = capsys.readouterr().out.splitlines()
+    groups = [line.removesuffix(":") for line in lines if line.endswith(":") and line[0] != " "]
+    wanted = ["the package", "nodes", "nodes: topics", "nodes: services and actions", "interfaces"]
+    assert [group for group in groups if group in wanted] == wanted
+    assert groups[-2:] == ["where and how it is written", "templates"]
+    assert len(lines[0]) < 80
+    assert max(map(len, lines)) <= 80

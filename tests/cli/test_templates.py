@@ -144,3 +144,62 @@ def test_what_overrides_nothing_is_refused(
     place.mkdir(parents=True)
     assert main(["templates", "list", str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"ros2-scaffold: error: {place}: {message}\n"
+
+
+@pytest.mark.parametrize(
+    ("question", "shadowed"),
+    [
+        ("force", "the option --force"),
+        ("package_directory", "the option --package-directory"),
+        ("description", "the question of package"),
+        ("topic", "the question of lifecycle"),
+        ("header", "a variable"),
+        ("verb", "a variable"),
+    ],
+)
+def test_a_question_that_shadows_one_of_ours_is_named(
+    team: Path, capsys: pytest.CaptureFixture[str], question: str, shadowed: str
+) -> None:
+    manifest = team / "templates" / "extras" / "citation" / "template.yaml"
+    asked = "topic: { type: topic, default: scan" if question == "topic" else f"{question}: {{"
+    lines = manifest.read_text().replace("year_of_paper: { default: 2026", asked)
+    manifest.write_text(lines.replace("{,", "{"))
+    words = ("cited", "--extras", "citation", "--content", str(team))
+    assert main(["new", *words, "--destination-directory", str(team)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"{manifest}: the question {question!r} shadows {shadowed}" in line
+    assert not (team / "cited").exists()
+
+
+def test_the_questions_of_content_are_flags(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    maintainer = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+    words = ("--year-of-paper", "2030", "--extras", "citation", "--content", str(team))
+    place = ("--destination-directory", str(team))
+    assert main(["new", "cited", *words, *maintainer, *place]) == 0
+    assert (team / "cited" / "CITATION.cff").read_text() == "title: cited\nyear: 2030\n"
+    capsys.readouterr()
+    with pytest.raises(SystemExit):
+        main(["add", f"--content={team}", "--help"])
+    assert "--year-of-paper" in capsys.readouterr().out
+
+
+def test_a_template_of_ours_is_copied_to_start_from(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    team = tmp_path / "team"
+    assert main(["templates", "copy", "timer", str(team), "--name", "watchdog"]) == 0
+    assert (team / "templates" / "nodes" / "watchdog" / "template.yaml").is_file()
+    assert main(["templates", "copy", "package/README.md.jinja", str(team)]) == 0
+    assert [*(team / "templates" / "package").iterdir()] == [
+        team / "templates" / "package" / "README.md.jinja"
+    ]
+    assert main(["templates", "test", str(team)]) == 0
+    capsys.readouterr()
+    for wrong, message in (
+        (["timer", str(team), "--name", "watchdog"], "already exists"),
+        (["tmier", str(team)], "did you mean 'timer'?"),
+        (["timer/README.md.jinja", str(team)], "the template 'timer' has no file"),
+        (["timer"], "templates copy NAME DIR"),
+    ):
+        assert main(["templates", "copy", *wrong]) == 2
+        assert message in capsys.readouterr().err

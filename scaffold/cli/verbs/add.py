@@ -24,40 +24,49 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
-    from scaffold.cli import flags, settings
+    from scaffold.cli import flags, question_groups, settings
     from scaffold.configuration import content
     from scaffold.generate import parts
-    from scaffold.generate.questions import questions
     from scaffold.generate.templates import template
 
-    templates = template.load(content.roots("templates", settings.load().content))
+    own = settings.load(flags.content_in(parser)).content
+    templates = template.load(content.roots("templates", own))
+    parser.usage = f"{parser.prog} KIND [NAME] [OPTION ...]"
+    parser.epilog = question_groups.SEE_ALSO
     kinds = parts.addable(templates)
-    kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {', '.join(kinds)}")
+    listed = "; ".join(
+        f"{section}: {', '.join(names)}" for section, names in parts.sections(templates).items()
+    )
+    kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {listed}")
     kind.completer = lambda **_: kinds  # type: ignore[attr-defined]  # argcomplete
     name = parser.add_argument(
         "name",
         metavar="NAME",
         nargs="?",
-        help="the name of the node, interface or program; "
-        f"{', '.join(kinds[len(parts.kinds(templates)) :])} have none",
+        help="the name of the node, interface or program; extras have none",
     )
     name.completer = lambda **_: ()  # type: ignore[attr-defined]  # argcomplete
-    parser.add_argument(
+    package = parser.add_argument_group("the package")
+    package.add_argument(
         "--package-directory",
         metavar="DIR",
         help="the package (default: the one that contains the current directory)",
     )
-    parser.add_argument(
+    package.add_argument(
         "--launch",
         metavar="FILE",
         default="",
         help="a launch file of the package that starts the new node; no other is edited",
     )
-    questions.add_flags(parser, _asked(templates))
-    flags.add_answers(parser)
-    flags.add_looking(parser)
-    parser.add_argument("--force", action="store_true", help="overwrite existing files that differ")
-    flags.add_content(parser, flags.ANSWERED_BY_FILE)
+    names_of_flags = {question.name for question in _asked(templates)}
+    question_groups.add(parser, templates.values(), only=names_of_flags, package=package)
+    writing = parser.add_argument_group("where and how it is written")
+    flags.add_answers(writing)
+    flags.add_looking(writing)
+    writing.add_argument(
+        "--force", action="store_true", help="overwrite existing files that differ"
+    )
+    flags.add_content(parser.add_argument_group("templates"))
 
 
 def run(options: argparse.Namespace) -> int:
@@ -104,10 +113,14 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
     from scaffold.generate.questions.questions import choose
     from scaffold.generate.templates import template
     from scaffold.generate.templates.template import PARTS, Role
+    from scaffold.generate.update import update
     from scaffold.model.package import Package
 
     settings = config.load(content=tuple(options.content))
-    roots = content.roots("templates", settings.content)
+    directory = _directory(options.package_directory)
+    package = Package.at(directory)
+    recorded = update.recorded_content(package.tree, directory, settings.content)
+    roots = content.roots("templates", (*recorded, *settings.content))
     templates = template.load(roots)
     chosen = templates[choose(options.kind, parts.addable(templates), "KIND")]
     is_part = chosen.role in PARTS
@@ -117,8 +130,7 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
         raise InputError(f"NAME does not apply to {chosen.name}, which is for the whole package")
     if options.launch and chosen.role is not Role.NODE:
         raise InputError(f"--launch: does not apply to {chosen.name}, which is not a node")
-    directory = _directory(options.package_directory)
-    target = Target(Package.at(directory), roots, templates, User(directory))
+    target = Target(package, roots, templates, User(directory))
     given = _given(options, templates, settings)
     return target, Wanted(chosen, options.name, given, options.launch)
 

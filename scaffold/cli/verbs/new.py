@@ -27,23 +27,18 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
-    from scaffold.cli import flags, settings
+    from scaffold.cli import flags, question_groups, settings
     from scaffold.configuration import content
     from scaffold.generate import parts
-    from scaffold.generate.questions import questions
     from scaffold.generate.templates import template
 
     parser.usage = f"{parser.prog} [PACKAGE] [OPTION ...]"
-    templates = template.load(content.roots("templates", settings.load().content))
+    own = settings.load(flags.content_in(parser)).content
+    templates = template.load(content.roots("templates", own))
     parser.set_defaults(templates=templates)
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
-    general = {question.name for question in templates[template.BASE].questions}
-    asked = questions.shared(_in_order(templates))
-    about_package = [item for item in asked if item.name in general]
-    questions.add_flags(parser.add_argument_group("the package"), about_package, kinds)
-    about_parts = [item for item in asked if item.name not in general]
-    group = parser.add_argument_group("its node, interface or program")
-    questions.add_flags(group, about_parts, kinds)
+    parser.epilog = question_groups.SEE_ALSO
+    question_groups.add(parser, _in_order(templates), kinds)
     writing = parser.add_argument_group("where and how it is written")
     writing.add_argument(
         "--destination-directory",
@@ -56,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     writing.add_argument(
         "--force", action="store_true", help="overwrite files of an existing package that differ"
     )
-    flags.add_content(writing, flags.ANSWERED_BY_FILE)
+    flags.add_content(parser.add_argument_group("templates"))
 
 
 def run(options: argparse.Namespace) -> int:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from scaffold.generate.templates.template import Template
     from scaffold.model.package import Package
 
-ACTIONS = ("list", "test")
+ACTIONS = ("list", "test", "copy")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,15 +26,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         choices=ACTIONS,
         default="list",
-        help="list the templates (the default), or test them: render their examples and check "
-        "the packages with every rule",
+        help="list the templates (the default), test them: render their examples and check the "
+        "packages with every rule, or copy one to start from: copy NAME DIR, or one file of it: "
+        "copy NAME/FILE DIR",
     )
     parser.add_argument(
-        "directory",
-        nargs="?",
+        "words",
+        nargs="*",
         metavar="DIR",
-        help="a directory with templates/ of your own: test those in it (default: all)",
+        help="a directory with templates/ of your own: those in it (default: all)",
     )
+    parser.add_argument("--name", metavar="NAME", default="", help="what the copy is called")
     parser.add_argument("--content", metavar="DIR", help="another way to name the directory")
     parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
 
@@ -43,11 +45,16 @@ def run(options: argparse.Namespace) -> int:
     """List templates, or test them."""
     from scaffold.cli import settings
     from scaffold.configuration import content
+    from scaffold.errors import InputError
     from scaffold.generate.templates import template
 
-    if options.directory is None:
-        options.directory = options.content
+    if options.action == "copy":
+        return _copy(options)
+    if len(options.words) > 1:
+        raise InputError(f"{options.words[1]!r}: only one directory can be named")
+    options.directory = options.words[0] if options.words else options.content
     own = _own(options.directory)
+    options.directory = own[0] if own else None
     roots = content.roots("templates", (*settings.load().content, *own))
     templates = template.load(roots)
     if options.directory is not None:
@@ -65,11 +72,29 @@ def run(options: argparse.Namespace) -> int:
     return _test(options, roots, templates, templates_of)
 
 
+def _copy(options: argparse.Namespace) -> int:
+    from scaffold.cli import settings
+    from scaffold.cli.exit_codes import CLEAN
+    from scaffold.configuration import content
+    from scaffold.errors import InputError
+    from scaffold.generate.templates import copying, template
+
+    words = [*options.words, *([options.content] if options.content else [])]
+    if len(words) != 2:  # noqa: PLR2004  NAME and DIR
+        raise InputError("write it as: ros2-scaffold templates copy NAME DIR")
+    templates = template.load(content.roots("templates", settings.load().content))
+    terminal.show(copying.copy(templates, *words, options.name))
+    return CLEAN
+
+
 def _own(directory: str | None) -> tuple[str, ...]:
+    from scaffold.configuration import content, git_content
     from scaffold.errors import InputError
 
     if directory is None:
         return ()
+    if content.is_url(directory):
+        return (git_content.resolve(directory).directory,)
     if not os.path.isdir(os.path.join(directory, "templates")):
         raise InputError(f"{directory}: it has no directory 'templates'")
     return (directory,)
@@ -99,8 +124,12 @@ def _test(
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
     from scaffold.generate import examples
+    from scaffold.generate.templates.template import BASE
 
     rules = registry.load(content.roots("rules"))
+    if BASE in names:  # it has no examples of its own: it is in all packages
+        usual = next(item for item in templates[BASE].questions if item.name == "node_kind")
+        names = [*dict.fromkeys([*names, str(usual.default)])]
     tried: list[Tried] = []
     for attempt in examples.check(names, roots, templates, rules):
         tried.append(attempt)
@@ -111,7 +140,7 @@ def _test(
     wrong = sum(bool(item.defects) for item in tried)
     if options.build:
         wrong += _build(tried)
-    without = sorted(set(names) - {item.example.template for item in tried})
+    without = sorted(set(names) - {item.example.template for item in tried} - {BASE})
     for name in without:
         terminal.note(f"{name} has no examples: it was not tested")
     terminal.show(f"{len(tried)} examples, {wrong} wrong")

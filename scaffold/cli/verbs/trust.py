@@ -16,7 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "for this directory, not for those below it, and lasts until it is removed."
     )
     parser.add_argument(
-        "directory", nargs="?", metavar="DIR", help="the directory that has the configuration"
+        "directory",
+        nargs="?",
+        metavar="DIR",
+        help="the directory that has the configuration, or the URL of a git repository that "
+        "--content names",
     )
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--list", action="store_true", help="list the trusted directories")
@@ -26,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Change or show the list of trusted directories."""
     from scaffold.cli.exit_codes import CLEAN
-    from scaffold.configuration import trust
+    from scaffold.configuration import content, trust
     from scaffold.errors import InputError
 
     if options.list:
@@ -37,13 +41,16 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("DIR is required: the directory that has the ros2-scaffold.toml")
     elif options.remove:
         terminal.show(f"no longer trusted: {trust.remove(options.directory)}")
+    elif content.is_url(options.directory):
+        trust.add_url(options.directory)
+        terminal.show(f"trusted: {options.directory}")
     else:
         _add(options.directory)
     return CLEAN
 
 
 def _add(directory: str) -> None:
-    from scaffold.configuration import config, trust
+    from scaffold.configuration import config, content, trust
     from scaffold.files.disk import Disk
 
     # Before anything is trusted: the file may be broken.
@@ -52,7 +59,8 @@ def _add(directory: str) -> None:
     real = trust.add(directory)
     terminal.show(f"trusted: {real}")
     for name in names:
-        terminal.show(f"    rules and templates from {os.path.normpath(name)}")
+        place = name if content.is_url(name) else os.path.normpath(name)
+        terminal.show(f"    rules and templates from {place}")
     if not has_file:
         terminal.note(
             f"there is no {config.PROJECT_FILE} in {real}; trust is for the directory that has "
@@ -72,3 +80,5 @@ def _list() -> None:
         elif disk.owner(directory) != owner:
             note = "  (no longer: its owner has changed)"
         terminal.show(f"{directory}{note}")
+    for url in trust.trusted_urls():
+        terminal.show(url)

@@ -45,7 +45,9 @@ def run(options: argparse.Namespace) -> int:
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
         raise InputError(f"{directory}: no such directory")
-    roots = content.roots("templates", settings.load(options.content).content)
+    given = settings.load(options.content).content
+    recorded = update.recorded_content(DiskTree(directory), directory, given)
+    roots = content.roots("templates", (*recorded, *given))
     templates = template.load(roots)
     place = repository.place_of(directory)
     is_dry = options.diff or options.dry_run

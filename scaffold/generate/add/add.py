@@ -107,6 +107,7 @@ def add(target: Target, wanted: Wanted) -> Added:
         old = regenerate.provenance_of(package)
         if old is not None and old.merged:
             old = regenerate.joined(target, old)
+        old = old and old.with_roots(target.roots)
         wanted = wanted._replace(given={**regenerate.remembered(old), **wanted.given})
         made = rendered_part.make(target, old, wanted)
         _refuse_taken(package, made)

@@ -18,7 +18,7 @@ from scaffold.errors import ContentError
 from scaffold.files import cache
 from scaffold.files.disk import digest, stamp
 from scaffold.generate import yaml_file
-from scaffold.generate.templates import licenses
+from scaffold.generate.templates import licenses, reserved
 from scaffold.record import NamedTuple
 
 MANIFEST = "template.yaml"
@@ -206,6 +206,7 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
     }
     if templates[BASE].role is not Role.PACKAGE if BASE in templates else True:
         raise ContentError(f"no template {BASE!r} for every package in {', '.join(roots)}")
+    reserved.refuse_shadowing(templates, BASE, MANIFEST)
     _refuse_ambiguous_questions(templates)
     license_names = licenses.names(roots)
     return {

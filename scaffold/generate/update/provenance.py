@@ -16,6 +16,7 @@ from types import MappingProxyType
 from typing import Any
 
 from scaffold import __version__
+from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD
@@ -48,6 +49,15 @@ _ATTRIBUTES = f"""\
 """
 
 
+class Source(NamedTuple):
+    """A revision of a git repository that templates came from."""
+
+    url: str
+    revision: str
+    """A tag, a branch or a commit, as the user named it."""
+    commit: str
+
+
 class Provenance(NamedTuple):
     """How a package was made."""
 
@@ -67,15 +77,24 @@ class Provenance(NamedTuple):
     """Whether the record has the form in which it would be written now."""
     has_sidecar: bool = True
     """Whether its form has one; that of earlier versions had not."""
+    sources: tuple[Source, ...] = ()
+    """The git repositories that templates came from."""
 
     @classmethod
     def of(cls, made: Draft) -> Provenance:
         """Return the record of a package that is made now."""
-        return cls(made.day, made.answers, made.rendered.files)
+        return cls(made.day, made.answers, made.rendered.files).with_roots(made.roots)
 
     def with_files(self, answers: Mapping[str, Any], rendered: Mapping[str, str]) -> Provenance:
         """Return the record of the same package with more in it, which is added now."""
-        return Provenance(self.date, answers, rendered)
+        return Provenance(self.date, answers, rendered, sources=self.sources)
+
+    def with_roots(self, roots: Sequence[str]) -> Provenance:
+        """Return the record of a package that templates in these directories are used for now."""
+        now = [Source(item.url, item.name, item.commit) for item in content.revisions(roots)]
+        urls = {source.url for source in now}
+        others = [source for source in self.sources if source.url not in urls]
+        return self._replace(sources=(*others, *now))
 
     def completed(self, candidates: Mapping[str, bytes]) -> Provenance:
         """Return the record with lost files that are found elsewhere.
@@ -108,6 +127,7 @@ class Provenance(NamedTuple):
         """
         parts = self.answers.get(ADD, [])
         others = sorted(item for item in self.answers.items() if item[0] != ADD)
+        sources = [f"    {_json(source._asdict())}," for source in self.sources]
         hashes = [(path, hash_of(text.encode())) for path, text in sorted(self.rendered.items())]
         return "\n".join(
             [
@@ -122,6 +142,7 @@ class Provenance(NamedTuple):
                 "      null",
                 "    ]",
                 "  },",
+                *(['  "content": [', *sources, "    null", "  ],"] if sources else []),
                 '  "files": {',
                 *(f"    {_json(path)}: {_json(hash_)}," for path, hash_ in hashes),
                 '    "": null',
@@ -158,6 +179,7 @@ def parse(text: str, path: str, sidecar: str | None = None) -> Provenance:
             old = _unpacked(entries["rendered"])
             return Provenance(day, answers, old, version, is_canonical=False, has_sidecar=False)
         hashes = _hashes(entries["files"])
+        sources = _sources(entries.get("content", []))
     except _TypeError as error:
         raise InputError(f"{path}: damaged: an entry has the wrong type") from error
     except (ValueError, zlib.error, KeyError, TypeError, RecursionError) as error:
@@ -177,7 +199,7 @@ def parse(text: str, path: str, sidecar: str | None = None) -> Provenance:
     merged = {name: several for name, several in hashes.items() if len(several) > 1}
     is_agreed = answers.keys() == entries["answers"].keys()
     is_canonical = is_agreed and not lost and not merged
-    return Provenance(day, answers, rendered, version, lost, merged, is_canonical)
+    return Provenance(day, answers, rendered, version, lost, merged, is_canonical, sources=sources)
 
 
 class _TypeError(Exception):
@@ -239,6 +261,19 @@ def _hashes(entries: object) -> dict[str, tuple[str, ...]]:
         raise _TypeError
     _refuse_surrogates(hashes)
     return hashes
+
+
+def _sources(entries: object) -> tuple[Source, ...]:
+    """Return the repositories that templates came from."""
+    if not isinstance(entries, list):
+        raise _TypeError
+    sources = [entry for entry in entries if entry is not None]
+    for entry in sources:
+        if not isinstance(entry, dict) or {*entry} != {*Source._fields}:
+            raise _TypeError
+        if not all(isinstance(value, str) for value in entry.values()):
+            raise _TypeError
+    return tuple(Source(**entry) for entry in sources)
 
 
 def _unpacked(packed: str) -> dict[str, str]:

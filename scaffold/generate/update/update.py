@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from scaffold.configuration import git_content
+from scaffold.configuration.content import is_url
 from scaffold.errors import InputError
 from scaffold.files.tree import Tree
 from scaffold.formats.conflicts import first_conflict
@@ -86,13 +88,41 @@ def update(
     provenance = provenance.completed(now).completed(present)
     refuse_lost(provenance, where, now.keys() & present.keys())
     files, conflicts = _merged(present, provenance, made, remarks)
-    if provenance.rendered != made.rendered.files or not provenance.is_canonical:
+    written = Provenance.of(made)
+    is_as_recorded = provenance.sources == written.sources and provenance.is_canonical
+    if provenance.rendered != made.rendered.files or not is_as_recorded:
         is_new = not provenance.has_sidecar and ATTRIBUTES not in {*files, *tree.files}
-        written = Provenance.of(made).files(is_new=is_new)
-        files |= {path: text.encode() for path, text in written.items()}
+        record = written.files(is_new=is_new)
+        files |= {path: text.encode() for path, text in record.items()}
     executable = frozenset(path for path in made.rendered.executable if path in files)
     remarks += made.conflicts
     return Updated(files, executable, conflicts, tuple(remarks))
+
+
+def recorded_content(tree: Tree, where: str, given: Sequence[str]) -> list[str]:
+    """Return the repositories that the templates of a package came from, as ``--content`` has them.
+
+    Args:
+        tree: The package.
+        where: Its directory, for messages.
+        given: Content that the user names; of a repository in it, this revision counts.
+
+    Raises:
+        InputError: the record is damaged, or has two revisions of a repository.
+    """
+    if NAME not in tree.files:
+        return []
+    urls = {git_content.split(text)[0] for text in given if is_url(text)}
+    sources = {}
+    for source in read(tree, where).sources:
+        if source.url in urls:
+            continue
+        if sources.setdefault(source.url, source.revision) != source.revision:
+            raise InputError(
+                f"{where}/{NAME}: two branches used different revisions of {source.url}; name "
+                f"the one that counts: --content {source.url}@{source.revision}"
+            )
+    return [f"{url}@{revision}" for url, revision in sources.items()]
 
 
 def read(tree: Tree, where: str) -> Provenance:
@@ -151,7 +181,7 @@ def _known_part(
     if template is None:
         raise InputError(
             f"{origin}: made with the template {part.get(KIND)!r}, which does not exist here; "
-            "--content names the directory of a team's templates"
+            "--content names the directory, or the URL@REV, of a team's templates"
         )
     names = {KIND, *(question.name for question in template.questions)}
     remarks += [f"{template.name} no longer asks for {name}" for name in part if name not in names]

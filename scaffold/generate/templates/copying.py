@@ -1,0 +1,46 @@
+"""Copies a template, or a file of one, to start a template of one's own from."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Mapping
+from difflib import get_close_matches
+
+from scaffold.errors import ConflictError, InputError
+from scaffold.generate.templates.template import BASE, FOLDERS, Template
+
+
+def copy(templates: Mapping[str, Template], what: str, content: str, name: str = "") -> str:
+    """Copy a template into a content directory and return where it is then.
+
+    Args:
+        templates: All templates.
+        what: The name of a template, or of one and the path of a file in it.
+        content: The directory that gets it, in its ``templates``.
+        name: What the copy is called; by default as the template, which it overrides.
+
+    Raises:
+        InputError: there is no such template or file.
+        ConflictError: something is there already.
+    """
+    original, _, path = what.partition("/")
+    if original not in templates:
+        closest = get_close_matches(original, templates, n=1)
+        hint = f"; did you mean {closest[0]!r}?" if closest else "; `ros2-scaffold templates`"
+        raise InputError(f"there is no template {original!r}{hint}")
+    template = templates[original]
+    source = os.path.join(template.directory, path)
+    if path and not os.path.isfile(source):
+        raise InputError(f"the template {original!r} has no file {path!r} of its own")
+    folders = [folder for folder, role in FOLDERS.items() if role is template.role]
+    names = [BASE] if original == BASE else [*folders, name or original]
+    place = os.path.join(content, "templates", *names, *([path] if path else []))
+    if os.path.lexists(place):
+        raise ConflictError(f"{place} already exists; nothing was written")
+    os.makedirs(os.path.dirname(place), exist_ok=True)
+    if path:
+        shutil.copyfile(source, place)
+    else:
+        shutil.copytree(source, place, copy_function=shutil.copyfile)
+    return place
