@@ -83,7 +83,7 @@ def _copy(options: argparse.Namespace) -> int:
     if len(words) != 2:  # noqa: PLR2004  NAME and DIR
         raise InputError("write it as: ros2-scaffold templates copy NAME DIR")
     templates = template.load(content.roots("templates", settings.load().content))
-    terminal.show(copying.copy(templates, *words, options.name))
+    terminal.show(copying.copy(templates, words[0], words[1], options.name))
     return CLEAN
 
 

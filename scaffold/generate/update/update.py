@@ -113,7 +113,7 @@ def recorded_content(tree: Tree, where: str, given: Sequence[str]) -> list[str]:
     if NAME not in tree.files:
         return []
     urls = {git_content.split(text)[0] for text in given if is_url(text)}
-    sources = {}
+    sources: dict[str, str] = {}
     for source in read(tree, where).sources:
         if source.url in urls:
             continue

@@ -135,7 +135,8 @@ def test_a_template_of_a_team_that_is_not_named(
         assert main(command) == 2
         assert capsys.readouterr().err == (
             "ros2-scaffold: error: talker/.ros2-scaffold.json: made with the template 'beacon', "
-            "which does not exist here; --content names the directory of a team's templates\n"
+            "which does not exist here; --content names the directory, or the URL@REV, of a team's "
+            "templates\n"
         )
 
 
