@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import returned
 from scaffold.api.rclpy import CALLBACKS, RESULT, Callback, RclpyFile, callback_arguments
 
@@ -23,10 +23,11 @@ _NODE = (
 
 
 class ParameterCallbackMisused(RclpyRule):
-    """A parameter callback is called instead of passed, or treats its list as a parameter.
+    """A parameter callback is called instead of passed, or misreads what it is given.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
-    'list' object has no attribute 'value'`` as soon as a parameter is set.
+    'list' object has no attribute 'value'`` as soon as a parameter is set. Until the callback
+    returns, ``get_parameter`` gives the old value.
 
     **Fix.** Pass the function, and iterate over the list: ``for parameter in parameters:``.
 
@@ -36,8 +37,38 @@ class ParameterCallbackMisused(RclpyRule):
 
     code = "ND084"
     name = "parameter-callback-misused"
+    other_severities = {Severity.WARNING: "the old value is read"}
     examples = (
         Example("an item of the list", {"talker.py": _NODE.format("self.on_set", "[0]")}),
+        Example(
+            "the old value, to compare",
+            {
+                "talker.py": _NODE.format("self.on_set", "[0]").replace(
+                    "        self.rate = parameters[0].value\n",
+                    "        for parameter in parameters:\n"
+                    "            if parameter.name == 'rate':\n"
+                    "                old = self.get_parameter('rate').value\n"
+                    "                self.rate = max(old, parameter.value)\n",
+                )
+            },
+        ),
+        Example(
+            "the old value",
+            {
+                "talker.py": _NODE.format("self.on_set", "[0]").replace(
+                    "        self.rate = parameters[0].value\n",
+                    "        for parameter in parameters:\n"
+                    "            if parameter.name == 'rate':\n"
+                    "                self.rate = self.get_parameter('rate').value\n",
+                )
+            },
+            Report(
+                "14:29",
+                "the parameter still has its old value here; use the value that the "
+                "callback is given",
+                severity=Severity.WARNING,
+            ),
+        ),
         Example(
             "called",
             {"talker.py": _NODE.format("self.on_set([])", "[0]")},
@@ -86,7 +117,14 @@ class ParameterCallbackMisused(RclpyRule):
                     problem = _problem(file, call.args[0])
                     if problem:
                         yield self.report(file.module.location(call.args[0]), problem)
-        for argument in callback_arguments(file):
+        for argument, function in callback_arguments(file).items():
+            for read in _old_values(file, function):
+                yield self.report(
+                    file.module.location(read),
+                    "the parameter still has its old value here; use the value that the callback "
+                    "is given",
+                    severity=Severity.WARNING,
+                )
             for name in file.module.index.names(argument.arg):
                 problem = _list_problem(file, name)
                 if problem and file.parameter_of(name) is argument:
@@ -115,6 +153,28 @@ def _gives_results(file: RclpyFile, callback: Callback) -> bool:
         isinstance(value, ast.Call) and file.module.qualified_name(value.func) == RESULT
         for value in values
     )
+
+
+def _old_values(file: RclpyFile, function: ast.AST) -> Iterator[ast.Call]:
+    """Yield what reads a parameter, for an attribute, where the callback looks at its new value."""
+    for branch in file.module.below(function, ast.If):
+        match branch.test:
+            case ast.Compare(ops=[ast.Eq()], comparators=[ast.Constant(value=str() as name)]):
+                for assigned in branch.body:
+                    if isinstance(assigned, ast.Assign) and isinstance(
+                        assigned.targets[0], ast.Attribute
+                    ):
+                        yield from _reads(assigned.value, name)
+
+
+def _reads(node: ast.expr, name: str) -> Iterator[ast.Call]:
+    for call in ast.walk(node):
+        match call:
+            case ast.Call(
+                func=ast.Attribute(attr="get_parameter"), args=[ast.Constant(value=read)]
+            ):
+                if read == name:
+                    yield call
 
 
 def _list_problem(file: RclpyFile, name: ast.Name) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import Reference, meant_package
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.launch import Reference, exists, meant_package
+from scaffold.api.manifest import declared
 from scaffold.api.robot import named_files
 
 _MANIFEST = (
@@ -20,17 +21,18 @@ _ROBOT = (
 
 
 class PackageNotThere(Rule):
-    """A URDF or xacro file names a package that does not exist, but another one nearly so.
+    """A URDF or xacro file names a package that does not exist, or that nobody declares.
 
     **Why.** xacro stops, ``package 'robopy' not found``; for a mesh, RViz shows nothing.
 
-    **Fix.** Write the name that is in package.xml.
+    **Fix.** Write the name that is in package.xml; declare the package.
 
     **Source.** xacro, ``substitution_args.py``; resource_retriever.
     """
 
     code = "UR002"
     name = "package-not-there"
+    other_severities = {Severity.WARNING: "a package that exists, but is not declared"}
     examples = (
         Example(
             "declared; not known",
@@ -38,7 +40,22 @@ class PackageNotThere(Rule):
                 "package.xml": _MANIFEST,
                 "a.xacro": _ROBOT.format("turret_description"),
                 "b.xacro": _ROBOT.format("my_arm"),
-                "c.xacro": _ROBOT.format("turtlebot3_gazebo"),
+            },
+        ),
+        Example(
+            "one that is not declared",
+            {"package.xml": _MANIFEST, "a.xacro": _ROBOT.format("realsense2_description")},
+            Report(
+                "a.xacro:2:28",
+                "needs 'realsense2_description', which no dependency in package.xml "
+                "provides; add <exec_depend>realsense2_description</exec_depend>",
+                fix="declare realsense2_description",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST.replace(
+                    "  <exec", "  <exec_depend>realsense2_description</exec_depend>\n  <exec", 1
+                )
             },
         ),
         Example(
@@ -53,6 +70,9 @@ class PackageNotThere(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        there = declared(package, for_tests=False)
+        seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
         for named in named_files(package):
             if not named.package or not package.has("package.xml"):
                 continue
@@ -64,3 +84,14 @@ class PackageNotThere(Rule):
                     f"({meant.reason})?"
                 )
                 yield self.report(named, message)
+            elif named.package not in seen and exists(package, named.package):
+                seen.add(named.package)
+                tag = "exec_depend" if manifest.format > 1 else "run_depend"
+                yield self.report(
+                    named,
+                    f"needs {named.package!r}, which no dependency in package.xml provides; add "
+                    f"<{tag}>{named.package}</{tag}>",
+                    Fix(f"declare {named.package}", (manifest.insert(tag, named.package),)),
+                    severity=Severity.WARNING,
+                    cause=f"dependency {named.package}",
+                )
