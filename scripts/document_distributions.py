@@ -79,9 +79,30 @@ def _build(one: Distribution) -> Iterator[str]:
         if both
         else "- Interfaces and a Python package of the same name are packages of their own."
     )
-    if one.fact("wheels.available"):
-        yield "- There are wheels for Python, which need no installation of ROS 2."
+    extra = one.fact("wheels.extra")
+    if extra:
+        yield (
+            "- There are wheels for Python, which need no installation of ROS 2: the extra "
+            f"`{extra}`."
+        )
+    yield from (f"- {line}" for line in _templates(one))
     yield ""
+
+
+def _templates(one: Distribution) -> Iterator[str]:
+    """Yield what `new` writes that it does not write for all."""
+    if one.fact("templates.has_init_block"):
+        yield "`new` writes `with rclpy.init():`: the end of the block disconnects."
+    else:
+        yield "`new` writes `rclpy.init()` and, in `finally`, `rclpy.try_shutdown()`."
+    if one.fact("templates.is_typed"):
+        yield (
+            "`new` writes `py.typed` and a test with ament_xmllint into packages of ament_python, "
+            "as `ros2 pkg create` does."
+        )
+    variables = one.fact("templates.only_here").items()
+    settings = ", ".join(f"`{name}={value}`" for name, value in variables)
+    yield f"Tests that `new` writes stay on their machine by {settings}."
 
 
 def _linters(one: Distribution) -> Iterator[str]:

@@ -60,17 +60,19 @@ def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Res
     """Return one result for each package, with the findings for all distributions.
 
     Args:
-        by_distribution: The results for each distribution, in the same packages.
+        by_distribution: The results for each distribution, in the packages that are for it.
     """
-    first, *_ = by_distribution.values()
-    results: list[Result] = []
-    for at, result in enumerate(first):
-        findings = {
-            distribution: results_[at].diagnostics
-            for distribution, results_ in by_distribution.items()
-        }
-        results.append(result._replace(diagnostics=_merged(findings), verdict=None))
-    return results
+    by_package: dict[str, dict[Distribution, Result]] = {}
+    for distribution, results in by_distribution.items():
+        for result in results:
+            by_package.setdefault(result.package.directory, {})[distribution] = result
+    return [
+        next(iter(those.values()))._replace(
+            diagnostics=_merged({item: result.diagnostics for item, result in those.items()}),
+            verdict=None,
+        )
+        for those in by_package.values()
+    ]
 
 
 def without_distribution(message: str) -> str:

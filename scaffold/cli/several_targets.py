@@ -9,7 +9,7 @@ from scaffold.cli import baselines, fixing, terminal
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from scaffold.check.cache.runs import CachedRun, CacheEntry
     from scaffold.check.result import Result
@@ -33,6 +33,7 @@ class SeveralTargets:
         session: The rules.
         settings: The configuration.
         disk: Notes what is accessed outside of the packages.
+        by_record: What packages are for, by directory; all, if they are not named.
     """
 
     def __init__(
@@ -41,12 +42,15 @@ class SeveralTargets:
         session: AgreedSession,
         settings: Config,
         disk: Disk,
+        by_record: Mapping[str, Sequence[Distribution]],
     ) -> None:
         self._options = options
         self._session = session
         self._settings = settings
         self._disk = disk
         self._notes = options.notes
+        self._by_record = by_record
+        self._is_mixed = len({tuple(named) for named in by_record.values()}) > 1
         self._targets: Sequence[Target] = ()
         self._runs: list[CachedRun | None] = []
 
@@ -57,6 +61,12 @@ class SeveralTargets:
         for flag in ONE_AT_A_TIME:
             if getattr(self._options, flag):
                 raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
+        if self._is_mixed and (self._options.fix or self._options.diff):
+            titles = distributions.titles(self._options.distributions)
+            raise InputError(
+                f"the packages are for {titles}, and not all for the same: fix those of each on "
+                "their own, by their paths"
+            )
         if self._options.fix or self._options.diff:
             return self._fix()
         return self._report(self._checked(), is_saved=True)
@@ -92,12 +102,17 @@ class SeveralTargets:
 
         options, session = self._options, self._session
         by_distribution: ByDistribution = {}
-        self._runs = []
+        self._runs, every = [], []
         for distribution in options.distributions:
             options.notes = self._notes
             others = [item for item in options.distributions if item is not distribution]
             with distributions.targeting(distribution, kept=others):
-                self._targets = check.find_targets(options, session, self._disk)
+                self._targets = [
+                    target
+                    for target in check.find_targets(options, session, self._disk)
+                    if distribution in self._by_record.get(target.package.directory, [distribution])
+                ]
+                every += self._targets
                 slot = self._slot(distribution)
                 memory = ResultCache(
                     slot.last if slot else None, self._targets, is_saved=slot is not None
@@ -108,6 +123,7 @@ class SeveralTargets:
                     self._runs.append(memory.save(slot, self._disk, results, 0, None))
             options.notes += check.foreign_note(session, results)
             check.note_types(session)
+        self._targets = [*{target.package.directory: target for target in every}.values()]
         return by_distribution
 
     def _report(self, by_distribution: ByDistribution, *, is_saved: bool) -> int:
@@ -134,7 +150,7 @@ class SeveralTargets:
 
         options = self._options
         is_unfinished = check.note_unfinished(self._targets)
-        if self._settings.content or is_unfinished or options.write_baseline:
+        if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
         if getattr(options, "slot", None) is None:
             return None

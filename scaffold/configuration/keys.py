@@ -242,7 +242,7 @@ KEYS = (
         "distribution",
         DISTRIBUTION,
         distributions.DEFAULT,
-        "The distributions of ROS 2 that packages are checked for.",
+        "The distributions of ROS 2 that packages are for: `check`, and what `new` makes.",
     ),
 )
 """In the order of the documentation."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from scaffold.doctor.machine import PREFERRED, Machine, has_package
-from scaffold.programs import installation
+from scaffold import distributions
+from scaffold.doctor.machine import Machine, has_package
+from scaffold.programs import wheels
 from scaffold.record import NamedTuple
 
 COLCON = "python3-colcon-common-extensions"
@@ -70,7 +71,8 @@ def _installed(machine: Machine) -> Iterator[Environment]:
 
 
 def _wheels(machine: Machine) -> Environment:
-    command = installation.command("ros")
+    distribution = wheels.of(machine.own_prefix)
+    command = wheels.command(distributions.named(distribution))
     if not has_package(machine.own_prefix, "rclpy"):
         missing = [Missing("the extra 'ros'", command)]
         return Environment(
@@ -83,7 +85,7 @@ def _wheels(machine: Machine) -> Environment:
         if not os.path.exists(os.path.join(machine.own_prefix, path))
     ]
     reason = "rclpy is among the packages of this tool"
-    return Environment("wheels", machine.own_prefix, PREFERRED, lacking, reason)
+    return Environment("wheels", machine.own_prefix, distribution, lacking, reason)
 
 
 def _tools(machine: Machine) -> Iterator[Missing]:

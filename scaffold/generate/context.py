@@ -9,7 +9,10 @@ from datetime import date, datetime, timezone
 from pathlib import Path
 from typing import Any
 
+from scaffold import distributions
+from scaffold.distributions import Distribution
 from scaffold.errors import InputError
+from scaffold.generate import target
 from scaffold.generate.parts import Part
 from scaffold.generate.questions import names
 from scaffold.generate.questions.questions import flag
@@ -35,6 +38,7 @@ def package_context(
     renderer: Renderer,
     day: date,
     subdirectory: str = "",
+    targets: Sequence[Distribution] = (),
 ) -> dict[str, Any]:
     """Return the variables of all files.
 
@@ -43,11 +47,11 @@ def package_context(
     are templates for), ``subdirectory`` (the way from the top of the git repository to the package;
     empty at the top), ``license_text`` and ``contributing_text`` (the templates of the full text
     and of CONTRIBUTING.md), ``nodes``, ``interfaces`` and ``programs``, ``depends`` (names by
-    kind), ``groups``, ``tests`` (of
-    extras) and ``share_directories``. A part has the answers of its template, ``kind``,
-    ``name`` and ``summary``; a node also has ``module``, ``class_name``, ``executable``,
-    ``parameter_file``, ``has_parameters`` and the full names of its topics, services and actions;
-    an interface has ``file`` and ``type``.
+    kind), ``groups``, ``tests`` (of extras), ``share_directories`` and ``target`` (see
+    `scaffold.generate.target`). A part has the answers of its template, ``kind``, ``name`` and
+    ``summary``; a node also has ``module``, ``class_name``, ``executable``, ``parameter_file``,
+    ``has_parameters`` and the full names of its topics, services and actions; an interface has
+    ``file`` and ``type``.
 
     Raises:
         InputError: two answers contradict each other.
@@ -60,6 +64,7 @@ def package_context(
         "tutorial": answers["comments"] == "tutorial",
         "has_license": True,
         "subdirectory": subdirectory,
+        "target": target.context(targets or [distributions.target()]),
         "license_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.TEXT}",
         "contributing_text": f"{licenses.DIRECTORY}/{answers['license']}/{licenses.CONTRIBUTING}",
     }

@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from datetime import date
+from itertools import zip_longest
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from scaffold import distributions
 from scaffold.configuration.config import USER_FILE
+from scaffold.distributions import Distribution
 from scaffold.errors import ContentError, InputError
 from scaffold.files import home
-from scaffold.generate import connections, parts
+from scaffold.generate import connections, parts, target
 from scaffold.generate.connections import Open, Use, clashes, conflicts, uses
 from scaffold.generate.context import package_context, part_scopes, today
 from scaffold.generate.parts import Part, Request
@@ -25,6 +28,7 @@ from scaffold.generate.templates.template import BASE, PARTS, Question, Role, Te
 if TYPE_CHECKING:
     from scaffold.check.rule import Rule
     from scaffold.diagnostic import Diagnostic
+    from scaffold.model.package import Package
 
 
 class Draft(NamedTuple):
@@ -45,6 +49,8 @@ class Draft(NamedTuple):
     """The date in its files."""
     roots: Sequence[str]
     """The directories of the templates."""
+    targets: tuple[Distribution, ...]
+    """What it is for, oldest first."""
 
 
 class Order(NamedTuple):
@@ -82,9 +88,12 @@ def draft(
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
-    composed = compose(roots, templates, given, user, day=day, place=place)
+    targets = target.of(given)
+    composed, rendered = _rendered(roots, templates, given, user, day, place, targets[0])
+    for other in targets[1:]:
+        _, theirs = _rendered(roots, templates, given, user, day, place, other)
+        _refuse_different(rendered, theirs, targets[0], other)
     context, renderer = composed.context, composed.renderer
-    rendered = renderer.package(part_scopes(composed.layers, context))
     return Draft(
         name=context["package"],
         build_type=context["build_type"],
@@ -101,7 +110,39 @@ def draft(
         answers=composed.answers,
         day=date.fromisoformat(context["date"]),
         roots=roots,
+        targets=tuple(targets),
     )
+
+
+def _rendered(
+    roots: Sequence[str],
+    templates: Mapping[str, Template],
+    given: Mapping[str, Given],
+    user: User,
+    day: date | None,
+    place: Place,
+    distribution: Distribution,
+) -> tuple[Composed, Rendered]:
+    """Return a package with the interfaces of a distribution."""
+    with distributions.targeting(distribution):
+        composed = compose(roots, templates, given, user, day=day, place=place)
+        return composed, composed.renderer.package(part_scopes(composed.layers, composed.context))
+
+
+def _refuse_different(
+    rendered: Rendered, theirs: Rendered, first: Distribution, other: Distribution
+) -> None:
+    """Raise if the interfaces of two distributions lead to different files."""
+    for path, text in sorted(rendered.files.items(), key=lambda item: item[0].startswith("test/")):
+        lines, others = text.splitlines(), theirs.files[path].splitlines()
+        if lines == others:
+            continue
+        pairs = enumerate(zip_longest(lines, others), 1)
+        number, line = next((at, line or "") for at, (line, same) in pairs if line != same)
+        raise InputError(
+            f"--distro: no code serves both {first.title} and {other.title}: line {number} of "
+            f"{path} would differ ({line.strip()!r}); make a package for each"
+        )
 
 
 class Composed(NamedTuple):
@@ -171,7 +212,9 @@ def compose(
     made, written = _parts(order.requests, settings, existing.uses)
     parts.refuse_impossible(made, values["package"], values["build_type"], existing.messages)
     subdirectory = place.subdirectory(values["package"])
-    context = package_context(values, order.layers, made, renderer, day or today(), subdirectory)
+    context = package_context(
+        values, order.layers, made, renderer, day or today(), subdirectory, target.of(given)
+    )
     for clash in clashes(uses(context["nodes"], templates)):
         if clash.first.kind != "topic":  # `new` refuses it, `update` has to live with it
             raise InputError(str(clash))
@@ -202,21 +245,36 @@ class Check:
     Whoever loads the rules before they are needed does so while ruff runs.
     """
 
-    def __init__(self, package: Draft) -> None:
+    def __init__(self, draft: Draft) -> None:
         from scaffold.ament import StyleCheck
-        from scaffold.files.tree import MemoryTree
-        from scaffold.model.package import Package
 
-        tree = MemoryTree(inside(package.rendered.files), package.rendered.executable)
-        self._package = Package(tree, directory=package.name)
-        self._style = StyleCheck([self._package])
+        self._draft = draft
+        self._package = self._fresh()
+        with distributions.targeting(draft.targets[0]):
+            self._style = StyleCheck([self._package])
 
     def end(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-        """Wait, and return the findings of the rules and the style check."""
+        """Wait, and return the findings of the rules and the style check, for each target."""
         from scaffold.check.selection import Selection
         from scaffold.check.session import Session
 
-        return Session(rules, Selection()).check(self._package, self._style)
+        session = Session(rules, Selection())
+        first, *others = self._draft.targets
+        with distributions.targeting(first):
+            diagnostics = session.check(self._package, self._style)
+        for other in others:
+            with distributions.targeting(other):
+                diagnostics += session.check(self._fresh())
+        return diagnostics
+
+    def _fresh(self) -> Package:
+        """Return the package; what is remembered of one is for one distribution."""
+        from scaffold.files.tree import MemoryTree
+        from scaffold.model.package import Package
+
+        rendered = self._draft.rendered
+        tree = MemoryTree(inside(rendered.files), rendered.executable)
+        return Package(tree, directory=self._draft.name)
 
 
 def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Order:

@@ -35,6 +35,28 @@ def command(extra: str = "") -> str:
     return f"pipx install --force '.{extras}' ({CLONE})"
 
 
+def source(extra: str = "") -> str:
+    """Return what the tool came from, for pip: a directory, a repository, or a hint at a clone.
+
+    Args:
+        extra: An optional extra to install with it.
+    """
+    extras = f"[{extra}]" if extra else ""
+    origin = _origin()
+    url, vcs = str(origin.get("url", "")), _table(origin, "vcs_info").get("vcs")
+    path = unquote(urlsplit(url).path)
+    if url and vcs:
+        return f"{PROJECT}{extras} @ {vcs}+{url}"
+    is_clone = url.startswith("file:") and os.path.isfile(os.path.join(path, "pyproject.toml"))
+    return f"{path if is_clone else f'/CLONE/OF/{PROJECT}'}{extras}"
+
+
+def apart(extra: str) -> str:
+    """Return the command that installs the tool with an extra in an environment of its own."""
+    place = f"{extra}-environment"
+    return f"python3 -m venv {place} && {place}/bin/pip install {quote(source(extra))}"
+
+
 def _installer() -> str:
     """Return what made the environment that this runs in, with what makes it install again."""
     parts = os.path.abspath(sys.prefix).split(os.sep)

@@ -9,19 +9,20 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from glob import escape, glob
 from pathlib import Path
 
+from scaffold import distributions
+from scaffold.distributions import Distribution
 from scaffold.errors import EnvironmentMissingError
-from scaffold.programs import installation
+from scaffold.programs import installation, wheels
 from scaffold.smoke.processes import process
 from scaffold.smoke.processes.process import Captured, Origin
 
 INSTALLED = Path("/opt/ros")
-PREFERRED_DISTRO = "jazzy"
 DEFAULT_RMW = "rmw_fastrtps_cpp"
 TIMEOUT = 120.0
 """Seconds for the start of an interpreter or a shell, on a machine that is busy."""
@@ -67,6 +68,8 @@ class Environment:
     colcon: str
     variables: Mapping[str, str]
     """The whole environment of a child process."""
+    distribution: str = ""
+    """Its name, such as ``jazzy``; empty if nothing says which it is."""
     notes: tuple[str, ...] = ()
     """Why an environment that the user may have expected was not taken."""
 
@@ -78,6 +81,8 @@ class _UnusableError(Exception):
 def select(
     variables: Mapping[str, str],
     *,
+    wanted: Sequence[Distribution] = (),
+    paths: Sequence[str] = (".",),
     installed: Path = INSTALLED,
     own_prefix: str = sys.prefix,
     origin: Origin = _NO_RUN,
@@ -86,6 +91,8 @@ def select(
 
     Args:
         variables: The environment variables of this process.
+        wanted: The distributions that count; any without one.
+        paths: What is to be run, for the message.
         installed: Where installations are, one directory for each distribution.
         own_prefix: The Python environment that may hold the ROS wheels.
         origin: The run that it is for.
@@ -94,15 +101,43 @@ def select(
         EnvironmentMissingError: there is none.
     """
     reasons: list[str] = []
-    for find in _candidates(_without_bootstrap(variables), installed, own_prefix, origin):
+    names = [distribution.name for distribution in wanted]
+    for find in _candidates(_without_bootstrap(variables), installed, own_prefix, origin, names):
         try:
-            return replace(find(), notes=tuple(reasons))
+            candidate = find()
+            if names and candidate.distribution not in ("", *names):
+                title = candidate.distribution.capitalize()
+                raise _UnusableError(f"{_named(candidate)} is ROS 2 {title}")  # noqa: TRY301
+            return replace(candidate, notes=tuple(reasons))
         except _UnusableError as reason:
             reasons.append(str(reason))
     why = f" ({'; '.join(reasons)})" if reasons else ""
+    if wanted:
+        raise EnvironmentMissingError(_ways(wanted, why, paths))
     raise EnvironmentMissingError(
         f"no ROS 2 environment found{why}: source the setup file of a ROS 2 installation, "
         f"install ROS 2 Jazzy, or run: {installation.command('ros')}"
+    )
+
+
+def _named(environment: Environment) -> str:
+    """Return an environment in words."""
+    if environment.kind == "sourced":
+        return "the sourced environment"
+    return f"{'that of the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
+
+
+def _ways(wanted: Sequence[Distribution], why: str, paths: Sequence[str]) -> str:
+    """Return that there is none of the distributions, and how to get one."""
+    ways = ["source the setup file of an installation"]
+    for distribution in wanted:
+        command = wheels.command_apart(distribution)
+        if command:
+            ways.append(f"run the tool with the wheels of {distribution.title}: {command}")
+    container = wheels.container(wanted[-1], [*paths])
+    return (
+        f"no ROS 2 {' or '.join(item.title for item in wanted)} found{why}: {'; '.join(ways)}; or "
+        f"use a container: {container}"
     )
 
 
@@ -138,18 +173,23 @@ def sourced_variables(setup: Path, done: Captured) -> dict[str, str]:
 
 
 def _candidates(
-    variables: Mapping[str, str], installed: Path, own_prefix: str, origin: Origin
+    variables: Mapping[str, str],
+    installed: Path,
+    own_prefix: str,
+    origin: Origin,
+    names: Sequence[str],
 ) -> Iterator[Callable[[], Environment]]:
     if variables.get("AMENT_PREFIX_PATH"):
         yield partial(_sourced, variables, origin)
     for setup in sorted(installed.glob("*/setup.bash"), key=_preference):
-        yield partial(_installed, variables, setup, own_prefix, origin)
+        if not names or setup.parent.name in names:
+            yield partial(_installed, variables, setup, own_prefix, origin)
     if _has_package(own_prefix, "rclpy"):
         yield partial(_wheels, variables, own_prefix)
 
 
 def _preference(setup: Path) -> tuple[bool, str]:
-    return setup.parent.name != PREFERRED_DISTRO, setup.parent.name
+    return setup.parent.name != distributions.DEFAULT, setup.parent.name
 
 
 def _sourced(variables: Mapping[str, str], origin: Origin) -> Environment:
@@ -190,13 +230,14 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
         if name in _PASSED_ON or name.startswith("LC_")
     }
     rmw = _rmw([prefix], None)
+    distribution = wheels.of(prefix)
     libraries = f"{escape(prefix)}/lib/python*/site-packages/ros_*.libs"
     made = {
         **passed,
         "PATH": os.pathsep.join((binaries, variables.get("PATH") or os.defpath)),
         "AMENT_PREFIX_PATH": prefix,
         "RMW_IMPLEMENTATION": rmw,
-        "ROS_DISTRO": PREFERRED_DISTRO,
+        "ROS_DISTRO": distribution,
         "ROS_VERSION": "2",
         "ROS_PYTHON_VERSION": "3",
         # What the wheels would set themselves, by starting every Python twice; programs that are
@@ -214,6 +255,7 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
         python=os.path.join(binaries, "python3"),
         colcon=os.path.join(binaries, "colcon"),
         variables=made,
+        distribution=distribution,
     )
 
 
@@ -247,6 +289,7 @@ def _from_variables(
         python=python,
         colcon=colcon,
         variables=usable,
+        distribution=variables.get("ROS_DISTRO", ""),
     )
 
 

@@ -285,7 +285,7 @@ class Smoke:
     """The result of a run."""
 
     environment: Mapping[str, str]
-    """``kind``, ``prefix`` and ``rmw``."""
+    """``kind``, ``distribution``, ``prefix`` and ``rmw``."""
     packages: tuple[PackageResult, ...]
     notes: tuple[str, ...] = ()
     scratch: str | None = None

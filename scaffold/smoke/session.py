@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
+from scaffold import distributions
+from scaffold.distributions import Distribution
 from scaffold.errors import InputError
 from scaffold.files.tree import MANIFEST
 from scaffold.model.discovery.targets import Target
@@ -73,6 +75,9 @@ class Options:
     together: bool = False
     """Whether all executables of a package are also run in one domain."""
 
+    wanted: Sequence[Distribution] = ()
+    """The distributions that count; any without one."""
+
     def runs(self, package: str) -> bool:
         """Tell whether the executables of a package are run."""
         return self.run_only is None or package in self.run_only
@@ -117,19 +122,34 @@ def smoke(
         run = stack.enter_context(leftovers.recorded_run(keep=options.keep))
         with interruption.at_once():
             selected = environments.select(
-                os.environ if variables is None else variables, origin=run.origin
+                os.environ if variables is None else variables,
+                wanted=options.wanted,
+                paths=[os.path.relpath(source.directory) for source in sources],
+                origin=run.origin,
             )
+        stack.enter_context(distributions.targeting(_distribution_of(selected)))
         session = _Session(selected, run, options, progress, stated, tell)
         packages = interruption.run(lambda: session.run(sources))
         stack.close()
         interruption.check()
     return Smoke(
-        environment={"kind": selected.kind, "prefix": selected.prefix, "rmw": selected.rmw},
+        environment={
+            "kind": selected.kind,
+            "distribution": selected.distribution,
+            "prefix": selected.prefix,
+            "rmw": selected.rmw,
+        },
         packages=packages,
         notes=selected.notes,
         scratch=str(run.scratch) if options.keep else None,
         seconds=time.monotonic() - begun,
     )
+
+
+def _distribution_of(environment: Environment) -> Distribution:
+    """Return the distribution of an environment; that of the packages, if it is not known."""
+    is_known = environment.distribution in distributions.NAMES
+    return distributions.named(environment.distribution) if is_known else distributions.target()
 
 
 def _scenarios(source: Source) -> Mapping[str, Scenario]:

@@ -314,7 +314,7 @@ def test_command_line(sources: Path, tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     data = json.loads(done.stdout)
     assert set(data) == {"schema_version", "environment", "packages", "ok", "seconds"}
-    assert set(data["environment"]) == {"kind", "prefix", "rmw"}
+    assert set(data["environment"]) == {"kind", "distribution", "prefix", "rmw"}
     assert data["ok"] is True
     talker_ = next(e for e in data["packages"][0]["executables"] if e["name"] == "talker")
     assert [(s["signal"], s["exit_code"]) for s in talker_["stops"]] == [

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
+    from scaffold.distributions import Distribution
     from scaffold.generate.add.add import Added
     from scaffold.generate.add.rendered_part import Target, Wanted
     from scaffold.generate.questions.questions import Given
@@ -71,6 +72,46 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Add something to a package; return the exit code."""
+    from scaffold import distributions
+    from scaffold.configuration import config
+
+    directory = _directory(options.package_directory)
+    settings = config.load(content=tuple(options.content))
+    targets = _targets(options, directory, settings)
+    with distributions.targeting(targets[0]):
+        return _run(options, directory, settings, targets)
+
+
+def _targets(options: argparse.Namespace, directory: str, settings: Config) -> list[Distribution]:
+    """Return what a package is for.
+
+    Raises:
+        InputError: its record says otherwise than the flag.
+    """
+    from scaffold import distributions
+    from scaffold.cli import distro
+    from scaffold.errors import InputError
+
+    recorded = distro.recorded(directory)
+    flag = getattr(options, distro.ANSWER, None)  # templates of others may not ask for it
+    if recorded is None:
+        return distro.chosen(flag, settings)
+    if flag is not None and distro.wanted(flag, settings) != recorded:
+        raise InputError(
+            f"{distro.FLAG}: the package is for {distributions.titles(recorded)}; "
+            f"`ros2-scaffold update {distro.FLAG} {flag} {directory}` makes it one for others; "
+            "nothing was changed"
+        )
+    return recorded
+
+
+def _run(
+    options: argparse.Namespace,
+    directory: str,
+    settings: Config,
+    targets: Sequence[Distribution],
+) -> int:
+    """Add something to a package for some distributions."""
     from scaffold.check import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
@@ -80,7 +121,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate import repository
     from scaffold.generate.add import add
 
-    target, wanted = _order(options)
+    target, wanted = _order(options, directory, settings, targets)
     session = Session(registry.load(content.roots("rules")), Selection())
     is_dry = options.diff or options.dry_run
     with writing.held(target.package.directory, is_dry=is_dry):
@@ -92,6 +133,7 @@ def run(options: argparse.Namespace) -> int:
         if above is not None:
             _refuse_differing(above, [*added.above], force=options.force)
         findings = _findings(session, before, added)
+        _refuse_elsewhere(session, target.package, added, targets[1:])
         if _is_defect(session, findings, added):
             _report(target.package, findings)
             return INTERNAL_ERROR
@@ -103,21 +145,26 @@ def run(options: argparse.Namespace) -> int:
     return FINDINGS if any(item.is_needed for item in added.by_hand) else CLEAN
 
 
-def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
+def _order(
+    options: argparse.Namespace,
+    directory: str,
+    settings: Config,
+    targets: Sequence[Distribution],
+) -> tuple[Target, Wanted]:
     """Return the selected package, and what to add to it."""
-    from scaffold.configuration import config, content
+    from scaffold.cli.distro import ANSWER
+    from scaffold.configuration import content
     from scaffold.errors import InputError
     from scaffold.generate import parts
     from scaffold.generate.add.rendered_part import Target, Wanted
     from scaffold.generate.questions.defaults import User
-    from scaffold.generate.questions.questions import choose
+    from scaffold.generate.questions.questions import Given, choose
     from scaffold.generate.templates import template
     from scaffold.generate.templates.template import PARTS, Role
     from scaffold.generate.update import update
     from scaffold.model.package import Package
+    from scaffold.writing.transaction import RECORD
 
-    settings = config.load(content=tuple(options.content))
-    directory = _directory(options.package_directory)
     package = Package.at(directory)
     recorded = update.recorded_content(package.tree, directory, settings.content)
     roots = content.roots("templates", (*recorded, *settings.content))
@@ -132,6 +179,7 @@ def _order(options: argparse.Namespace) -> tuple[Target, Wanted]:
         raise InputError(f"--launch: does not apply to {chosen.name}, which is not a node")
     target = Target(package, roots, templates, User(directory))
     given = _given(options, templates, settings)
+    given[ANSWER] = Given([item.name for item in targets], RECORD)
     return target, Wanted(chosen, options.name, given, options.launch)
 
 
@@ -204,6 +252,28 @@ def _findings(session: Session, before: list[Diagnostic], added: Added) -> list[
 
     diagnostics = add.new_diagnostics(before, session.check(added.package))
     return [diagnostic for diagnostic in diagnostics if not added.is_expected(diagnostic)]
+
+
+def _refuse_elsewhere(
+    session: Session, package: Package, added: Added, others: Sequence[Distribution]
+) -> None:
+    """Raise InputError if what was added has errors on other distributions of the package."""
+    from scaffold import distributions
+    from scaffold.diagnostic import Severity
+    from scaffold.errors import InputError
+    from scaffold.generate.add import add
+    from scaffold.model.package import Package
+
+    for other in others:
+        with distributions.targeting(other):
+            before = session.check(Package(package.tree, directory=package.directory))
+            after = session.check(Package(added.package.tree, directory=package.directory))
+        for diagnostic in add.new_diagnostics(before, after):
+            if diagnostic.severity is Severity.ERROR and not added.is_expected(diagnostic):
+                raise InputError(
+                    f"{distributions.titles([other])}, which the package is for as well: "
+                    f"{_line(package, diagnostic)}; nothing was changed"
+                )
 
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
     from scaffold.configuration.config import Config
+    from scaffold.distributions import Distribution
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.reporters import ReportOptions
@@ -180,21 +181,52 @@ def run(options: argparse.Namespace) -> int:
     rules = registry.load(content.roots("rules", settings.content))
     choices = Choices(settings, rules)
     options.policy = choices.policy()
-    options.distributions = distro.chosen(options.distro, settings)
-    options.notes = distro.note(options.distributions)
+    session = _session(options, rules, choices, _kind_of_session(options))
+    wanted = distro.wanted(options.distro, settings)
+    by_record, found = ({}, None) if wanted else _recorded(options, session, disk)
+    named = wanted or [item for items in by_record.values() for item in items]
+    options.distributions = distributions.ordered(named or [distributions.JAZZY])
+    options.notes = (*distro.note(options.distributions), *(options.notes if found else ()))
     if len(options.distributions) > 1:
         from scaffold.check.several import AgreedSession
         from scaffold.cli.several_targets import SeveralTargets
 
         agreeing = _session(options, rules, choices, AgreedSession)
-        return SeveralTargets(options, agreeing, settings, disk).run()
-    session = _session(options, rules, choices, _kind_of_session(options))
+        return SeveralTargets(options, agreeing, settings, disk, by_record).run()
     with distributions.targeting(options.distributions[0]):
-        return _run(options, session, settings, disk, directory)
+        return _run(options, session, settings, disk, directory, found)
+
+
+def _recorded(
+    options: argparse.Namespace, session: Session, disk: Disk
+) -> tuple[dict[str, Sequence[Distribution]], list[Target] | None]:
+    """Return what each package is for, by directory; nothing if no record says so.
+
+    Then the packages come with it: they have been looked for with the default in mind.
+    """
+    from scaffold.model.discovery import colcon
+
+    targets = None
+    if options.stdin_filename:
+        around = colcon.package_around(disk, os.path.dirname(disk.real(options.stdin_filename)))
+        directories = [around] if around is not None else []
+    else:
+        targets = find_targets(options, session, disk)
+        directories = [target.package.directory for target in targets]
+    records = {directory: distro.recorded(directory, disk) for directory in directories}
+    if not any(records.values()):
+        return {}, targets
+    default = [distributions.JAZZY]
+    return {directory: named or default for directory, named in records.items()}, None
 
 
 def _run(
-    options: argparse.Namespace, session: Session, settings: Config, disk: Disk, directory: str
+    options: argparse.Namespace,
+    session: Session,
+    settings: Config,
+    disk: Disk,
+    directory: str,
+    targets: list[Target] | None,
 ) -> int:
     """Check, or fix, for the target; return the exit code."""
     from scaffold.check.cache.results import ResultCache
@@ -203,7 +235,7 @@ def _run(
 
     if options.stdin_filename:
         return _check_unsaved(options, session, disk)
-    targets = find_targets(options, session, disk)
+    targets = find_targets(options, session, disk) if targets is None else targets
     if options.fix or options.diff or options.add_noqa:
         return _fix(options, session, targets)
     if options.reference:
@@ -284,6 +316,8 @@ def find_targets(options: argparse.Namespace, session: Session, disk: Disk | Non
     from scaffold.reporters.summary import count
 
     adjustments = session.adjustments
+    if adjustments.foreign is not None:
+        adjustments.foreign.packages.clear()  # of an earlier look, for another distribution
     excluded: set[str] = set()
     targets = discovery.find(
         options.paths,

@@ -56,18 +56,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write a package; return the exit code."""
-    from scaffold.check import registry
-    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold import distributions
     from scaffold.configuration import config, content
-    from scaffold.errors import ScaffoldError
-    from scaffold.generate import dependency_names, destination, draft, repository
-    from scaffold.generate.questions.defaults import User
+    from scaffold.generate import target
     from scaffold.generate.templates import template
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
     templates = template.load(roots) if options.content else options.templates
     given = _given(options, templates, settings)
+    with distributions.targeting(target.of(given)[0]):
+        return _run(options, roots, templates, given)
+
+
+def _run(
+    options: argparse.Namespace,
+    roots: list[str],
+    templates: dict[str, Template],
+    given: dict[str, Given],
+) -> int:
+    """Write a package for the target, asking on a terminal what is not given."""
+    from scaffold.check import registry
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold.configuration import content
+    from scaffold.errors import ScaffoldError
+    from scaffold.generate import dependency_names, destination, draft, repository
+    from scaffold.generate.questions.defaults import User
+
     command = None
     if "package" not in given:
         given, command = _ask(options, roots, templates, given)
@@ -198,12 +213,14 @@ def _in_order(templates: dict[str, Template]) -> list[Template]:
 def _given(
     options: argparse.Namespace, templates: dict[str, Template], settings: Config
 ) -> dict[str, Given]:
+    from scaffold.cli import distro
     from scaffold.generate.questions import defaults, questions
 
     asked = questions.unique(_in_order(templates))
     configured = questions.from_table(defaults.configured(settings), asked)
     answered = questions.from_file(options.answers, asked) if options.answers else {}
-    return {**configured, **answered, **questions.from_flags(options, asked)}
+    given = {**configured, **answered, **questions.from_flags(options, asked)}
+    return given if distro.ANSWER in given else {**given, **distro.usual(settings)}
 
 
 def _left_to_owners(

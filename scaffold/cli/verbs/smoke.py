@@ -13,6 +13,7 @@ from scaffold.printable import printable
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Package
     from scaffold.smoke.cleanup.interruption import Interruption
@@ -64,6 +65,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--test",
         action="store_true",
         help="run `colcon test` as well: a test or linter that fails is a problem",
+    )
+    parser.add_argument(
+        "--distro",
+        metavar="NAMES",
+        help="the distributions of ROS 2 to observe on, separated by commas: with others nothing "
+        "is run (default: check.distribution of the configuration, else what `new --distro` made "
+        "the packages for, else ROS_DISTRO, else the one that is there)",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
@@ -146,6 +154,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from pathlib import Path
     from signal import Signals
 
+    from scaffold import distributions
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.model.discovery import targets
     from scaffold.smoke.session import Options, packages_of, smoke
@@ -153,6 +162,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     _validate(options)
     found_targets = targets.find(options.paths)
     packages, run_only = _selected(options, found_targets, packages_of(found_targets))
+    wanted = _wanted(options, packages)
     with _Progress() as progress:
         result = smoke(
             packages,
@@ -167,17 +177,61 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 run_only=run_only,
                 test=options.test,
                 together=options.together,
+                wanted=wanted,
             ),
             progress=progress,
             announce=_announce,
             interruption=interruption,
         )
     _report(options, result)
+    others = [item for item in wanted if item.name != result.environment["distribution"]]
+    if others and packages:
+        _announce(f"not observed: {distributions.titles(others)}, which the packages are for, too")
     if not packages:
         _announce(f"no package differs from {options.since}")
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
     return CLEAN if result.ok else FINDINGS
+
+
+def _wanted(options: argparse.Namespace, packages: Sequence[Package]) -> Sequence[Distribution]:
+    """Return the distributions that the packages can be observed on; any, if none is named.
+
+    Raises:
+        InputError: none of them serves all packages.
+    """
+    import os
+
+    from scaffold import distributions
+    from scaffold.cli import distro
+    from scaffold.cli.verbs.check import common_directory
+    from scaffold.configuration import config
+    from scaffold.errors import InputError
+    from scaffold.files.disk import Disk
+
+    disk = Disk()
+    settings = config.load(common_directory(options.paths, disk), (), disk)
+    named = distro.wanted(options.distro, settings)
+    if named is not None:
+        return named
+    records = {package.name: distro.recorded(package.directory) for package in packages}
+    for_each = {name: named for name, named in records.items() if named is not None}
+    if not for_each:
+        shell = os.environ.get(distro.VARIABLE, "")
+        return [distributions.named(shell)] if shell in distributions.NAMES else []
+    common = [
+        item
+        for item in next(iter(for_each.values()))
+        if all(item in named for named in for_each.values())
+    ]
+    if not common:
+        each = "; ".join(
+            f"{name} is for {distributions.titles(named)}" for name, named in for_each.items()
+        )
+        raise InputError(
+            f"no distribution serves all packages: {each}; --packages-select names those to run"
+        )
+    return common
 
 
 def _selected(

@@ -7,7 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.cli import terminal
+from scaffold.cli import distro, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,9 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--distro",
-        default=distributions.DEFAULT,
         metavar="NAME",
-        help="the distribution of ROS 2 (default: %(default)s)",
+        help="the distribution of ROS 2 (default: what `new --distro` made the package here for, "
+        f"the oldest of several, else {distributions.DEFAULT})",
     )
     flags.add_looking(parser)
 
@@ -55,7 +55,10 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.types.stubs import stub_files
 
     workspace = _workspace(options.paths or ["."])
-    distribution = distributions.named(options.distro)
+    if options.distro is not None:
+        distribution = distributions.named(options.distro, distro.FLAG)
+    else:
+        distribution = (distro.recorded(".") or [distributions.JAZZY])[0]
     with distributions.targeting(distribution):
         stubs = stub_files(distribution, Definitions.around(workspace))
     plan = typings.plan(options.output, stubs, force=options.force)

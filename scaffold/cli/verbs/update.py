@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING
 from scaffold.cli import terminal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from scaffold.distributions import Distribution
     from scaffold.generate.update.update import Updated
     from scaffold.writing.plan import WritePlan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
-    from scaffold.cli import flags
+    from scaffold.cli import distro, flags
 
     parser.add_argument(
         "directory",
@@ -24,16 +27,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="a package that `new` made (default: the current directory)",
     )
+    parser.add_argument(
+        distro.FLAG,
+        metavar="NAMES",
+        help="make it a package for these distributions of ROS 2, separated by commas",
+    )
     flags.add_looking(parser)
     flags.add_content(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Update a package to the current templates; 1 when there are conflicts to resolve."""
+    from scaffold import distributions
+    from scaffold.cli import distro
+    from scaffold.errors import InputError
+
+    directory = os.path.normpath(options.directory)
+    if not os.path.isdir(directory):
+        raise InputError(f"{directory}: no such directory")
+    moved = distributions.several(options.distro, distro.FLAG) if options.distro else None
+    targets = moved or distro.recorded(directory) or [distributions.JAZZY]
+    with distributions.targeting(targets[0]):
+        return _run(options, directory, moved)
+
+
+def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distribution] | None) -> int:
+    """Update a package, and move it to other distributions if there are some to move it to."""
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
-    from scaffold.errors import InputError
     from scaffold.files.tree import DiskTree
     from scaffold.generate import repository
     from scaffold.generate.questions.defaults import User
@@ -42,9 +64,6 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.generate.update.provenance import HIDDEN
     from scaffold.writing.plan import WritePlan
 
-    directory = os.path.normpath(options.directory)
-    if not os.path.isdir(directory):
-        raise InputError(f"{directory}: no such directory")
     given = settings.load(options.content).content
     recorded = update.recorded_content(DiskTree(directory), directory, given)
     roots = content.roots("templates", (*recorded, *given))
@@ -53,7 +72,9 @@ def run(options: argparse.Namespace) -> int:
     is_dry = options.diff or options.dry_run
     with writing.held(directory, is_dry=is_dry):
         tree = DiskTree(directory)
-        updated = update.update(tree, directory, roots, templates, User(directory), place)
+        updated = update.update(
+            tree, directory, roots, templates, User(directory), place, moved=moved
+        )
         files = repository.inside(updated.files)
         plan = WritePlan.of(directory, files, executable=updated.executable, tree=tree)
         above = repository.plan(place, repository.above(updated.files))
@@ -66,6 +87,8 @@ def run(options: argparse.Namespace) -> int:
         terminal.note(remark)
     if not options.diff:
         terminal.show(_summary(options, updated, plan, above))
+        if moved and updated.files and not options.dry_run:
+            terminal.show(_next(directory, moved))
     return FINDINGS if updated.conflicts else CLEAN
 
 
@@ -93,3 +116,15 @@ def _summary(
     elif updated.conflicts:
         lines.append("Resolve the conflicts between <<<<<<< and >>>>>>>, then run the tests.")
     return "\n".join(lines)
+
+
+def _next(directory: str, moved: Sequence[Distribution]) -> str:
+    """Return what is left to do for other distributions: the user's own code."""
+    from shlex import quote
+
+    from scaffold import distributions
+
+    return (
+        f"The package is for {distributions.titles(moved)} now. What your own code needs for it:\n"
+        f"    ros2-scaffold check {quote(directory)}"
+    )

@@ -10,6 +10,7 @@ from scaffold.generate import parts
 from scaffold.generate.add.rendered_part import EXTRAS, Piece, Target
 from scaffold.generate.draft import Draft, draft
 from scaffold.generate.edit.edit import edit
+from scaffold.generate.questions.defaults import DISTRO
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.repository import inside
 from scaffold.generate.templates.template import BASE, Role
@@ -18,7 +19,9 @@ from scaffold.generate.update.provenance import ATTRIBUTES, NAME, Provenance
 from scaffold.model.package import Package
 from scaffold.writing.transaction import BASES
 
-OF_PACKAGES = ("license", "copyright_holder", "maintainer_name", "maintainer_email", "comments")
+OF_PACKAGES = (
+    "license", "copyright_holder", "maintainer_name", "maintainer_email", "comments", DISTRO,
+)  # fmt: skip
 """The questions of the base that a part asks, too; a package has answered most of them."""
 
 

@@ -99,7 +99,7 @@ class Walk:
             self._expect(f"{target}.sec", "{} > 0")
         elif full_name == HEADER and target != self._root:
             self._header(block, target)
-        elif known_recipe is not None:
+        elif known_recipe is not None and _fits(known_recipe, section):
             header = section.field("header")
             if header is not None and header.type.full_name == HEADER:
                 self._header(block, f"{target}.header", has_frame=bool(known_recipe.frame))
@@ -323,6 +323,12 @@ class Walk:
         name = body.define(name, value)
         self.message(body, full_name, name)
         body.add(f"{target}.append({name})")
+
+
+def _fits(known_recipe: Recipe, section: Section) -> bool:
+    """Tell whether a message has what a recipe fills; on another distribution it may not."""
+    fields = {field.name for field in section.fields}
+    return {*re.findall(r"\bmsg\.([a-z]\w*)", known_recipe.code)} <= fields
 
 
 def _local_name(block: Block, target: str, code: str) -> str:

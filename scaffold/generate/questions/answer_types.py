@@ -8,6 +8,7 @@ import unicodedata
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from scaffold import distributions
 from scaffold.errors import InputError
 from scaffold.generate.payload import (
     ActionPayload,
@@ -168,6 +169,17 @@ def _listed(value: object) -> list[object]:
     return value if isinstance(value, list) else [value]
 
 
+def distros(given: object) -> tuple[str, ...]:
+    """Return the names of distributions, each once, oldest first.
+
+    Raises:
+        InputError: there is none of a name, or no name.
+    """
+    words = given if isinstance(given, list | tuple) else [given]
+    chosen = distributions.several(",".join(map(_string, words)))
+    return tuple(distribution.name for distribution in chosen)
+
+
 def nothing(given: object) -> tuple[str, ...]:
     """Return no choices: there are none.
 
@@ -228,6 +240,7 @@ TYPES: Mapping[str, Callable[[object, str], object]] = {
     "dependencies": _anywhere(dependencies),
     "fields": fields,
     "parts": _anywhere(parts),
+    "distributions": _anywhere(distros),
     "several": _anywhere(nothing),
 }
 """The types that a question may have: parsers of what is given, for packages in a directory."""

@@ -6,6 +6,7 @@ import os
 import re
 from functools import cached_property
 
+from scaffold import distributions
 from scaffold.configuration.config import Config
 from scaffold.generate.questions.questions import Given
 from scaffold.record import NamedTuple
@@ -15,6 +16,9 @@ TABLE = "new"
 
 LOGIN = "login"
 """The origin of an answer that is a guess from the account."""
+
+DISTRO = "distro"
+"""The question for the distributions that a package is for."""
 
 _GIT_KEYS = {"maintainer_name": "user.name", "maintainer_email": "user.email"}
 
@@ -32,7 +36,9 @@ class User:
         """The questions that were answered from the login; the user should know."""
 
     def answer(self, question: str) -> Given | None:
-        """Return what to answer to ``maintainer_name`` or ``maintainer_email``."""
+        """Return what to answer to ``maintainer_name``, ``maintainer_email`` or ``distro``."""
+        if question == DISTRO:
+            return Given([distributions.target().name], "default")
         key = _GIT_KEYS.get(question)
         if key is None:
             return None

@@ -235,7 +235,9 @@ def resolve(
 
     def add(question: Question, answer: Given) -> None:
         value = answers.values[question.name] = parse(question, answer, where)
-        is_list = question.type == SEVERAL and question.choices
+        is_list = question.type == "distributions" or (
+            question.type == SEVERAL and question.choices
+        )
         is_derived_rate = question.type == "rate" and answer.origin == "default"
         written = value if is_derived_rate else answer.value
         answers.written[question.name] = [*value] if is_list else written

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from scaffold.configuration import git_content
 from scaffold.configuration.content import is_url
+from scaffold.distributions import Distribution
 from scaffold.errors import InputError
 from scaffold.files.tree import Tree
 from scaffold.formats.conflicts import first_conflict
@@ -14,7 +15,7 @@ from scaffold.generate import draft
 from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD, KIND
 from scaffold.generate.questions import questions
-from scaffold.generate.questions.defaults import User
+from scaffold.generate.questions.defaults import DISTRO, User
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.repository import MARK, NOWHERE, Place, is_below, place_of_files
 from scaffold.generate.repository import read as read_file
@@ -55,6 +56,8 @@ def update(
     templates: Mapping[str, Template],
     user: User,
     place: Place = NOWHERE,
+    *,
+    moved: Sequence[Distribution] | None = None,
 ) -> Updated:
     """Merge the difference between the recorded files and those of today into the user's.
 
@@ -65,6 +68,7 @@ def update(
         templates: The templates in them.
         user: Supplies answers to new questions.
         place: The git repository that the package is in.
+        moved: The distributions that it is for from now on, if these are to be others.
 
     Raises:
         InputError: the package has no record, a damaged one, or answers that the templates of
@@ -74,6 +78,8 @@ def update(
     provenance = read(tree, where)
     remarks: list[str] = []
     given = recorded(provenance, templates, where, remarks)
+    if moved is not None:
+        given[DISTRO] = Given([distribution.name for distribution in moved], "--distro")
 
     def drafted(parts: Parts) -> Draft:
         changed = {**given, ADD: given[ADD]._replace(value=parts)}
@@ -89,8 +95,9 @@ def update(
     refuse_lost(provenance, where, now.keys() & present.keys())
     files, conflicts = _merged(present, provenance, made, remarks)
     written = Provenance.of(made)
+    is_moved = moved is not None and provenance.answers.get(DISTRO) != made.answers.get(DISTRO)
     is_as_recorded = provenance.sources == written.sources and provenance.is_canonical
-    if provenance.rendered != made.rendered.files or not is_as_recorded:
+    if provenance.rendered != made.rendered.files or not is_as_recorded or is_moved:
         is_new = not provenance.has_sidecar and ATTRIBUTES not in {*files, *tree.files}
         record = written.files(is_new=is_new)
         files |= {path: text.encode() for path, text in record.items()}

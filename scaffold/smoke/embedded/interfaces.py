@@ -12,9 +12,10 @@ from dataclasses import replace
 from glob import glob
 from pathlib import Path
 
+from scaffold import distributions
 from scaffold.files import home
 from scaffold.model.package import Package
-from scaffold.programs import installation
+from scaffold.programs import wheels
 from scaffold.smoke.build import Layout, build
 from scaffold.smoke.embedded.sources import Bundle
 from scaffold.smoke.environment import Environment
@@ -121,7 +122,8 @@ def _place(environment: Environment, bundle: Bundle, *, complete: bool) -> Path 
 
 def _obstacle(environment: Environment) -> str:
     if not os.path.exists(os.path.join(environment.prefix, _GENERATOR)):
-        return f"the generators are missing; run: {installation.command('ros')}"
+        command = wheels.command(distributions.target())
+        return f"the generators are missing; run: {command}"
     path = environment.variables.get("PATH")
     has_compiler = environment.variables.get("CXX") or any(
         shutil.which(name, path=path) for name in _COMPILERS

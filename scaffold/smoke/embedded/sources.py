@@ -25,7 +25,7 @@ MANIFEST = """\
 <package format="3">
   <name>{name}</name>
   <version>{version}</version>
-  <description>Interfaces of ROS 2 Jazzy.</description>
+  <description>Interfaces of ROS 2 {title}.</description>
   <maintainer email="nobody@example.org">nobody</maintainer>
   <license>Apache-2.0</license>
   <buildtool_depend>ament_cmake</buildtool_depend>
@@ -96,7 +96,12 @@ class Bundle:
             file.write_text(text, encoding="utf-8")
         needed = sorted(self._dependencies(name, package))
         depends = "".join(f"  <depend>{other}</depend>\n" for other in needed)
-        manifest = MANIFEST.format(name=name, version=self._version(package), depends=depends)
+        manifest = MANIFEST.format(
+            name=name,
+            title=distributions.target().title,
+            version=self._version(package),
+            depends=depends,
+        )
         (directory / "package.xml").write_text(manifest, encoding="utf-8")
         finds = "".join(f"find_package({other} REQUIRED)\n" for other in needed)
         files = "".join(f'  "{path}"\n' for path in texts)

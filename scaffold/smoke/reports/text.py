@@ -65,7 +65,8 @@ def lines_of(executable: Executable, *, verbose: bool) -> list[str]:
 
 def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
     found = result.environment
-    yield f"ROS 2 ({found['kind']}): {found['prefix']}, {found['rmw']}"
+    title = " ".join(["ROS 2", *found.get("distribution", "").capitalize().split()])
+    yield f"{title} ({found['kind']}): {found['prefix']}, {found['rmw']}"
     for note in result.notes:
         yield f"note: not used: {note}"
     for package in result.packages:
