@@ -16,12 +16,13 @@ from pathlib import Path
 import pytest
 
 from scaffold import distributions
-from scaffold.ament import StyleCheck
+from scaffold.ament import StyleCheck, linters
 from scaffold.ament.pep257.codes import AMENT as PEP257_CODES
 from scaffold.distributions import ORDER, named
 from scaffold.model.package import Package
 from tests.ament import style_cases
 from tests.ament.profile_cases import BY_FILE
+from tests.oracles import system_environment
 
 pytestmark = pytest.mark.nightly
 
@@ -38,14 +39,19 @@ Found = set[tuple[str, int, str]]
 
 
 def interpreter(wanted: tuple[int, int]) -> str:
-    """Return a Python of a version, or of the nearest one before that is not 3.11."""
+    """Return a Python of a version, or of the nearest that sees f-strings as it does."""
     known = [wanted, (3, 13), (3, 12)] if wanted >= (3, 12) else [wanted]
     for major, minor in known:
-        paths = [f"python{major}.{minor}", *_of_pyenv(f"{major}.{minor}")]
-        for path in paths:
-            if shutil.which(path):
+        for path in [*_of_pyenv(f"{major}.{minor}"), f"python{major}.{minor}"]:
+            if shutil.which(path) and _runs(path):
                 return path
     pytest.skip(f"no Python {wanted[0]}.{wanted[1]} to run its linters with")
+
+
+def _runs(path: str) -> bool:
+    """Tell whether it is more than a shim for a Python that is not installed."""
+    done = subprocess.run([path, "-c", ""], env=system_environment(), check=False)
+    return done.returncode == 0
 
 
 def _of_pyenv(version: str) -> list[str]:
@@ -66,14 +72,16 @@ class Oracle:
         self.name = name
         self.distribution = named(name)
         python = interpreter(self.distribution.python)
-        subprocess.run([python, "-m", "venv", str(directory / "venv")], check=True)
+        environment = system_environment()
+        subprocess.run([python, "-m", "venv", str(directory / "venv")], env=environment, check=True)
         self._python = str(directory / "venv" / "bin" / "python")
         wanted = [f"{name}=={version}" for name, version in self._versions().items()]
         # pkg_resources, which old plugins import; and the interface that flake8 4 reads them by.
         wanted += ["setuptools<60"]
         if self._versions()["flake8"].startswith("4."):
             wanted += ["importlib-metadata<5"]
-        subprocess.run([self._python, "-m", "pip", "install", "--quiet", *wanted], check=True)
+        install = [self._python, "-m", "pip", "install", "--quiet", *wanted]
+        subprocess.run(install, env=environment, check=True)
         self._configuration = directory / "ament_flake8.ini"
         spec = find_spec("ament_flake8")
         assert spec is not None
@@ -104,13 +112,18 @@ class Oracle:
 
     def _pydocstyle(self, directory: Path) -> Found:
         select = f"--select={','.join(sorted(PEP257_CODES))}"
-        done = self._call(directory, "pydocstyle", select, "--match=.*\\.py", ".")
+        words = [select, "--match=.*\\.py"]
+        with distributions.targeting(self.distribution):
+            if linters.of_target().since("pydocstyle", 6, 2):
+                words.append("--property-decorators=")  # ament_pep257 names none
+        done = self._call(directory, "pydocstyle", *words, ".")
         found = re.findall(r"(?m)^\./(\S+?):(\d+) .*\n\s+(D\d+):", done.stdout)
         return {(path, int(line), code) for path, line, code in found}
 
     def _call(self, directory: Path, module: str, *words: str) -> subprocess.CompletedProcess[str]:
-        command = [self._python, "-P" if "3.10" not in self._python else "-s", "-m", module, *words]
-        environment = {**os.environ, "PYTHONWARNINGS": "ignore"}
+        # Not with -m: modules of the cases, such as logging.py, would hide those of Python.
+        command = [str(Path(self._python).with_name(module)), *words]
+        environment = {**system_environment(), "PYTHONWARNINGS": "ignore"}
         return subprocess.run(
             command, cwd=directory, env=environment, capture_output=True, text=True, check=False
         )
