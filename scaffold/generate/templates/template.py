@@ -135,8 +135,8 @@ class Template(NamedTuple):
 
 _KEYS: Mapping[str, type[Any]] = {
     "summary": str,
-    "section": str,
     "questions": dict,
+    "section": str,
     "executable_name": str,
     "parameter_file": str,
     "definition": str,
