@@ -827,6 +827,14 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert os.access(source / "talker" / "talker" / "minimal_publisher.py", os.X_OK)
 
 
+def test_launch_files_are_named_with_what_comes_next(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["new", "rover", "--destination-directory", str(tmp_path), "--extras", "description"]
+    assert main(command) == 0
+    assert capsys.readouterr().out.endswith("    ros2 launch rover description.launch.py\n")
+
+
 def test_diff_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "talker", "--diff"]) == 0
     said = capsys.readouterr().out

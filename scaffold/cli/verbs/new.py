@@ -412,4 +412,11 @@ def _next_commands(options: argparse.Namespace, made: Draft) -> list[str]:
         f"    {build}",
         "    source install/setup.bash",
         *(f"    ros2 run {made.name} {executable}" for executable in made.executables),
+        *(f"    ros2 launch {made.name} {name}" for name in _launch_files(made)),
     ]
+
+
+def _launch_files(made: Draft) -> list[str]:
+    """Return the names of the launch files that the package installs."""
+    paths = (path.partition("/") for path in sorted(made.rendered.files))
+    return [name for directory, _, name in paths if directory == "launch"]
