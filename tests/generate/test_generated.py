@@ -217,10 +217,10 @@ class Workspace(NamedTuple):
 
 def missing(kind: str) -> list[str]:
     """Return the libraries that a template needs and this machine lacks."""
-    needed = TEMPLATES[kind].depends.get("exec", ())
+    needed = [name for name in TEMPLATES[kind].depends.get("exec", ()) if "{" not in name]
     if Path("/opt/ros").exists():
         return []
-    return [name for name in needed if "{" not in name and find_spec(name) is None]
+    return [name for name in needed if find_spec(name.removeprefix("python3-")) is None]
 
 
 NOT_INSTALLED = sorted({name for kind in (*KINDS, "description") for name in missing(kind)})
