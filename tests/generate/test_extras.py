@@ -93,9 +93,27 @@ def test_the_launch_file_configures_and_activates_managed_nodes() -> None:
     assert "namespace=LaunchConfiguration('namespace')," in managed
 
 
+def test_what_a_manager_leads_does_not_start_by_itself() -> None:
+    files = make(
+        package="robot",
+        extras="launch",
+        add=["lifecycle:laser", "lifecycle_manager:manager managed_node=laser"],
+    )
+    assert "LifecycleNode(" in files["launch/robot.launch.py"]
+    assert "autostart=" not in files["launch/robot.launch.py"]
+    assert "node_names: [laser]" in files["config/robot.yaml"]
+
+
 def test_long_names_fit_on_their_lines() -> None:
     for build_type in BUILD_TYPES:
-        make(package="p" * 48, build_type=build_type, extras=list(EXTRAS), node_name="n" * 48)
+        for comments in ("brief", "tutorial"):
+            make(
+                package="p" * 48,
+                build_type=build_type,
+                comments=comments,
+                extras=list(EXTRAS),
+                node_name="n" * 48,
+            )
 
 
 def test_a_package_without_nodes_has_nothing_to_launch() -> None:

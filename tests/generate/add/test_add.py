@@ -966,7 +966,7 @@ def test_an_extra_of_files_alone_writes_them(
     said = capsys.readouterr()
     unread = "read only at the top of a git repository" in said.err
     assert (said.err == "") is not unread
-    assert unread is (extra != "gitignore")
+    assert unread is bool(TEMPLATES[extra].repository)
     assert "colcon" not in said.out
     after = read(demo)
     assert before.items() < after.items()
