@@ -58,7 +58,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
         root,
         package="typed_package",
         add=parts,
-        extras=["description", "launch", "launch_test", "types"],
+        extras=["bag_test", "description", "launch", "launch_test", "types"],
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(directory)
