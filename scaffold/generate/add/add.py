@@ -12,7 +12,7 @@ from scaffold.ament.copyright import REPOSITORY_FILES
 from scaffold.check.fixes.overlay import Overlay
 from scaffold.errors import ConflictError, InputError
 from scaffold.generate import repository
-from scaffold.generate.add import regenerate, rendered_part
+from scaffold.generate.add import extension, regenerate, rendered_part
 from scaffold.generate.add import remarks as neighbours
 from scaffold.generate.add.rendered_part import LAUNCH, Piece, Target, Wanted
 from scaffold.generate.edit.addition import Addition, ByHand
@@ -109,9 +109,12 @@ def add(target: Target, wanted: Wanted) -> Added:
             old = regenerate.joined(target, old)
         old = old and old.with_roots(target.roots)
         wanted = wanted._replace(given={**regenerate.remembered(old), **wanted.given})
+        extended = extension.of(package, wanted)
+        wanted = wanted._replace(given={**wanted.given, **extended.given})
         made = rendered_part.make(target, old, wanted)
         _refuse_taken(package, made)
         new = _new_files(target, old, made)
+        new = {path: data for path, data in new.items() if path not in extended.files}
         others, by_hand = _others(target, old, wanted, made)
     left = repository.left_to_owners(
         target.place, package.name, made.rendered.files, lambda path: _content(target, path)
@@ -120,7 +123,7 @@ def add(target: Target, wanted: Wanted) -> Added:
     new = {path: data for path, data in new.items() if path not in left}
     above, new = repository.above(new), repository.inside(new)
     # The files of the part have the date of today, those of the package keep theirs.
-    files = {**repository.inside(others), **new}
+    files = {**repository.inside(others), **extended.files, **new}
     after = _with(package, files, made.rendered.executable)
     _refuse_conflicts(after, made)
     return Added(

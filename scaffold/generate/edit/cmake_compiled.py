@@ -34,6 +34,9 @@ def add_interfaces(editor: Editor, addition: Addition) -> None:
         if generation is None:
             _refuse_conflict(editor.lists)
         elif any(listed.path == path for listed in generation.files):
+            for name in addition.interface_depends:
+                editor.edit(cmake_edit.insert_find_package(editor.lists, name))
+                _depend(editor, name)
             continue
         elif not generation.files:
             editor.refuse(f'"{path}"', f"the files of {GENERATE}() are not a literal list")
