@@ -6,6 +6,7 @@ come from here.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -55,6 +56,10 @@ def _is_text(value: object) -> bool:
     return isinstance(value, str) and "\0" not in value
 
 
+_CHARACTERS = re.compile(r"\[!?\]?[^\]]*\]")
+"""What stands for one of some characters in a pattern."""
+
+
 def _is_list_of_strings(value: object) -> bool:
     return isinstance(value, list) and all(map(_is_text, value))
 
@@ -74,6 +79,8 @@ def _refuse_patterns(value: Any) -> str:  # noqa: ANN401  likewise
     for pattern in value:
         if pattern.startswith("/") or ".." in pattern.split("/") or not pattern.strip("./"):
             return f"has {pattern!r}: a pattern is a path below the directory of this file"
+        if "[" in _CHARACTERS.sub("", pattern):
+            return f"has {pattern!r}: its '[' is never closed; write '[[]' for the character itself"
     return ""
 
 

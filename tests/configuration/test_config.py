@@ -102,6 +102,8 @@ def test_a_pyproject_of_others_need_not_be_valid(
         ("[check]\nexlude = []\n", "[tool.ros2-scaffold.check] has no key 'exlude'; did you mean"),
         ("[check]\nexclude = 'a'\n", "check.exclude must be a list of strings"),
         ("[check]\nexclude = ['../a']\n", "check.exclude has '../a': a pattern is a path below"),
+        ("[check]\nexclude = ['[']\n", "check.exclude has '[': its '[' is never closed"),
+        ("[check]\nexclude = ['[a]/b[!c']\n", "check.exclude has '[a]/b[!c': its '[' is never"),
         ("[check]\nexclude = ['/a']\n", "check.exclude has '/a': a pattern is a path below"),
         (
             "[check]\nstyle = 'onw'\n",
