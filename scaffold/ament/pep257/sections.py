@@ -10,7 +10,6 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from textwrap import dedent
 
 from scaffold.ament.pep257.definitions import METHOD, Definition, leading_space
 from scaffold.record import NamedTuple
@@ -220,6 +219,8 @@ def _google_arguments(section: Section) -> set[str]:
     """Return the arguments with a description: lines as deep as the first one, with a colon."""
     if not section.after:
         return set()
+    from textwrap import dedent
+
     level = leading_space(section.after[0])
     lines = [line for line in section.after if line.startswith(level) or not line]
     entries: list[str] = []
