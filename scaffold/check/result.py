@@ -9,6 +9,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
+    from scaffold.check.cache.facts import Settled
     from scaffold.model.facts import FactId, StoredFact
     from scaffold.model.package import Package
 
@@ -52,6 +53,8 @@ class Earlier(NamedTuple):
     """Its style is that of the files as they are now."""
     edited: Collection[str]
     """Python files of this and other packages, by ``Package.full_path``."""
+    settled: Settled
+    """What this run has found out about the facts of the verdict."""
 
     @classmethod
     def of(cls, package: Package, verdict: Verdict, edited: Collection[str]) -> Earlier:
@@ -61,7 +64,7 @@ class Earlier(NamedTuple):
             for path, item in verdict.style.items()
             if package.full_path(path) not in edited
         }
-        return cls(verdict._replace(style=style), edited)
+        return cls(verdict._replace(style=style), edited, {})
 
 
 class Result(NamedTuple):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from scaffold import time_limit
-from scaffold.check.cache.facts import EarlierFacts
+from scaffold.check.cache.facts import EarlierFacts, to_store
 from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
 from scaffold.check.file_rules import FileRule
 from scaffold.check.result import Earlier, Part, Verdict
@@ -14,10 +15,13 @@ from scaffold.check.rule import Rule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
-from scaffold.model.facts import Fact, FactId, StoredFact
+from scaffold.model.facts import Fact
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.source import Location, TooLargeError, ViewError
+
+if TYPE_CHECKING:
+    from scaffold.check.cache.facts import Settled
 
 MOST_REFUSED = 100
 """Files of one package that exhaust a rule one after the other."""
@@ -53,6 +57,7 @@ class Check:
         self._diagnostics: dict[str, list[Diagnostic]] = {}
         self._unparsable: list[Diagnostic] = []
         self._earlier_facts: EarlierFacts | None = None
+        self._settled: Settled = {}
         self._is_whole = True
         """Whether each finding belongs to a part."""
         if earlier is not None:
@@ -61,11 +66,12 @@ class Check:
     def _take_over(self, earlier: Earlier) -> None:
         package, verdict = self._package, earlier.verdict
         edited = frozenset(earlier.edited)
-        facts = self._earlier_facts = EarlierFacts(package, verdict.facts, edited)
+        self._settled = earlier.settled
+        facts = self._earlier_facts = EarlierFacts(package, verdict.facts, edited, self._settled)
         self._kept = {
             key: part
             for key, part in verdict.parts.items()
-            if part.files.isdisjoint(edited) and all(map(facts.fact, part.facts))
+            if part.files.isdisjoint(edited) and facts.hold(part.facts)
         }
         self._unparsable = [
             item
@@ -109,30 +115,15 @@ class Check:
             return None  # files may have been refused because of others
         parts = dict(self._kept)
         # What files there are to check may depend on any fact that was asked for.
-        facts = {fact.id: fact for fact in self._package.facts}
+        facts: set[Fact] = {*self._package.facts}
+        taken_over = {wanted for part in self._kept.values() for wanted in part.facts}
         for key, reads in self._reads.items():
             files, used = reads.all()
-            facts.update((fact.id, fact) for fact in used)
+            facts |= used
             ids = frozenset(fact.id for fact in used)
             parts[key] = Part(files, ids, tuple(self._diagnostics.get(key, ())))
-        return Verdict(parts, style, self._unparsable, self._stored(facts))
-
-    def _stored(self, facts: dict[FactId, Fact]) -> Mapping[FactId, StoredFact]:
-        """Return some facts, those of the parts that are taken over, and what all depend on."""
-        if self._earlier_facts is not None:
-            wanted = {wanted for part in self._kept.values() for wanted in part.facts}
-            for fact in map(self._earlier_facts.fact, wanted):
-                if fact is not None:
-                    facts.setdefault(fact.id, fact)
-        pending = list(facts.values())
-        result: dict[FactId, StoredFact] = {}
-        while pending:
-            fact = pending.pop()
-            if fact.id not in result:
-                stored, used = fact.stored()
-                result[fact.id] = stored
-                pending += used
-        return result
+        stored = to_store(facts, taken_over, self._settled)
+        return Verdict(parts, style, self._unparsable, stored)
 
     def _run(self, rule: Rule) -> Mapping[str, list[Diagnostic]]:
         """Return the diagnostics of a rule; a file that exhausts it counts as unparsable then."""

@@ -260,6 +260,8 @@ class Session:
         if package.parse_errors:
             # They were met for other packages: the verdict must not depend on who came first.
             package.forget()
+            if earlier is not None:
+                earlier.settled.clear()  # to meet them again
             _ = package.name  # which everybody asks for: a malformed manifest is told of
         check = runner.Check(package, earlier)
         of_ros1 = [*_of_ros1(package)]

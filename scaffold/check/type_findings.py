@@ -96,4 +96,4 @@ _NOTHING = Part(frozenset(), frozenset(), ())
 def _of_types(earlier: Earlier) -> Earlier:
     """Return what is known of types alone."""
     verdict = earlier.verdict
-    return Earlier(verdict._replace(parts=verdict.types, unparsable=()), earlier.edited)
+    return earlier._replace(verdict=verdict._replace(parts=verdict.types, unparsable=()))

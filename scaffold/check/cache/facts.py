@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold import time_limit
@@ -12,6 +12,10 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
+    Settled = dict[FactId, StoredFact | Fact | None]
+    """The facts that somebody asked about in this run: as stored, or made again with the same
+    value; ``None`` for others."""
+
 
 class EarlierFacts:
     """The facts that a verdict of an earlier run depends on.
@@ -20,14 +24,19 @@ class EarlierFacts:
         package: The package of the verdict.
         stored: The facts, also of packages around it.
         edited: The Python files that were edited since, by ``Package.full_path``.
+        settled: What this run has found out about them; more is added.
     """
 
     def __init__(
-        self, package: Package, stored: Mapping[FactId, StoredFact], edited: Collection[str]
+        self,
+        package: Package,
+        stored: Mapping[FactId, StoredFact],
+        edited: Collection[str],
+        settled: Settled,
     ) -> None:
         self._stored = stored
         self._edited = edited
-        self._facts: dict[FactId, Fact | None] = {}
+        self._settled = settled
         self._homes: dict[str, Package] = {
             item.directory: item for item in package.known_workspace or ()
         }
@@ -35,14 +44,18 @@ class EarlierFacts:
         for directory in {directory for directory, _ in stored} & self._homes.keys():
             self._homes[directory].assume_facts(_Recall(self, directory))
 
-    def fact(self, wanted: FactId) -> Fact | None:
-        """Return a fact that has the value it had, ``None`` if it has another.
+    def hold(self, wanted: Iterable[FactId]) -> bool:
+        """Tell whether facts have the values they had.
 
-        Where its files were edited it is made again.
+        Those whose files were edited are made again.
         """
-        if wanted not in self._facts:
-            self._facts[wanted] = self.recall(wanted) or self._made_again(wanted)
-        return self._facts[wanted]
+        settled = self._settled
+        for item in wanted:
+            if item not in settled:
+                settled[item] = self._untouched(item) or self._made_again(item)
+            if settled[item] is None:
+                return False
+        return True
 
     def end(self) -> None:
         """Stop recalling facts; packages compute them again.
@@ -53,18 +66,22 @@ class EarlierFacts:
             self._homes[directory].forget_facts()
 
     def recall(self, wanted: FactId) -> Fact | None:
+        """Return a fact if it is known to have the value that it had."""
+        known = self._settled.get(wanted) or self._untouched(wanted)
+        if isinstance(known, StoredFact):
+            self._settled[wanted] = known
+            fact = Fact(*wanted, known)
+            # Views of this package may be used for another, which does not know what it is made of.
+            fact.reads.facts.update(item for item in map(self.recall, known.facts) if item)
+            return fact
+        return known
+
+    def _untouched(self, wanted: FactId) -> StoredFact | None:
         """Return a fact if nothing that it was made of has changed."""
         stored = self._stored.get(wanted)
         if stored is None or not stored.files.isdisjoint(self._edited) or stored.has_failed:
             return None
-        used = [self.fact(item) for item in stored.facts]
-        facts = [item for item in used if item is not None]
-        if len(facts) < len(used):
-            return None
-        result = Fact(*wanted, stored)
-        result.reads.files |= stored.files
-        result.reads.facts.update(facts)
-        return result
+        return stored if self.hold(stored.facts) else None
 
     def _made_again(self, wanted: FactId) -> Fact | None:
         directory, key = wanted
@@ -91,5 +108,33 @@ class _Recall:
         self._directory = directory
 
     def __call__(self, key: Key) -> Fact | None:
-        """Return a fact if nothing that it was made of has changed."""
+        """Return a fact if it is known to have the value that it had."""
         return self._facts.recall((self._directory, key))
+
+
+def to_store(
+    facts: Iterable[Fact], taken_over: Iterable[FactId], settled: Settled
+) -> Mapping[FactId, StoredFact]:
+    """Return facts for a later run, with all that they were made of.
+
+    Args:
+        facts: Those that this run made or recalled.
+        taken_over: Those that what is taken over depends on.
+        settled: What is known of facts of the earlier run.
+    """
+    known: Settled = {fact.id: fact for fact in facts}
+    pending = [*known, *taken_over]
+    result: dict[FactId, StoredFact] = {}
+    while pending:
+        wanted = pending.pop()
+        if wanted in result:
+            continue
+        item = known.get(wanted) or settled.get(wanted)
+        if isinstance(item, Fact):
+            item, used = item.stored()
+            for fact in used:
+                known.setdefault(fact.id, fact)
+        if item is not None:
+            result[wanted] = item
+            pending += item.facts
+    return result
