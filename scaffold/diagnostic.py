@@ -34,6 +34,10 @@ class Diagnostic(NamedTuple):
     distributions: tuple[str, ...] = ()
     """Those that it holds for, of several that were checked for; empty for the only one."""
 
+    def __hash__(self) -> int:
+        """Leave the fix out: it may be long, and the place and the message differ first."""
+        return hash((self.location, self.message))
+
     @property
     def text(self) -> str:
         """The message, and the distributions that it holds for where that is worth saying."""

@@ -161,7 +161,8 @@ def _class_of_object(owner: str) -> str | None:
 def _is_set(package: Package, name: str) -> bool:
     """Tell whether some code of the package sets an attribute of this name."""
     pattern = re.compile(rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode())
-    return any(pattern.search(package.data(path)) for path in package.python_files)
+    files = (package.data(path) for path in package.python_files)
+    return any(name.encode() in data and pattern.search(data) for data in files)
 
 
 def _fix(finding: TypeFinding, node: ast.Attribute, closest: str) -> Fix:

@@ -548,8 +548,12 @@ def mentions(package: Package, path: str, *words: str) -> bool:
 @fact
 def occurrences(package: Package, word: str) -> int:
     """Count a word in the Python files of a package: in calls, imports, arguments, texts."""
-    count = 0
-    for path in package.python_files:
-        with suppress(ViewError):
-            count += package.data(path).count(word.encode())
-    return count
+
+    def join() -> bytes:
+        parts: list[bytes] = []
+        for path in package.python_files:
+            with suppress(ViewError):
+                parts.append(package.data(path))
+        return b"\0".join(parts)
+
+    return package.remember("all Python files", join).count(word.encode())

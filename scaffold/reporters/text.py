@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 from typing import TextIO
 
 from scaffold.check.result import Result
@@ -31,8 +32,9 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         screen.report(results, out, options)
         return
     else:
+        name = lru_cache(maxsize=None)(_shown)
         for package, diagnostic in worst_first(results, options):
-            out.write(f"{line(package, diagnostic)}\n")
+            out.write(f"{line(package, diagnostic, name)}\n")
             if options.source:
                 out.writelines(f"    {text}\n" for text in excerpt(package, diagnostic.location))
     if not options.quiet:
@@ -51,16 +53,24 @@ def worst_first(
                     yield result.package, diagnostic
 
 
-def line(package: Package, diagnostic: Diagnostic) -> str:
+def _shown(package: Package, path: str) -> str:
+    return printable(shown(package, path))
+
+
+def line(
+    package: Package, diagnostic: Diagnostic, name: Callable[[Package, str], str] = _shown
+) -> str:
     """Return the line of a finding: ``path:line:column: severity code message [name]``."""
-    head = f"{place(package, diagnostic)}: {diagnostic.severity.value} {diagnostic.code}"
+    head = f"{place(package, diagnostic, name)}: {diagnostic.severity.value} {diagnostic.code}"
     return f"{head} {printable(diagnostic.text)} [{diagnostic.name}]"
 
 
-def place(package: Package, diagnostic: Diagnostic) -> str:
+def place(
+    package: Package, diagnostic: Diagnostic, name: Callable[[Package, str], str] = _shown
+) -> str:
     """Return ``path:line:column``, as terminals and editors follow it."""
     at = diagnostic.location
-    return f"{printable(shown(package, at.path))}:{at.line}:{at.column}"
+    return f"{name(package, at.path)}:{at.line}:{at.column}"
 
 
 def _statistics(results: Sequence[Result], out: TextIO) -> None:
