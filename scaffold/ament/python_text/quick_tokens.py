@@ -45,6 +45,7 @@ _PATTERNS = {
 }
 _KINDS = (0, *_PATTERNS)
 """By the number of the group."""
+# linear: the last of the groups takes any character, so there is a match wherever one is sought
 _TOKEN = re.compile(
     rf"[ \f\t]*(?:{'|'.join(f'({pattern})' for pattern in _PATTERNS.values())})", re.DOTALL
 )
