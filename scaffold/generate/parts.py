@@ -130,6 +130,7 @@ def refuse_impossible(
         )
     for part in parts:
         refuse_build_type(part.template, build_type)
+        _refuse_one_frame_twice(part)
     own = [part.name for part in parts if part.template.definition == "msg"]
     for part in parts:
         for answer in part.answers.values():
@@ -142,6 +143,20 @@ def refuse_impossible(
         if other is not part:
             raise InputError(f"two parts of the package have the name {part.name!r}")
     _refuse_alike([part for part in parts if part.template.role is Role.INTERFACE])
+
+
+def _refuse_one_frame_twice(part: Part) -> None:
+    """Raise if a node would need the transform of a frame to itself."""
+    names: dict[str, str] = {}
+    for question in part.template.questions:
+        if question.type == "frame":
+            frame = str(part.answers[question.name])
+            other = names.setdefault(frame, question.name)
+            if other != question.name:
+                raise InputError(
+                    f"{part.name}: {other} and {question.name} are both {frame!r}, and tf2 has no "
+                    "transform from a frame to itself; name two frames"
+                )
 
 
 def _refuse_endless(messages: Sequence[Part]) -> None:

@@ -1219,3 +1219,20 @@ def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
     Path("answers.yaml").write_text("add: [{kind: publisher, colour: red}]\n")
     command = ["new", "another", "--answers", "answers.yaml"]
     assert_refused(capsys, command, "publisher has no option 'colour'; it has message_type")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--node-kind", "tf2_static_broadcaster", "--child-frame", "base_link"),
+        ("--node-kind", "tf2_listener", "--target-frame", "base_link"),
+        ("--add", "tf2_listener:finder source_frame=map target_frame=map"),
+    ],
+)
+def test_a_transform_from_a_frame_to_itself_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert main(["new", "rover", "--destination-directory", str(tmp_path), *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no transform from a frame to itself" in line
+    assert not (tmp_path / "rover").exists()
