@@ -56,7 +56,7 @@ def _is_text(value: object) -> bool:
     return isinstance(value, str) and "\0" not in value
 
 
-_CHARACTERS = re.compile(r"\[!?\]?[^\]]*\]")
+_CHARACTERS = re.compile(r"\[!?\]?[^\]]{0,99}\]")
 """What stands for one of some characters in a pattern."""
 
 
