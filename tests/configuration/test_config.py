@@ -290,15 +290,15 @@ def test_licenses_that_are_not_allowed(workspace: Path, capsys: pytest.CaptureFi
 def test_dependencies_that_are_known_to_be_there(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    code = "import numpy\nimport torch\nimport tf2_ros\n\nprint(numpy, torch, tf2_ros)\n"
+    code = "import scipy\nimport torch\nimport tf2_ros\n\nprint(scipy, torch, tf2_ros)\n"
     (workspace / "talker" / "talker" / "extra.py").write_text(code)
     words = ("talker", "--select", "import-undeclared", "--quiet")
     before = check(capsys, *words)[1]
-    assert [name for name in ("numpy", "torch", "tf2_ros") if f"'{name}'" in before] == [
-        *("numpy", "torch", "tf2_ros")
+    assert [name for name in ("scipy", "torch", "tf2_ros") if f"'{name}'" in before] == [
+        *("scipy", "torch", "tf2_ros")
     ]
     configuration = workspace / "ros2-scaffold.toml"
-    names = '["python3-numpy", "torch", "tf2_ros"]'
+    names = '["python3-scipy", "torch", "tf2_ros"]'
     configuration.write_text(f"[check]\nimplicit-dependencies = {names}\n")
     assert check(capsys, *words) == (0, "")
     configuration.write_text('[check]\nimplicit-dependencies = ["torch"]\n')
