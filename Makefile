@@ -83,6 +83,7 @@ docs: $(VENV)/rules.stamp
 	$(BIN)/python scripts/document_api.py
 	$(BIN)/python scripts/document_configuration.py
 	$(BIN)/python scripts/document_distributions.py
+	$(BIN)/python scripts/document_smoke_report.py
 
 # Packages to measure: as many as the argument of seq says.
 build/benchmark: $(VENV)/test.stamp

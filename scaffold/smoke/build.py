@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import glob
 import os
 import re
@@ -55,6 +56,7 @@ async def build(
     origin: Origin,
     timeout: float,
     with_tests: bool = False,
+    done: dict[str, Build] | None = None,
 ) -> dict[str, Build]:
     """Build packages; return what became of each, by name.
 
@@ -68,22 +70,31 @@ async def build(
         origin: The run that it belongs to.
         timeout: Seconds after which the build is given up.
         with_tests: Whether tests are built as well.
+        done: Gets what became of each, also when the build is interrupted.
     """
     deadline = time.monotonic() + timeout
-    done: dict[str, Build] = {}
+    done = {} if done is None else done
     left = list(packages)
     while left:
-        said, exit_code, left_running = await _run(
-            command(environment, left, layout, with_tests=with_tests),
-            variables(environment, scratch),
-            scratch / "colcon",
-            origin,
-            deadline,
-        )
+        latest = layout.log / "latest_build"
+        before = _resolved(latest)
+        try:
+            said, exit_code, left_running = await _run(
+                command(environment, left, layout, with_tests=with_tests),
+                variables(environment, scratch),
+                scratch / "colcon",
+                origin,
+                deadline,
+            )
+        except asyncio.CancelledError:
+            if _resolved(latest) != before:
+                log = _Log.read(latest, "", succeeded=False)
+                done.update({p.name: log.result(p) for p in left if log.has_ended(p.name)})
+            raise
         in_time = exit_code is not None
         if not in_time:
             said += f"\nthe build did not end within {timeout:g} s\n"
-        log = _Log.read(layout.log / "latest_build", said, succeeded=exit_code == 0)
+        log = _Log.read(latest, said, succeeded=exit_code == 0)
         log = replace(log, left_running=tuple(left_running))
         # A package that makes colcon itself fail ends the build also of those that come later.
         later = [item for item in left if log.had_no_turn(item.name)] if in_time else []
@@ -92,6 +103,10 @@ async def build(
         done.update({item.name: log.result(item) for item in left if item not in later})
         left = later
     return done
+
+
+def _resolved(path: Path) -> str:
+    return os.path.realpath(path)
 
 
 async def _run(
@@ -247,6 +262,11 @@ class _Log:
             else:
                 job.skipped = True
         return cls(directory, jobs, without_repeats(text), succeeded)
+
+    def has_ended(self, name: str) -> bool:
+        """Tell whether the build got to the end of a package."""
+        job = (self.jobs or {}).get(name)
+        return job is not None and job.ended is not None
 
     def had_no_turn(self, name: str) -> bool:
         """Tell whether the build ended early, for no reason that concerns this package."""

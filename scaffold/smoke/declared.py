@@ -16,6 +16,7 @@ from scaffold.smoke.expectation import Expectation, Offer, Publication
 from scaffold.source import ViewError
 
 _MAX_BASES = 8
+_LEADING_UP = ("on_configure", "on_activate")
 _Entity = TypeVar("_Entity", bound=Endpoint)
 
 
@@ -63,13 +64,13 @@ def _publications(
     file: RclpyFile, owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
-        if owner.is_lifecycle:
-            continue  # it publishes once it is activated, which does not happen here
         alone = owner.facts is file and not (isinstance(owner, NodeClass) and owner.base)
         reaches = PublishReach(owner.facts, starts, alone=alone)
         for publisher in _made(owner, starts, lambda item: item.publishers):
             topic = _resolved(publisher.topic, owner)
-            if topic is not None:
+            if topic is not None and owner.is_lifecycle:
+                yield Publication(topic, publisher.message_type, is_managed=True)
+            elif topic is not None:
                 rates = publish_rates(owner.facts, publisher) if alone else None
                 rate = sum(rates) if rates else None
                 reach = reaches.of(publisher)
@@ -113,14 +114,24 @@ def _made(
     for _ in range(_MAX_BASES):
         if one is None:
             return
-        constructor = one.constructor
-        made_in = one.facts.reached(constructor) if constructor else ()
+        made_in = {
+            function for start in _constructors(one) for function in one.facts.reached(start)
+        }
         for entity in own(one):
             if not entity.is_conditional and entity.function in made_in:
                 yield entity
         if not one.calls_super_init:
             return
         one = one.base
+
+
+def _constructors(owner: NodeClass) -> Iterator[FunctionNode]:
+    """Yield what makes the parts of a node; of a managed one, also what leads it up."""
+    if owner.constructor is not None:
+        yield owner.constructor
+    for item in owner.node.body if owner.is_lifecycle else ():
+        if isinstance(item, FunctionNode) and item.name in _LEADING_UP:
+            yield item
 
 
 def _resolved(topic: str | Unknown, owner: NodeDefinition) -> str | None:

@@ -81,16 +81,18 @@ class _UnusableError(Exception):
 def select(
     variables: Mapping[str, str],
     *,
+    forced: str | None = None,
     wanted: Sequence[Distribution] = (),
     paths: Sequence[str] = (".",),
     installed: Path = INSTALLED,
     own_prefix: str = sys.prefix,
     origin: Origin = _NO_RUN,
 ) -> Environment:
-    """Return the first environment that can be used.
+    """Return the first environment that can be used, or the one that is asked for.
 
     Args:
         variables: The environment variables of this process.
+        forced: ``sourced``, ``wheels``, the name of an installation, or its directory.
         wanted: The distributions that count; any without one.
         paths: What is to be run, for the message.
         installed: Where installations are, one directory for each distribution.
@@ -100,6 +102,11 @@ def select(
     Raises:
         EnvironmentMissingError: there is none.
     """
+    if forced is not None:
+        try:
+            return _forced(forced, _without_bootstrap(variables), installed, own_prefix, origin)
+        except _UnusableError as reason:
+            raise EnvironmentMissingError(f"--ros {forced}: {reason}") from reason
     reasons: list[str] = []
     names = [distribution.name for distribution in wanted]
     for find in _candidates(_without_bootstrap(variables), installed, own_prefix, origin, names):
@@ -139,6 +146,30 @@ def _ways(wanted: Sequence[Distribution], why: str, paths: Sequence[str]) -> str
         f"no ROS 2 {' or '.join(item.title for item in wanted)} found{why}: {'; '.join(ways)}; or "
         f"use a container: {container}"
     )
+
+
+def _forced(
+    wanted: str, variables: Mapping[str, str], installed: Path, own_prefix: str, origin: Origin
+) -> Environment:
+    """Return the environment that is asked for.
+
+    Raises:
+        _UnusableError: it is not there, or cannot be used.
+    """
+    if wanted == "sourced":
+        if not variables.get("AMENT_PREFIX_PATH"):
+            raise _UnusableError("nothing is sourced; source the setup file of a ROS 2 first")
+        return _sourced(variables, origin)
+    if wanted == "wheels":
+        if not _has_package(own_prefix, "rclpy"):
+            raise _UnusableError(f"they are missing; run: {installation.command('ros')}")
+        return _wheels(variables, own_prefix)
+    setup = (Path(wanted) if os.sep in wanted else installed / wanted) / "setup.bash"
+    if not setup.is_file():
+        names = ", ".join(sorted(path.parent.name for path in installed.glob("*/setup.bash")))
+        there = f"sourced, wheels, {names}" if names else "sourced, wheels"
+        raise _UnusableError(f"there is no {setup}; name a directory, or one of {there}")
+    return _installed(variables, setup.absolute(), own_prefix, origin)
 
 
 def source(setup: Path, variables: Mapping[str, str], origin: Origin = _NO_RUN) -> dict[str, str]:

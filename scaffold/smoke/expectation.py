@@ -43,6 +43,8 @@ class Publication:
     """How often timers publish it, unless their callbacks return or raise before."""
     tolerance: float | None = None
     """Of the rate, if the author says so."""
+    is_managed: bool = False
+    """A managed node publishes it, once it is active."""
     stated_by: str = ""
     """The file in which the author says what is expected; empty for the source."""
 

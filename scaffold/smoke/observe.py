@@ -30,6 +30,8 @@ _COPY = "ros2_scaffold_probe"
 START_TIMEOUT = 120.0
 """Seconds for the start of an interpreter and the import of rclpy, on a machine that is busy."""
 ANSWER_TIMEOUT = 30.0
+LAST_ANSWER_TIMEOUT = 2.0
+"""Seconds for the last answer, to a run that is interrupted."""
 END_TIMEOUT = 5.0
 LONGEST_LINE = 2**24
 """Bytes of one event: the report holds several messages of every topic."""
@@ -43,6 +45,7 @@ _OF_EVERY_NODE = (
     "/set_parameters_atomically",
     "/get_type_description",
 )
+"""Services that every node has."""
 _ACTION_SERVICE = "/_action/send_goal"
 _ACTION_TYPE = "_SendGoal"
 _ACTION = "/_action/"
@@ -139,6 +142,14 @@ class Observer:
         ending = _ACTION_SERVICE if offer.kind == "action" else ""
         return offer.name + ending in self._services
 
+    def offering(self, ending: str, kind: str) -> list[str]:
+        """Return what comes before the ending in the names of services of a type."""
+        return sorted(
+            name.removesuffix(ending)
+            for name, type_name in self._services.items()
+            if name.endswith(ending) and type_name == kind
+        )
+
     async def wait_for(
         self, condition: Callable[[], bool], timeout: float, running: Watched
     ) -> bool:
@@ -212,8 +223,11 @@ class Observer:
         """Let the probe go: nothing more is to be seen."""
         self._stdin.close()
 
-    async def observation(self) -> Observation:
+    async def observation(self, timeout: float = ANSWER_TIMEOUT) -> Observation:
         """Return all that was seen so far.
+
+        Args:
+            timeout: Seconds that the probe has to answer.
 
         Raises:
             ObserverError: the probe has ended or does not answer.
@@ -221,9 +235,9 @@ class Observer:
         asked = time.monotonic()
         self._tell("report")
         while not self._reports:
-            left = asked + ANSWER_TIMEOUT - time.monotonic()
+            left = asked + timeout - time.monotonic()
             if left <= 0:
-                raise ObserverError(f"the observer did not answer within {ANSWER_TIMEOUT:g} s")
+                raise ObserverError(f"the observer did not answer within {timeout:g} s")
             await self._event_or(None, left)
         return self._as_observation(self._reports.pop())
 

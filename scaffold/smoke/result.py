@@ -130,6 +130,26 @@ class Answer:
 
 
 @dataclass(frozen=True)
+class Transition:
+    """What came of a change of state of a managed node."""
+
+    node: str
+    name: str
+    """Such as ``configure``."""
+    before: str
+    """The state, such as ``unconfigured``."""
+    after: str
+    seconds: float
+    error: str = ""
+    """Why it failed."""
+
+    @property
+    def ok(self) -> bool:
+        """Tell whether it did what it is for."""
+        return not self.error
+
+
+@dataclass(frozen=True)
 class Usage:
     """What an executable and the processes that it has started have used."""
 
@@ -162,6 +182,8 @@ class Observation:
     """By kind and name."""
     refused: tuple[tuple[str, str], ...] = ()
     """Topics that could not be published, and why."""
+    transitions: tuple[Transition, ...] = ()
+    """Of managed nodes."""
 
     @property
     def alive(self) -> bool:
@@ -199,11 +221,13 @@ class Executable:
     source: str = ""
     """Its file, as the repository knows it; empty if it is unknown."""
     seconds: float = field(default=0.0, compare=False)
+    interrupted: bool = False
+    """The run ended before it was done with this one."""
 
     @property
     def ok(self) -> bool:
         """Tell whether nothing is wrong."""
-        return not self.problems
+        return not self.problems and not self.interrupted
 
 
 @dataclass(frozen=True)
@@ -215,6 +239,8 @@ class Build:
     errors: tuple[str, ...] = ()
     """The lines of the output that tell why it failed."""
     warnings: tuple[str, ...] = ()
+    interrupted: bool = False
+    """The run ended before it was built."""
 
 
 @dataclass(frozen=True)
@@ -266,11 +292,18 @@ class PackageResult:
     """``None`` if they were not run."""
     together: Executable | None = None
     """What came of all executables in one domain; ``None`` if that was not tried."""
+    ran: bool = True
+    """Its turn came: without executables, it has none."""
+    launches: tuple[Executable, ...] = ()
+    """What came of its launch files."""
+    worker: str = ""
+    """Where it ran; empty for this machine."""
 
     @property
     def runs(self) -> tuple[Executable, ...]:
-        """The executables, and all of them together."""
-        return (*self.executables, *([self.together] if self.together else []))
+        """The executables, all of them together, and launch files."""
+        together = (self.together,) if self.together else ()
+        return (*self.executables, *together, *self.launches)
 
     @property
     def ok(self) -> bool:
@@ -291,8 +324,10 @@ class Smoke:
     scratch: str | None = None
     """The directory of the run, when it was kept."""
     seconds: float = field(default=0.0, compare=False)
+    ended_early: str = ""
+    """Why the run ended before all was seen; empty if it did not."""
 
     @property
     def ok(self) -> bool:
         """Tell whether all packages are as they should be."""
-        return all(package.ok for package in self.packages)
+        return not self.ended_early and all(package.ok for package in self.packages)

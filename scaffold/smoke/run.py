@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 import signal
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.isolation.station import Isolation, Stations
-from scaffold.smoke.observe import ObserverError
+from scaffold.smoke.lifecycle import Lifecycles
+from scaffold.smoke.observe import ANSWER_TIMEOUT, LAST_ANSWER_TIMEOUT, ObserverError
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.processes.usage import Meter, measuring
@@ -71,6 +74,7 @@ async def run(
     number: signal.Signals,
     *,
     brief: bool = False,
+    first: NodeRun | None = None,
 ) -> NodeRun:
     """Run an executable until it has been observed, and stop it with a signal.
 
@@ -84,13 +88,16 @@ async def run(
         label: Names the run, as a relative path.
         number: The signal to stop it with.
         brief: Observe only until it is up: the run is about the signal.
+        first: Gets what comes of it, also when it is interrupted.
     """
-    first = await _run_once(plan, executable, expectation, label, number, brief=brief)
+    first = first or NodeRun()
+    await _run_once(plan, executable, expectation, label, number, first, brief=brief)
     for attempt in range(RETRIES):
         if first.doubtful is None:
             break
         again = f"{label}-{attempt + 2}"
-        other = await _run_once(plan, executable, expectation, again, number, brief=True)
+        other = NodeRun()
+        await _run_once(plan, executable, expectation, again, number, other, brief=True)
         if other.stopped_cleanly:
             first.problems.remove(first.doubtful)
             said = first.doubtful.message
@@ -106,17 +113,16 @@ async def _run_once(
     expectation: Expectation,
     label: str,
     number: signal.Signals,
+    trial: NodeRun,
     *,
     brief: bool,
-) -> NodeRun:
-    trial = NodeRun()
+) -> None:
     try:
         async with plan.stations.one(plan.variables) as station:
             one = _Run(plan, expectation, number, trial, station, brief=brief)
             await one.execute(executable, label)
     except ObserverError as error:
         trial.problems.append(Problem(str(error)))
-    return trial
 
 
 class _Run:
@@ -138,6 +144,7 @@ class _Run:
         self._observer = station.observer
         self._brief = brief
         self._hangs = ""
+        self._lifecycles: Lifecycles | None = None
         self._scenario = expectation.scenario
         self._answers: dict[tuple[str, str], Answer] = {}
 
@@ -160,12 +167,18 @@ class _Run:
             return
         try:
             async with measuring(running.group) as meter:
-                await self._watch(running, meter)
-                observation = await self._observer.observation()
-                meter.measure()
-            observation = replace(observation, answers=self._answers)
-            self._trial.observation = _since(running, observation, meter)
-            self._trial.seconds = time.monotonic() - running.started
+                try:
+                    await self._watch(running, meter)
+                except asyncio.CancelledError:
+                    with suppress(ObserverError):
+                        await self._look(running, meter, LAST_ANSWER_TIMEOUT)
+                    raise
+                await self._look(running, meter)
+            if self._lifecycles is not None:
+                await self._lifecycles.lead(self._scenario.transitions_down)
+                self._trial.observation = replace(
+                    self._trial.observation, transitions=tuple(self._lifecycles.transitions)
+                )
             self._trial.joined = self._trial.observation.alive and running.exit_code is None
             self._observer.dismiss()
             if output.traceback(output.read(running.err)) is not None:
@@ -182,6 +195,17 @@ class _Run:
         finally:
             await running.close()
 
+    async def _look(
+        self, running: process.Running, meter: Meter, timeout: float = ANSWER_TIMEOUT
+    ) -> None:
+        """Take down what was seen so far."""
+        observation = await self._observer.observation(timeout)
+        meter.measure()
+        transitions = tuple(self._lifecycles.transitions) if self._lifecycles else ()
+        observation = replace(observation, answers=self._answers, transitions=transitions)
+        self._trial.observation = _since(running, observation, meter)
+        self._trial.seconds = time.monotonic() - running.started
+
     async def _watch(self, running: process.Running, meter: Meter) -> None:
         observer, plan = self._observer, self._plan
         if not await observer.wait_for(observer.has_seen_anything, plan.timeout, running):
@@ -192,7 +216,9 @@ class _Run:
         if not self._brief:
             for stimulus in self._scenario.stimuli:
                 observer.publish(stimulus)
-            await observer.pause(self._scenario.duration or plan.duration, running)
+            self._lifecycles = Lifecycles(observer, running, plan.timeout)
+            duration = self._scenario.duration or plan.duration
+            await self._lifecycles.pause(duration, self._scenario.transitions_up)
         left = running.started + plan.timeout - time.monotonic()
         await observer.wait_for(self._has_seen_all(), left, running)
         # A signal in the middle of a constructor would tell about nothing but that.

@@ -6,11 +6,9 @@ import asyncio
 import os
 import signal
 import time
-from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, TypeVar
+from functools import partial
 
 from scaffold import distributions
 from scaffold.distributions import Distribution
@@ -20,67 +18,30 @@ from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package as Source
 from scaffold.reporters.paths import in_repository
 from scaffold.smoke import environment as environments
-from scaffold.smoke import run as trial
+from scaffold.smoke import launching
 from scaffold.smoke.build import Layout, build
 from scaffold.smoke.cleanup import leftovers
-from scaffold.smoke.cleanup.interruption import Interruption
+from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
 from scaffold.smoke.cleanup.leftovers import Run
-from scaffold.smoke.cleanup.workspace_lock import WAIT, locked
+from scaffold.smoke.cleanup.workspace_lock import locked
 from scaffold.smoke.embedded.interfaces import provide
 from scaffold.smoke.environment import Environment
-from scaffold.smoke.expectation import Expectation, compare, wrong_rates
+from scaffold.smoke.executables import ExecutableRuns, installed
+from scaffold.smoke.expectation import Expectation
 from scaffold.smoke.isolation.station import Stations
+from scaffold.smoke.options import Options, Progress
 from scaffold.smoke.processes import process, supervisor
-from scaffold.smoke.result import Build, Executable, PackageResult, Problem, Smoke, Tests
-from scaffold.smoke.run import NodeRun, RunSettings
-from scaffold.smoke.scenario import verdicts
+from scaffold.smoke.result import Build, Executable, PackageResult, Smoke, Tests
+from scaffold.smoke.run import RunSettings
 from scaffold.smoke.scenario.model import FILE, NOTHING, Scenario
 from scaffold.smoke.scenario.reader import scenarios
 from scaffold.smoke.scenario.verdicts import overridden
-from scaffold.smoke.together import run_together
-
-Result = TypeVar("Result")
-
-Progress = Callable[[str], None]
-"""Called with what is going on, in a few words."""
+from scaffold.smoke.together import of_executables, run_together
+from scaffold.smoke.unavailable import unavailable
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _EARLY_STATIONS = 4
 """Observers that are started during the build; more of them would slow it down."""
-
-
-@dataclass(frozen=True)
-class Options:
-    """How a run is done; times are in seconds."""
-
-    duration: float = 5.0
-    """Observation after the first sign of life."""
-    timeout: float = 20.0
-    """From the start of an executable to its first sign of life and to its first messages."""
-    build_timeout: float = 900.0
-    signals: tuple[signal.Signals, ...] = (signal.SIGINT,)
-    workspace: Path | None = None
-    """Where build, install and log go; ``None``: into the scratch directory."""
-    keep: bool = False
-    workspace_wait: float = WAIT
-    """For another run in the same workspace to end."""
-    jobs: int = 4
-    """Executables that run at the same time, each in its own domain."""
-    run_only: frozenset[str] | None = None
-    """The packages whose executables are run; the others are built, as those need them."""
-
-    test: bool = False
-    """Whether the tests of the packages are run as well."""
-
-    together: bool = False
-    """Whether all executables of a package are also run in one domain."""
-
-    wanted: Sequence[Distribution] = ()
-    """The distributions that count; any without one."""
-
-    def runs(self, package: str) -> bool:
-        """Tell whether the executables of a package are run."""
-        return self.run_only is None or package in self.run_only
 
 
 def smoke(
@@ -94,6 +55,8 @@ def smoke(
 ) -> Smoke:
     """Build packages, run what they install, and compare it with what the sources say.
 
+    A run that is interrupted returns what was seen until then, once it has seen anything.
+
     Args:
         sources: The packages; they are not changed.
         options: How it is done.
@@ -105,7 +68,7 @@ def smoke(
     Raises:
         InputError: another run holds the workspace, or a ``smoke.yaml`` has a mistake.
         EnvironmentMissingError: there is no ROS 2 to do it with.
-        InterruptedBySignalError: a signal asked for the end.
+        InterruptedBySignalError: a signal asked for the end before it had begun.
     """
     begun = time.monotonic()
     stated = {source.name: _scenarios(source) for source in sources}
@@ -123,15 +86,23 @@ def smoke(
         with interruption.at_once():
             selected = environments.select(
                 os.environ if variables is None else variables,
+                forced=options.ros,
                 wanted=options.wanted,
                 paths=[os.path.relpath(source.directory) for source in sources],
                 origin=run.origin,
             )
+            if options.launch:
+                launching.require(selected, sources, run.origin)
         stack.enter_context(distributions.targeting(_distribution_of(selected)))
         session = _Session(selected, run, options, progress, stated, tell)
-        packages = interruption.run(lambda: session.run(sources))
+        ended_early = ""
+        try:
+            interruption.run(lambda: session.run(sources))
+        except InterruptedBySignalError as end:
+            ended_early = f"interrupted by {signal.Signals(end.number).name}"
+        except OSError as error:
+            ended_early = _refusal(error)
         stack.close()
-        interruption.check()
     return Smoke(
         environment={
             "kind": selected.kind,
@@ -139,10 +110,11 @@ def smoke(
             "prefix": selected.prefix,
             "rmw": selected.rmw,
         },
-        packages=packages,
+        packages=session.results(sources),
         notes=selected.notes,
         scratch=str(run.scratch) if options.keep else None,
         seconds=time.monotonic() - begun,
+        ended_early=ended_early,
     )
 
 
@@ -150,6 +122,12 @@ def _distribution_of(environment: Environment) -> Distribution:
     """Return the distribution of an environment; that of the packages, if it is not known."""
     is_known = environment.distribution in distributions.NAMES
     return distributions.named(environment.distribution) if is_known else distributions.target()
+
+
+def _refusal(error: OSError) -> str:
+    """Return what the system has refused, such as space on a disk."""
+    reason = error.strerror or str(error) or type(error).__name__
+    return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
 
 
 def _scenarios(source: Source) -> Mapping[str, Scenario]:
@@ -194,7 +172,6 @@ class _Session:
         announce: Progress,
     ) -> None:
         self._announce = announce
-        self._plan: RunSettings | None = None
         self._environment = environment
         self._scenarios = scenarios
         self._scratch = run.scratch
@@ -203,33 +180,44 @@ class _Session:
         self._progress = progress
         self._layout = Layout.below(options.workspace or run.scratch)
         self._stations = Stations(environment.python, run.scratch, run.origin)
-        self._slots = asyncio.Semaphore(options.jobs)
-        self._running: set[str] = set()
         self._expected: dict[str, dict[str, Expectation]] = {}
+        self._builds: dict[str, Build] = {}
+        self._executables: dict[str, dict[str, Executable]] = {}
+        self._together: dict[str, Executable] = {}
+        self._launches: dict[str, list[Executable]] = {}
+        self._tests: dict[str, Tests] = {}
 
-    async def run(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
+    async def run(self, sources: Sequence[Source]) -> None:
+        """Do all that is asked for; ``results`` says how far it came."""
         try:
             await self._provide_interfaces(sources)
-            builds = await self._build(sources) if sources else {}
+            for line in unavailable(self._environment, sources):
+                self._announce(line)
+            if sources:
+                await self._build(sources)
             built = [
                 source
                 for source in sources
-                if builds[source.name].ok and self._options.runs(source.name)
+                if self._builds[source.name].ok and self._options.runs(source.name)
             ]
-            executables = await self._run_all(built) if built else {}
-            together = await self._run_together(built) if built and self._options.together else {}
-            tests = await self._test(built) if built and self._options.test else {}
+            if built:
+                await self._run(built)
         finally:
             await self._stations.close()
+
+    def results(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
+        """Return what is known of packages, also after an interruption."""
         return tuple(
             PackageResult(
                 source.name,
-                builds[source.name],
-                executables.get(source.name, ()),
-                in_repository(source, MANIFEST),
+                self._builds.get(source.name, Build(ok=False, interrupted=True)),
+                tuple(self._executables.get(source.name, {}).values()),
+                ran=source.name in self._executables,
+                manifest=in_repository(source, MANIFEST),
                 is_dependency=not self._options.runs(source.name),
-                tests=tests.get(source.name),
-                together=together.get(source.name),
+                tests=self._tests.get(source.name),
+                together=self._together.get(source.name),
+                launches=tuple(self._launches.get(source.name, ())),
             )
             for source in sources
         )
@@ -245,7 +233,7 @@ class _Session:
             announce=self._announce,
         )
 
-    async def _build(self, sources: Sequence[Source]) -> dict[str, Build]:
+    async def _build(self, sources: Sequence[Source]) -> None:
         """Build; meanwhile read the sources and get ready for what they are likely to have."""
         self._tell(f"building {', '.join(source.name for source in sources)}")
         building = asyncio.create_task(
@@ -257,6 +245,7 @@ class _Session:
                 origin=self._origin.below("build"),
                 timeout=self._options.build_timeout,
                 with_tests=self._options.test,
+                done=self._builds,
             )
         )
         await asyncio.sleep(0)  # the build begins first
@@ -273,36 +262,29 @@ class _Session:
             likely = sum(len(of_package) for of_package in self._expected.values())
             count = min(likely, self._options.jobs, _EARLY_STATIONS)
             self._stations.open_early(self._environment.variables, count)
-        return await building
+        await building
 
-    async def _run_all(self, sources: Sequence[Source]) -> dict[str, tuple[Executable, ...]]:
-        plan = await self._settings()
-        runs = [
-            (source.name, item) for source in sources for item in self._of_package(plan, source)
-        ]
-        done = await _together([item for _, item in runs])
-        result: dict[str, list[Executable]] = {}
-        for (name, _), executable in zip(runs, done, strict=True):
-            result.setdefault(name, []).append(executable)
-        return {name: tuple(executables) for name, executables in result.items()}
+    async def _run(self, built: Sequence[Source]) -> None:
+        plan = RunSettings(
+            variables=await self._sourced(),
+            stations=self._stations,
+            install=self._layout.install,
+            scratch=self._scratch,
+            origin=self._origin,
+            duration=self._options.duration,
+            timeout=self._options.timeout,
+        )
+        runs = ExecutableRuns(plan, self._options, self._expected, self._tell)
+        await runs.run(built, self._executables)
+        if self._options.together:
+            await self._run_together(plan, built)
+        if self._options.launch:
+            await self._launch(plan, built)
+        if self._options.test:
+            await self._test(built)
 
-    async def _settings(self) -> RunSettings:
-        if self._plan is None:
-            self._plan = RunSettings(
-                variables=await self._sourced(),
-                stations=self._stations,
-                install=self._layout.install,
-                scratch=self._scratch,
-                origin=self._origin,
-                duration=self._options.duration,
-                timeout=self._options.timeout,
-            )
-        return self._plan
-
-    async def _run_together(self, built: Sequence[Source]) -> dict[str, Executable]:
+    async def _run_together(self, plan: RunSettings, built: Sequence[Source]) -> None:
         """Run the executables of each package in one domain, if there are several."""
-        plan = await self._settings()
-        result: dict[str, Executable] = {}
         for source in built:
             stated = self._scenarios[source.name]
             paths = [
@@ -312,20 +294,30 @@ class _Session:
             ]
             if len(paths) > 1:
                 self._tell(f"running all of {source.name} together")
-                result[source.name] = await run_together(plan, source.name, paths, stated)
-        return result
+                group = of_executables(source.name, paths, stated)
+                record = partial(self._together.__setitem__, source.name)
+                await run_together(plan, group, record)
 
-    async def _test(self, built: Sequence[Source]) -> dict[str, Tests]:
+    async def _launch(self, plan: RunSettings, built: Sequence[Source]) -> None:
+        """Run each launch file of each package in a domain."""
+        for source in built:
+            done = self._launches.setdefault(source.name, [])
+            for group in launching.groups(source.name, self._environment.python, plan.variables):
+                self._tell(f"launching {group.name} of {source.name}")
+                await run_together(plan, group, done.append)
+
+    async def _test(self, built: Sequence[Source]) -> None:
         from scaffold.smoke.testing import run_tests
 
         self._tell(f"testing {', '.join(source.name for source in built)}")
-        return await run_tests(
+        await run_tests(
             self._environment,
             built,
             self._layout,
             self._scratch,
             origin=self._origin.below("test"),
             timeout=self._options.build_timeout,
+            done=self._tests,
         )
 
     async def _sourced(self) -> dict[str, str]:
@@ -344,129 +336,6 @@ class _Session:
         sourced.pop("COLCON_CURRENT_PREFIX", None)
         return sourced
 
-    def _of_package(
-        self, plan: RunSettings, source: Source
-    ) -> list[Coroutine[Any, Any, Executable]]:
-        package = source.name
-        expected = self._expected[package]
-        paths = installed(package, plan.variables)
-        found = {path.name: path for path in paths or ()}
-        where = f"in lib/{package}" if paths is not None else "in a package of the ament index"
-        return [
-            self._one(plan, source, found[name], expected.get(name, Expectation()))
-            if name in found
-            else _missing(name, where)
-            for name in sorted({*found, *expected})
-            if not (name in expected and expected[name].scenario.skip)
-        ]
-
-    async def _one(
-        self, plan: RunSettings, source: Source, path: Path, expectation: Expectation
-    ) -> Executable:
-        label = f"{source.name}/{path.name}"
-        async with self._slots:
-            begun = time.monotonic()
-            self._tell_running(label, started=True)
-            trials: list[NodeRun] = []
-            for number in self._options.signals:
-                run = f"{label}/{number.name}"
-                brief = bool(trials)
-                if brief and not trials[0].joined:
-                    break
-                if brief:
-                    one = await trial.run(plan, path, expectation, run, number, brief=True)
-                else:
-                    one = await _observed(plan, path, expectation, run, number)
-                trials.append(one)
-            self._tell_running(label, started=False)
-        return replace(
-            _judge(path.name, trials, expectation),
-            source=in_repository(source, expectation.source) if expectation.source else "",
-            seconds=time.monotonic() - begun,
-        )
-
-    def _tell_running(self, label: str, *, started: bool) -> None:
-        (self._running.add if started else self._running.discard)(label)
-        if self._running:
-            self._tell(f"running {', '.join(sorted(self._running))}")
-
     def _tell(self, text: str) -> None:
         if self._progress is not None:
             self._progress(text)
-
-
-async def _observed(
-    plan: RunSettings, path: Path, expectation: Expectation, label: str, number: signal.Signals
-) -> NodeRun:
-    """Observe an executable, and once more when its rate is wrong: that may be the machine's."""
-    first = await trial.run(plan, path, expectation, label, number)
-    wrong = wrong_rates(expectation, first.observation) if first.stopped_cleanly else []
-    if not wrong:
-        return first
-    other = await trial.run(plan, path, expectation, f"{label}-again", number)
-    if not other.stopped_cleanly or wrong_rates(expectation, other.observation):
-        return first
-    other.notes.append(f"in the first of two runs only: {wrong[0].message}")
-    return other
-
-
-async def _together(runs: Sequence[Coroutine[Any, Any, Result]]) -> list[Result]:
-    """Run coroutines at the same time; all have ended when this ends, in whatever way.
-
-    ``asyncio.gather`` would go on as soon as the first of them is cancelled.
-    """
-    tasks = [asyncio.create_task(run) for run in runs]
-    if not tasks:
-        return []
-    try:
-        await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION)
-    finally:
-        for task in tasks:
-            task.cancel()
-        await asyncio.wait(tasks)
-    return [task.result() for task in tasks]
-
-
-def installed(package: str, variables: Mapping[str, str]) -> list[Path] | None:
-    """Return the executables of a package as ``ros2 run`` finds them; ``None``: no package."""
-    for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
-        if not os.path.exists(f"{prefix}/share/ament_index/resource_index/packages/{package}"):
-            continue
-        result: list[Path] = []
-        for parent, directories, names in os.walk(os.path.join(prefix, "lib", package)):
-            directories[:] = sorted(name for name in directories if not name.startswith("."))
-            paths = (Path(parent, name) for name in sorted(names))
-            result += [path for path in paths if os.access(path, os.X_OK)]
-        return result
-    return None
-
-
-async def _missing(name: str, where: str) -> Executable:
-    return Executable(
-        name, problems=(Problem(f"ros2 run does not find it: it is declared, but not {where}"),)
-    )
-
-
-def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Executable:
-    """Put the runs of an executable together; the first one is the one that was observed."""
-    first = trials[0]
-    problems = list(first.problems)
-    notes = list(first.notes)
-    finished = first.stop.signal is None and not first.problems
-    if first.joined or finished:
-        seen, said = compare(expectation, first.observation, first.seconds, finished=finished)
-        problems += seen
-        notes += said
-        problems += verdicts.problems(expectation.scenario, first.observation)
-    if finished and not problems:
-        notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
-    for other in trials[1:]:
-        notes += other.notes
-        problems += [problem for problem in other.problems if problem not in problems]
-    return Executable(
-        name=name,
-        observation=first.observation,
-        stops=tuple(item.stop for item in trials),
-        problems=tuple(problems),
-        notes=tuple(notes),
-    )

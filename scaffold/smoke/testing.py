@@ -37,8 +37,9 @@ async def run_tests(
     *,
     origin: Origin,
     timeout: float,
-) -> dict[str, Tests]:
-    """Run the tests of built packages in a ROS domain of their own; return them by package.
+    done: dict[str, Tests],
+) -> None:
+    """Run the tests of built packages in a ROS domain of their own.
 
     Args:
         environment: What they were built with.
@@ -47,8 +48,27 @@ async def run_tests(
         scratch: A directory for the output of colcon.
         origin: The run that it belongs to.
         timeout: Seconds after which the tests are given up.
+        done: Gets the tests by package, also when they are interrupted.
     """
     begun = time.time()
+    error = "interrupted"
+    try:
+        error = await _run(environment, packages, layout, scratch, origin=origin, timeout=timeout)
+    finally:
+        for package in packages:
+            done[package.name] = _of_package(layout.build / package.name, begun, error)
+
+
+async def _run(
+    environment: Environment,
+    packages: Sequence[Source],
+    layout: Layout,
+    scratch: Path,
+    *,
+    origin: Origin,
+    timeout: float,
+) -> str:
+    """Run ``colcon test``; return why it did not get to the end, or nothing."""
     with domain.reserved() as number:
         run = await process.start(
             command(environment, packages, layout),
@@ -62,11 +82,12 @@ async def run_tests(
                 await run.finish()
         finally:
             await run.close()
-    error = "" if in_time else f"the tests did not end within {timeout:g} s"
-    if in_time and run.exit_code:
-        errors = output.errors(output.read(run.out) + output.read(run.err))
-        error = errors[-1] if errors else f"colcon test: exit code {run.exit_code}"
-    return {item.name: _of_package(layout.build / item.name, begun, error) for item in packages}
+    if not in_time:
+        return f"the tests did not end within {timeout:g} s"
+    if not run.exit_code:
+        return ""
+    errors = output.errors(output.read(run.out) + output.read(run.err))
+    return errors[-1] if errors else f"colcon test: exit code {run.exit_code}"
 
 
 def command(environment: Environment, packages: Sequence[Source], layout: Layout) -> list[str]:

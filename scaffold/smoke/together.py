@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
+import re
 import signal
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import AsyncExitStack
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AsyncExitStack, suppress
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
 
-from scaffold.smoke.observe import ObserverError
+from scaffold.smoke.lifecycle import Lifecycles
+from scaffold.smoke.lifecycle import problems as failed
+from scaffold.smoke.observe import LAST_ANSWER_TIMEOUT, Observer, ObserverError
 from scaffold.smoke.processes import output, process
 from scaffold.smoke.result import Endpoint, Executable, Observation, Problem, Topic
 from scaffold.smoke.run import SETTLING, RunSettings, ending
@@ -18,49 +23,82 @@ from scaffold.smoke.scenario.model import NOTHING, Scenario
 NAME = "all together"
 
 _KEPT = ("transient_local", "transient", "persistent")
+_DIED = re.compile(
+    r"\[ERROR\] \[(?P<name>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)"
+)
+"""What launch says of a node that has ended."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """What is run in one domain."""
+
+    name: str
+    """For people."""
+    label: str
+    """Names the run, as a relative path."""
+    commands: Mapping[str, Sequence[str]]
+    """By name for people."""
+
+
+def of_executables(package: str, paths: Sequence[Path], scenarios: Mapping[str, Scenario]) -> Group:
+    """Return all executables of a package, with their arguments and parameters."""
+    commands = {
+        path.name: [str(path), *scenarios.get(path.name, NOTHING).command()] for path in paths
+    }
+    return Group(NAME, f"{package}/together", commands)
 
 
 async def run_together(
-    plan: RunSettings, package: str, paths: Sequence[Path], scenarios: Mapping[str, Scenario]
-) -> Executable:
-    """Start all executables of a package in one domain, observe them, and stop them.
+    plan: RunSettings, group: Group, record: Callable[[Executable], None]
+) -> None:
+    """Start commands in one domain, observe them, and stop them.
 
     Args:
         plan: What is the same for all runs.
-        package: The name of the package.
-        paths: The executables.
-        scenarios: What their author expects, by name: for arguments and parameters.
+        group: The commands.
+        record: Gets what came of it, also when it is interrupted.
     """
     begun = time.monotonic()
+    result = Executable(group.name, interrupted=True)
     try:
         async with plan.stations.one(plan.variables) as station, AsyncExitStack() as stack:
             variables = station.variables(plan.variables)
             runs: dict[str, process.Running] = {}
-            for path in paths:
-                label = f"{package}/together/{path.name}"
-                words = [str(path), *scenarios.get(path.name, NOTHING).command()]
+            for name, words in group.commands.items():
+                label = f"{group.label}/{name}"
                 directory = plan.scratch / "runs" / label
                 running = await process.start(words, variables, directory, plan.origin.below(label))
                 stack.push_async_callback(running.close)
-                runs[path.name] = running
+                runs[name] = running
             observer = station.observer
             every = _All([*runs.values()])
-            if await observer.wait_for(observer.has_seen_anything, plan.timeout, every):
-                await observer.pause(plan.duration, every)
-                await observer.settle(SETTLING, plan.timeout, every)
+            lifecycles = Lifecycles(observer, every, plan.timeout)
+            try:
+                await _watch(plan, observer, every, lifecycles)
+            except asyncio.CancelledError:
+                with suppress(ObserverError):
+                    seen = await observer.observation(LAST_ANSWER_TIMEOUT)
+                    result = replace(result, observation=seen)
+                raise
             seen = await observer.observation()
+            await lifecycles.lead(NOTHING.transitions_down)
+            seen = replace(seen, transitions=tuple(lifecycles.transitions))
             observer.dismiss()
-            problems = [*_ended(runs), *connections(seen)]
+            problems = (*ended(runs), *connections(seen), *failed(seen.transitions))
             for running in runs.values():
                 await _stop(running)
+            result = Executable(group.name, seen, problems=problems)
     except (ObserverError, OSError) as error:
-        return Executable(NAME, problems=(Problem(str(error)),))
-    return Executable(
-        NAME,
-        seen,
-        problems=tuple(problems),
-        seconds=time.monotonic() - begun,
-    )
+        result = Executable(group.name, problems=(Problem(str(error)),))
+    finally:
+        record(replace(result, seconds=time.monotonic() - begun))
+
+
+async def _watch(plan: RunSettings, observer: Observer, runs: _All, lifecycles: Lifecycles) -> None:
+    if await observer.wait_for(observer.has_seen_anything, plan.timeout, runs):
+        await lifecycles.pause(plan.duration, NOTHING.transitions_up)
+        await observer.settle(SETTLING, plan.timeout, runs)
 
 
 class _All:
@@ -87,11 +125,15 @@ async def _stop(running: process.Running) -> None:
     await running.finish()
 
 
-def _ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
+def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
+    """Yield what ended before it was stopped, also below launch."""
     for name, running in runs.items():
+        written = output.read(running.out) + output.read(running.err)
         if running.exit_code:
-            lines = tuple(output.tail(output.read(running.err)))
+            lines = tuple(output.tail(written))
             yield Problem(f"{name} ended among the others, {ending(running.exit_code)}", lines)
+        for died in _DIED.finditer(written):
+            yield Problem(f"{died['name']} died, {ending(int(died['code']))}")
 
 
 def connections(seen: Observation) -> Iterator[Problem]:

@@ -14,8 +14,9 @@ import pytest
 
 from scaffold.model.discovery import targets
 from scaffold.smoke.isolation import shared_memory
+from scaffold.smoke.options import Options
 from scaffold.smoke.reports.json import as_data
-from scaffold.smoke.session import Options, packages_of, smoke
+from scaffold.smoke.session import packages_of, smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import BAD, GOOD, ONCE, cmake_package, python_package, talker, write
 from tests.smoke.smoke_runs import (

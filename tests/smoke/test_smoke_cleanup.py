@@ -22,9 +22,10 @@ from scaffold.smoke.cleanup import ledger, leftovers
 from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
 from scaffold.smoke.cleanup.workspace_lock import NAME, locked
 from scaffold.smoke.isolation import shared_memory
+from scaffold.smoke.options import Options
 from scaffold.smoke.processes import output, process, supervisor, table
 from scaffold.smoke.processes.process import Origin
-from scaffold.smoke.session import Options, smoke
+from scaffold.smoke.session import smoke
 from tests import PATIENCE
 from tests.smoke.smoke_packages import python_package, talker
 from tests.smoke.smoke_runs import (
@@ -477,11 +478,9 @@ def test_a_signal_while_it_cleans_up_waits(tmp_path: Path, monkeypatch: pytest.M
         return remove(scratch, mark)
 
     monkeypatch.setattr(leftovers, "remove_scratch", interrupted)
-    with (
-        pytest.raises(InterruptedBySignalError),
-        Interruption() as interruption,
-        interruption.at_once(),
-    ):
+    with Interruption() as interruption, interruption.at_once():
         smoke([], Options(), interruption=interruption)
+        with pytest.raises(InterruptedBySignalError):
+            interruption.check()
 
     assert os.listdir(tmp_path / "scratch") == []

@@ -62,6 +62,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "nodes from connecting: types, quality of service, names",
     )
     parser.add_argument(
+        "--launch",
+        action="store_true",
+        help="also run the launch files of a package, each in a domain of its own",
+    )
+    parser.add_argument(
         "--test",
         action="store_true",
         help="run `colcon test` as well: a test or linter that fails is a problem",
@@ -72,6 +77,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the distributions of ROS 2 to observe on, separated by commas: with others nothing "
         "is run (default: check.distribution of the configuration, else what `new --distro` made "
         "the packages for, else ROS_DISTRO, else the one that is there)",
+    )
+    parser.add_argument(
+        "--ros",
+        metavar="WHICH",
+        help="take this ROS 2: 'sourced', 'wheels', the name of an installation in /opt/ros, or a "
+        "directory with its setup.bash (default: the first that can be used)",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
@@ -155,30 +166,34 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from signal import Signals
 
     from scaffold import distributions
-    from scaffold.cli.exit_codes import CLEAN, FINDINGS
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.model.discovery import targets
-    from scaffold.smoke.session import Options, packages_of, smoke
+    from scaffold.smoke.options import Options
+    from scaffold.smoke.session import packages_of, smoke
 
     _validate(options)
     found_targets = targets.find(options.paths)
     packages, run_only = _selected(options, found_targets, packages_of(found_targets))
     wanted = _wanted(options, packages)
+    settings = Options(
+        duration=options.duration,
+        timeout=options.timeout,
+        build_timeout=options.build_timeout,
+        signals=tuple(Signals[name] for name in SIGNALS[options.signal]),
+        workspace=Path(options.workspace).absolute() if options.workspace else None,
+        keep=options.keep,
+        jobs=options.jobs,
+        run_only=run_only,
+        test=options.test,
+        together=options.together,
+        launch=options.launch,
+        ros=options.ros,
+        wanted=wanted,
+    )
     with _Progress() as progress:
         result = smoke(
             packages,
-            Options(
-                duration=options.duration,
-                timeout=options.timeout,
-                build_timeout=options.build_timeout,
-                signals=tuple(Signals[name] for name in SIGNALS[options.signal]),
-                workspace=Path(options.workspace).absolute() if options.workspace else None,
-                keep=options.keep,
-                jobs=options.jobs,
-                run_only=run_only,
-                test=options.test,
-                together=options.together,
-                wanted=wanted,
-            ),
+            settings,
             progress=progress,
             announce=_announce,
             interruption=interruption,
@@ -191,6 +206,10 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
         _announce(f"no package differs from {options.since}")
     if result.scratch:
         sys.stderr.write(f"kept: {printable(result.scratch)}\n")
+    interruption.check()
+    if result.ended_early:
+        _announce(result.ended_early)
+        return USAGE_ERROR
     return CLEAN if result.ok else FINDINGS
 
 
@@ -274,17 +293,39 @@ def _validate(options: argparse.Namespace) -> None:
 
 
 def _report(options: argparse.Namespace, result: Smoke) -> None:
-    """Write the report, the page, and the summary of a job."""
+    """Write the report, the page, and the summary of a job, each as far as it can be.
+
+    Raises:
+        InputError: one of them could not be written.
+    """
+    from scaffold.cli import reports as outputs
+    from scaffold.errors import InputError
+    from scaffold.smoke.reports import github, html
+
+    refused: list[InputError] = []
+    for is_asked, write in (
+        (options.report is not None, lambda: html.write(result, options.report)),
+        (
+            options.format == "github",
+            lambda: outputs.add_job_summary(github.job_summary(result)),
+        ),
+        (True, lambda: _write(options, result)),
+    ):
+        try:
+            if is_asked:
+                write()
+        except InputError as error:
+            refused.append(error)
+    for refusal in refused:
+        raise refusal
+
+
+def _write(options: argparse.Namespace, result: Smoke) -> None:
     from io import StringIO
 
     from scaffold.cli import reports as outputs
     from scaffold.smoke import reports
-    from scaffold.smoke.reports import github, html
 
-    if options.report is not None:
-        html.write(result, options.report)
-    if options.format == "github":
-        outputs.add_job_summary(github.job_summary(result))
     if options.output_file is None:
         reports.report(result, options.format, sys.stdout, verbose=options.verbose)
         return

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from json import dumps
 from typing import Any
 
-from scaffold.smoke.result import Endpoint, Log, Observation, Spread, Topic, Usage
+from scaffold.smoke.result import Endpoint, Log, Observation, Spread, Topic, Transition, Usage
 
 _SHOWN_WIDTH = 100
 _SHOWN_LINES = 10
@@ -50,6 +50,19 @@ def milliseconds(spread: Spread) -> str:
         f"{spread.mean * _MILLI:.2f} ms, deviation {spread.deviation * _MILLI:.2f} ms, "
         f"{spread.least * _MILLI:.2f} to {spread.greatest * _MILLI:.2f} ms"
     )
+
+
+def of_transitions(transitions: Sequence[Transition]) -> Iterator[str]:
+    """Yield through which states managed nodes went, a line for each node."""
+    for node in dict.fromkeys(item.node for item in transitions):
+        steps = [item for item in transitions if item.node == node]
+        went = ", ".join(
+            f"{item.name} to {item.after} in {item.seconds:.2f} s"
+            if item.ok
+            else f"{item.name} failed"
+            for item in steps
+        )
+        yield f"states of {node}: {steps[0].before}; {went}"
 
 
 def of_topic(topic: Topic) -> Iterator[str]:

@@ -18,6 +18,9 @@ _MOST_ROWS = 100
 
 def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
     """Write a command for each problem, and the text: the log of the step shows both."""
+    if result.ended_early:
+        title = {"title": "smoke ended early"}
+        out.write(command("error", _plain(title), printable(result.ended_early)))
     for package in result.packages:
         out.writelines(_annotations(package))
     # What executables have written may look like a command.
@@ -43,7 +46,7 @@ def job_summary(result: Smoke) -> str:
 
 
 def _annotations(package: PackageResult) -> Iterator[str]:
-    if not package.build.ok:
+    if not package.build.ok and not package.build.interrupted:
         properties = {"file": package.manifest, "title": f"{package.name} does not build"}
         yield command("error", _plain(properties), _lines(package.build.errors))
     for case in package.tests.failed if package.tests else ():
@@ -69,7 +72,8 @@ def _rows(package: PackageResult) -> Iterator[str]:
     build = package.build
     if not build.ok:
         first = cell(next(iter(build.errors), ""))
-        yield f"| {code(package.name)} | | does not build | {first} |"
+        verdict = "not built yet" if build.interrupted else "does not build"
+        yield f"| {code(package.name)} | | {verdict} | {first} |"
     for executable in package.runs:
         topics = [
             f"{code(topic.name)} {count(topic.count, 'message')}"
@@ -79,5 +83,6 @@ def _rows(package: PackageResult) -> Iterator[str]:
         ]
         problems = [cell(problem.message) for problem in executable.problems]
         verdict = "ok" if executable.ok else "not ok"
+        verdict = "interrupted" if executable.interrupted else verdict
         seen = "<br>".join([*problems, *topics])
         yield f"| {code(package.name)} | {code(executable.name)} | {verdict} | {seen} |"

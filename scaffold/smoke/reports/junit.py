@@ -25,13 +25,19 @@ def _suite(package: PackageResult, *, verbose: bool) -> ET.Element:
     cases += [_executable(package, one, verbose=verbose) for one in package.runs]
     cases += _tests(package)
     seconds = sum(float(case.get("time", "0")) for case in cases)
-    return junit.suite_of(package.name, cases, seconds)
+    suite = junit.suite_of(package.name, cases, seconds)
+    if package.worker:
+        suite.set("hostname", package.worker)
+    return suite
 
 
 def _build(package: PackageResult) -> ET.Element:
     build = package.build
     outcome = "" if build.ok else "failure"
-    case = junit.case_of(package.name, _BUILD, build.errors, outcome, package.manifest)
+    errors = build.errors
+    if build.interrupted:
+        outcome, errors = "error", ("interrupted before it was built",)
+    case = junit.case_of(package.name, _BUILD, errors, outcome, package.manifest)
     case.set("time", f"{build.seconds:.3f}")
     if build.warnings:
         ET.SubElement(case, "system-out").text = "\n".join(build.warnings)
@@ -41,6 +47,8 @@ def _build(package: PackageResult) -> ET.Element:
 def _executable(package: PackageResult, executable: Executable, *, verbose: bool) -> ET.Element:
     problems = [str(problem) for problem in executable.problems]
     outcome = "failure" if problems else ""
+    if executable.interrupted:
+        outcome, problems = "error", [*problems, "interrupted"]
     name = f"smoke {executable.name}"
     case = junit.case_of(package.name, name, problems, outcome, executable.source)
     case.set("time", f"{executable.seconds:.3f}")

@@ -73,20 +73,26 @@ def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
         yield ""
         yield from _package(package, paint, verbose=verbose)
     yield ""
+    if result.ended_early:
+        yield paint(f"ended early: {result.ended_early}", _RED)
     yield summary(result, paint)
 
 
 def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator[str]:
     name = paint(package.name, _BOLD)
     build = package.build
-    if build.ok:
+    if build.interrupted:
+        yield f"{name}: not built yet"
+    elif build.ok:
         why = ", as others need it" if package.is_dependency else ""
-        yield f"{name}: built in {build.seconds:.1f} s{why}"
+        where = f" on {package.worker}" if package.worker else ""
+        yield f"{name}: built in {build.seconds:.1f} s{where}{why}"
         yield from _indented(_captioned("info: warnings of the build", build.warnings), 2)
     else:
-        yield f"{name}: {paint('does not build', _RED)}"
+        where = f" on {package.worker}" if package.worker else ""
+        yield f"{name}: {paint('does not build', _RED)}{where}"
         yield from _indented(build.errors, 2)
-    if build.ok and not package.executables and not package.is_dependency:
+    if build.ok and package.ran and not package.executables:
         yield "  no executables"
     for executable in package.runs:
         yield from _indented(_executable(executable, paint, verbose=verbose), 2)
@@ -117,6 +123,8 @@ def _captioned(caption: str, lines: tuple[str, ...]) -> Iterator[str]:
 
 def _executable(executable: Executable, paint: Paint, *, verbose: bool) -> Iterator[str]:
     verdict = paint("ok", _GREEN) if executable.ok else paint("not ok", _RED)
+    if executable.interrupted:
+        verdict = paint("interrupted", _YELLOW)
     yield f"{paint(executable.name, _BOLD)}: {verdict}"
     yield from _indented(_details(executable, paint, verbose=verbose), 2)
 
@@ -134,6 +142,7 @@ def _details(executable: Executable, paint: Paint, *, verbose: bool) -> Iterator
     ):
         for name, kind in pairs:
             yield f"{caption} {name}  {kind}"
+    yield from details.of_transitions(seen.transitions)
     if verbose:
         yield from details.of_executable(seen)
     else:
@@ -190,12 +199,15 @@ def summary(result: Smoke, paint: Paint = _plain) -> str:
     if result.ok:
         return f"{said}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
-    bad = [executable.name for executable in runs if not executable.ok]
+    bad = [run.name for run in runs if run.problems]
+    unfinished = [run.name for run in runs if run.interrupted and not run.problems]
     parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
     parts += [f"{_listed(bad)} not ok"] if bad else []
+    parts += [f"{_listed(unfinished)} interrupted"] if unfinished else []
     failed = [item.name for item in result.packages if item.tests and not item.tests.ok]
     parts += [f"tests of {_listed(failed)} failed"] if failed else []
-    return f"{said}: {paint('; '.join(parts), _RED)} {seconds}"
+    verdict = "; ".join(parts) or "ended early"
+    return f"{said}: {paint(verdict, _RED)} {seconds}"
 
 
 def _listed(names: list[str]) -> str:

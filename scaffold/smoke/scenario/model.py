@@ -8,6 +8,9 @@ from typing import Any
 
 FILE = "smoke.yaml"
 
+TRANSITIONS = ("configure", "activate", "deactivate", "cleanup", "shutdown")
+"""Those that a managed node is led through, in this order."""
+
 
 @dataclass(frozen=True)
 class FieldExpectation:
@@ -72,6 +75,22 @@ class Scenario:
     duration: float | None = None
     exit_code: int | None = None
     skip: bool = False
+    transitions: tuple[str, ...] = TRANSITIONS
+    """Of managed nodes."""
+
+    @property
+    def transitions_up(self) -> tuple[str, ...]:
+        """The transitions before the observation: up to the last that configures or activates."""
+        last = max(
+            (i for i, name in enumerate(self.transitions) if name in {"configure", "activate"}),
+            default=-1,
+        )
+        return self.transitions[: last + 1]
+
+    @property
+    def transitions_down(self) -> tuple[str, ...]:
+        """The transitions after the observation."""
+        return self.transitions[len(self.transitions_up) :]
 
     def command(self) -> list[str]:
         """Return the words after the executable."""

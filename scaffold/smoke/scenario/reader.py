@@ -14,6 +14,7 @@ from scaffold.formats.yaml import Mapping as YamlMapping
 from scaffold.model.package import Package
 from scaffold.smoke.scenario.model import (
     FILE,
+    TRANSITIONS,
     Call,
     FieldExpectation,
     Scenario,
@@ -75,7 +76,7 @@ class _Reader:
     def _scenario(self, node: YamlNode, name: str, duration: float | None) -> Scenario:
         known = (
             "arguments", "parameters", "topics", "services", "actions", "publish", "duration",
-            "exit_code", "skip",
+            "exit_code", "skip", "transitions",
         )  # fmt: skip
         keys = self._keys(node, f"executable {name!r}", known)
         own = self._optional(keys, "duration", self._positive)
@@ -94,7 +95,19 @@ class _Reader:
             duration=duration if own is None else own,
             exit_code=self._optional(keys, "exit_code", self._whole),
             skip=bool(self._optional(keys, "skip", self._boolean)),
+            transitions=self._transitions(keys),
         )
+
+    def _transitions(self, keys: Mapping[str, YamlNode]) -> tuple[str, ...]:
+        names = self._optional(keys, "transitions", self._strings)
+        if names is None:
+            return TRANSITIONS
+        for name in names:
+            if name not in TRANSITIONS:
+                line = keys["transitions"].location.line
+                nearest = _nearest(name, TRANSITIONS) or f"; there are {_listed(TRANSITIONS)}"
+                self.refuse(line, f"there is no transition {name!r}{nearest}")
+        return tuple(names)
 
     def _topic(self, key: Scalar, node: YamlNode) -> TopicExpectation:
         name = self._name(key)

@@ -27,6 +27,7 @@ def overridden(derived: Expectation, scenario: Scenario) -> Expectation:
         if publication.topic in topics
         else publication
         for publication in derived.publications
+        if not publication.is_managed or "activate" in scenario.transitions
     ]
     publications += [_publication(Publication(name), topic) for name, topic in topics.items()]
     return replace(

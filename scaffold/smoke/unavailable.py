@@ -1,0 +1,53 @@
+"""What packages need of ROS and an environment lacks: named before the build."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+
+from scaffold import distributions
+from scaffold.model.catalog import ROS_PACKAGES
+from scaffold.model.package import Package, imports
+from scaffold.smoke.environment import Environment
+from scaffold.source import ViewError
+
+_NOT_RUN = ("launch", "test")
+"""Directories of Python files that no executable imports."""
+
+
+def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterator[str]:
+    """Yield a line for each ROS package that is not there, with who needs it and how to get it.
+
+    Args:
+        environment: The one to build and run with.
+        packages: Those to build: what they provide is there.
+    """
+    there = {package.name for package in packages}
+    for prefix in environment.variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
+        index = os.path.join(prefix, "share/ament_index/resource_index/packages")
+        there.update(os.listdir(index) if os.path.isdir(index) else ())
+    needed: dict[str, list[str]] = {}
+    for package in packages:
+        for name in _needed(package) & ROS_PACKAGES - there:
+            needed.setdefault(name, []).append(package.name)
+    distribution = environment.distribution or distributions.DEFAULT
+    for name, users in sorted(needed.items()):
+        apt = f"sudo apt install ros-{distribution}-{name.replace('_', '-')}"
+        way = f"run: {apt}"
+        if environment.kind == "wheels":
+            way = f"there is no wheel; take a ROS 2 with it: {apt}, and --ros {distribution}"
+        yield f"{', '.join(sorted(users))} needs {name}, which {environment.prefix} lacks; {way}"
+
+
+def _needed(package: Package) -> set[str]:
+    """Return what is needed to build a package and to start its executables."""
+    with suppress(ViewError):
+        manifest = package.manifest
+        needed = manifest.build_names if package.has("CMakeLists.txt") else set[str]()
+        for path in package.python_files:
+            if not path.startswith(_NOT_RUN):
+                with suppress(ViewError):
+                    needed = needed | (imports(package, path) & manifest.declared_names)
+        return needed
+    return set()

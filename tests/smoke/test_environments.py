@@ -1,0 +1,72 @@
+"""Environments that are asked for, and what an environment lacks."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from scaffold.errors import EnvironmentMissingError
+from scaffold.model.package import Package
+from scaffold.smoke import environment
+from scaffold.smoke.environment import Environment
+from scaffold.smoke.unavailable import unavailable
+from tests.smoke.smoke_packages import python_package
+from tests.smoke.smoke_runs import NEEDS_ROS
+
+
+@pytest.mark.parametrize(
+    ("wanted", "reason"),
+    [
+        ("sourced", "nothing is sourced; source the setup file of a ROS 2 first"),
+        ("wheels", "they are missing; run: "),
+        ("humble", "humble/setup.bash; name a directory, or one of sourced, wheels, jazzy"),
+        ("/nowhere", "there is no /nowhere/setup.bash; name a directory, or one of "),
+    ],
+)
+def test_an_environment_that_is_asked_for_and_is_not_there(
+    wanted: str, reason: str, tmp_path: Path
+) -> None:
+    (tmp_path / "jazzy").mkdir()
+    (tmp_path / "jazzy" / "setup.bash").touch()
+    with pytest.raises(EnvironmentMissingError) as raised:
+        environment.select(
+            {"PATH": "/usr/bin"}, forced=wanted, installed=tmp_path, own_prefix=str(tmp_path)
+        )
+    assert str(raised.value).startswith(f"--ros {wanted}: ")
+    assert reason in str(raised.value)
+
+
+@NEEDS_ROS
+def test_wheels_that_are_asked_for_go_before_what_is_sourced(tmp_path: Path) -> None:
+    variables = {"PATH": os.environ["PATH"], "AMENT_PREFIX_PATH": str(tmp_path)}
+    assert environment.select(variables, forced="wheels").kind == "wheels"
+
+
+def test_what_an_environment_lacks_is_named_with_the_way_to_get_it(tmp_path: Path) -> None:
+    index = tmp_path / "ros" / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "rclpy").touch()
+    package = python_package(tmp_path, "viewer", {"viewer": "import cv_bridge\nimport rclpy\n"})
+    manifest = package / "package.xml"
+    text = manifest.read_text().replace(
+        "  <exec_depend>std_msgs", "  <exec_depend>cv_bridge</exec_depend>\n  <exec_depend>std_msgs"
+    )
+    manifest.write_text(text)
+    wheels = Environment(
+        "wheels", "/wheels", "", "", "", {"AMENT_PREFIX_PATH": str(tmp_path / "ros")}
+    )
+    (line,) = unavailable(wheels, [Package.at(str(package))])
+    assert line == (
+        "viewer needs cv_bridge, which /wheels lacks; there is no wheel; take a ROS 2 with it: "
+        "sudo apt install ros-jazzy-cv-bridge, and --ros jazzy"
+    )
+    installed = replace(wheels, kind="installed", prefix="/opt/ros/kilted")
+    installed = replace(installed, distribution="kilted")
+    (line,) = unavailable(installed, [Package.at(str(package))])
+    assert line == (
+        "viewer needs cv_bridge, which /opt/ros/kilted lacks; "
+        "run: sudo apt install ros-kilted-cv-bridge"
+    )
