@@ -51,7 +51,8 @@ def require(environment: Environment, packages: Sequence[Package], origin: Origi
         branches = f"--branch {distribution} https://github.com/ros2"
         way = (
             "there is no wheel; clone its sources to the packages that are run: "
-            f"git clone {branches}/launch && git clone {branches}/launch_ros"
+            f"git clone {branches}/launch && git clone {branches}/launch_ros, "
+            f"and what they need: {environment.python} -m pip install lark osrf-pycommon"
         )
     raise EnvironmentMissingError(f"--launch: {environment.prefix} lacks launch_ros; {way}")
 

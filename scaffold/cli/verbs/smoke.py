@@ -84,6 +84,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="take this ROS 2: 'sourced', 'wheels', the name of an installation in /opt/ros, or a "
         "directory with its setup.bash (default: the first that can be used)",
     )
+    parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help="run the packages on the workers of the Dask cluster whose scheduler is there, such "
+        "as tcp://host:8786; they get the sources, and run them",
+    )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--output-file",
@@ -191,13 +197,25 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
         wanted=wanted,
     )
     with _Progress() as progress:
-        result = smoke(
-            packages,
-            settings,
-            progress=progress,
-            announce=_announce,
-            interruption=interruption,
-        )
+        if options.cluster is None:
+            result = smoke(
+                packages,
+                settings,
+                progress=progress,
+                announce=_announce,
+                interruption=interruption,
+            )
+        else:
+            from scaffold.smoke.on_cluster import smoke_on_cluster
+
+            result = smoke_on_cluster(
+                options.cluster,
+                packages,
+                settings,
+                progress=progress,
+                announce=_announce,
+                interruption=interruption,
+            )
     _report(options, result)
     others = [item for item in wanted if item.name != result.environment["distribution"]]
     if others and packages:
@@ -287,6 +305,11 @@ def _validate(options: argparse.Namespace) -> None:
     from scaffold.errors import InputError
 
     reports.validate_path(options.output_file)
+    if options.cluster is not None and (options.workspace or options.keep):
+        flag = "--workspace" if options.workspace else "--keep"
+        raise InputError(
+            f"{flag}: not with --cluster, whose workers build in directories of theirs"
+        )
     directory = options.report
     if directory is not None and os.path.exists(directory) and not os.path.isdir(directory):
         raise InputError(f"--report {directory}: is a file; name a directory")

@@ -1,0 +1,185 @@
+"""The connection to a Dask cluster: tasks go out, every result comes back once."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import uuid
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, Generic, TypeVar
+
+from scaffold import __version__
+from scaffold.cluster import worker
+from scaffold.errors import EnvironmentMissingError
+from scaffold.programs import installation
+
+TIMEOUT = 10.0
+"""Seconds in which a scheduler has to answer, and to have a worker."""
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+Dask = Any
+"""What comes from Dask, which need not be installed."""
+
+
+@dataclass(frozen=True)
+class Done(Generic[Result]):
+    """What became of a task."""
+
+    name: str
+    worker: str = ""
+    """Where it ran; empty if it did not get to its end."""
+    result: Result | None = None
+    error: str = ""
+    """Why there is no result."""
+
+
+class Cluster:
+    """A connection.
+
+    Args:
+        client: Dask's.
+    """
+
+    def __init__(self, client: Dask) -> None:
+        self._client = client
+
+    def map(
+        self, function: Callable[[Task], Result], tasks: Mapping[str, Task]
+    ) -> Iterator[Done[Result]]:
+        """Hand out tasks; yield what becomes of each, once, in the order in which they end.
+
+        A task whose worker dies is run again on another one; Dask gives up when that happens to
+        it again and again.
+
+        Args:
+            function: A function of this tool, which the workers have.
+            tasks: Its arguments, by name.
+        """
+        run = uuid.uuid4().hex
+        waiting: dict[str, str] = {}
+        futures = []
+        for name, task in tasks.items():
+            key = f"ros2-scaffold-{run}-{name}"
+            waiting[key] = name
+            futures.append(
+                self._client.submit(worker.work, function, task, __version__, key=key, pure=False)
+            )
+        try:
+            for future in _dask().as_completed(futures, loop=self._client.loop):
+                if future.key in waiting:
+                    yield _done(waiting.pop(future.key), future)
+                future.release()
+        finally:
+            with suppress(Exception):  # the scheduler may be gone
+                self._client.cancel(futures, force=True)
+
+
+def _dask() -> Dask:
+    return import_module("distributed")
+
+
+def _done(name: str, future: Dask) -> Done[Any]:
+    try:
+        where, result = future.result(timeout=TIMEOUT)
+    except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001  whatever a worker raises
+        return Done(name, error=_reason(error))
+    return Done(name, where, result)
+
+
+def _reason(error: BaseException) -> str:
+    if isinstance(error, _dask().KilledWorker):
+        return "its worker died, and so did each other that was tried"
+    if isinstance(error, asyncio.CancelledError) or "Cancelled" in type(error).__name__:
+        return "the connection to the scheduler was lost"
+    return f"{type(error).__name__}: {error}".splitlines()[0]
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Cluster]:
+    """Connect to a scheduler for the length of the block.
+
+    Args:
+        address: Such as ``tcp://host:8786``; Dask's own configuration says how TLS is done.
+
+    Raises:
+        EnvironmentMissingError: Dask is not installed, there is no scheduler, it has no workers,
+            or the versions differ.
+    """
+    try:
+        dask = _dask()
+    except ImportError as error:
+        raise EnvironmentMissingError(
+            f"--cluster needs Dask; run: {installation.command('cluster')}"
+        ) from error
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors become lines of ours
+    try:
+        client = dask.Client(address, timeout=TIMEOUT, set_as_default=False)
+    except Exception as error:  # whatever a wrong address, a wrong port or TLS raises
+        raise EnvironmentMissingError(_refused(address, error)) from error
+    try:
+        _validate(client, address)
+        yield Cluster(client)
+    finally:
+        with suppress(Exception):
+            client.close(timeout=TIMEOUT)
+
+
+def _refused(address: str, error: Exception) -> str:
+    reason = f"{type(error).__name__}: {error}".splitlines()[0]
+    if address.startswith("tls://") and "ssl" in reason.lower():
+        return (
+            f"--cluster {address}: TLS is not configured; name the certificates in "
+            f"distributed.comm.tls of Dask's configuration ({reason})"
+        )
+    return (
+        f"--cluster {address}: no scheduler answers within {TIMEOUT:g} s ({reason}); "
+        "is it running, and does its address begin with tcp:// or tls:// as it says at its start?"
+    )
+
+
+def _validate(client: Dask, address: str) -> None:
+    try:
+        client.wait_for_workers(1, timeout=TIMEOUT)
+        versions = client.get_versions()
+        tools = client.run(worker.version, on_error="return")
+    except Exception as error:
+        if not client.scheduler_info()["workers"]:
+            raise EnvironmentMissingError(
+                f"--cluster {address}: the scheduler has no workers; "
+                f"start some with: dask worker {address}"
+            ) from error
+        raise EnvironmentMissingError(_refused(address, error)) from error
+    own = versions["client"]["packages"]
+    others = {"the scheduler": versions["scheduler"], **versions["workers"]}
+    for name, other in others.items():
+        for program in ("distributed", "python"):
+            theirs = _release(program, other["packages"][program])
+            ours = _release(program, own[program])
+            if theirs != ours:
+                raise EnvironmentMissingError(
+                    f"--cluster {address}: {name} has {program} {theirs}, and this machine {ours}; "
+                    "install the same on all"
+                )
+    for name, tool in tools.items():
+        if tool != __version__:
+            raise EnvironmentMissingError(
+                f"--cluster {address}: {name} has {_tool(tool)}, and this machine "
+                f"ros2-scaffold {__version__}; install the same on all"
+            )
+
+
+def _tool(version: object) -> str:
+    if isinstance(version, str):
+        return f"ros2-scaffold {version}"
+    return f"no ros2-scaffold ({type(version).__name__})"
+
+
+def _release(program: str, version: str) -> str:
+    """Return as much of a version as has to be the same."""
+    return ".".join(version.split(".")[:2]) if program == "python" else version

@@ -1,0 +1,36 @@
+"""What runs on the workers of a cluster: they need this tool, of the same version."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from importlib import import_module
+from typing import TypeVar
+
+from scaffold import __version__
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+def version() -> str:
+    """Return the version of this tool on a worker."""
+    return __version__
+
+
+def work(function: Callable[[Task], Result], task: Task, expected: str) -> tuple[str, Result]:
+    """Do a task; return the name of the worker and the result.
+
+    Args:
+        function: A function of this tool.
+        task: Its argument.
+        expected: The version of this tool where the task comes from.
+
+    Raises:
+        RuntimeError: this worker, which may have joined later, has another version.
+    """
+    worker = import_module("distributed").get_worker()
+    name = f"{socket.gethostname()} ({worker.address})"
+    if __version__ != expected:
+        raise RuntimeError(f"{name} has ros2-scaffold {__version__}, and not {expected}")
+    return name, function(task)

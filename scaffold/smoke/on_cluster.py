@@ -1,0 +1,149 @@
+"""Runs packages on the workers of a cluster, and puts the results together."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from signal import Signals
+
+from scaffold.cluster import sources
+from scaffold.cluster.client import Done, connected
+from scaffold.files.tree import MANIFEST
+from scaffold.model.package import Package
+from scaffold.reporters.paths import in_repository
+from scaffold.smoke.cleanup import leftovers
+from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interruption
+from scaffold.smoke.options import Options, Progress
+from scaffold.smoke.result import Build, Executable, PackageResult, Smoke
+from scaffold.smoke.selection import with_dependencies
+from scaffold.smoke.session import smoke
+
+
+@dataclass(frozen=True)
+class Task:
+    """A package to run, with all that it needs of the others."""
+
+    name: str
+    archives: Mapping[str, bytes]
+    """Sources by name of the package."""
+    options: Options
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a worker sends back."""
+
+    environment: Mapping[str, str]
+    package: PackageResult
+    ended_early: str
+
+
+def run_task(task: Task) -> Outcome:
+    """Build and run a package; called on a worker."""
+    with leftovers.recorded_run() as run:
+        packages = [
+            sources.unpack(data, run.scratch / str(number) / name)
+            for number, (name, data) in enumerate(task.archives.items())
+        ]
+        result = smoke(packages, task.options)
+        here = next(package for package in packages if package.name == task.name)
+        (own,) = (package for package in result.packages if package.name == task.name)
+        executables = tuple(_relative(executable, here) for executable in own.executables)
+        return Outcome(
+            result.environment, replace(own, executables=executables), result.ended_early
+        )
+
+
+def _relative(executable: Executable, package: Package) -> Executable:
+    """Name the source of an executable as its package knows it."""
+    if not executable.source:
+        return executable
+    path = os.path.relpath(os.path.abspath(executable.source), package.directory)
+    return replace(executable, source=path)
+
+
+def smoke_on_cluster(
+    address: str,
+    packages: Sequence[Package],
+    options: Options,
+    *,
+    progress: Progress,
+    announce: Progress,
+    interruption: Interruption,
+) -> Smoke:
+    """Run packages on a cluster, each in a task of its own.
+
+    Args:
+        address: Of the scheduler.
+        packages: Those to run, and what they need.
+        options: How each is run.
+        progress: Called with what is going on.
+        announce: Called with each package that is done.
+        interruption: Takes the signals that ask for the end.
+
+    Raises:
+        EnvironmentMissingError: there is no cluster, or it cannot be used.
+    """
+    begun = time.monotonic()
+    wanted = [package for package in packages if options.runs(package.name)]
+    archives = {package.name: sources.pack(package) for package in packages}
+    tasks = {
+        package.name: Task(
+            package.name,
+            {name: archives[name] for name in sorted(with_dependencies(packages, {package.name}))},
+            replace(options, run_only=frozenset({package.name})),
+        )
+        for package in wanted
+    }
+    done: dict[str, Done[Outcome]] = {}
+    ended_early = ""
+    with connected(address) as cluster:
+        progress(f"running {len(tasks)} packages on {address}")
+        try:
+            with interruption.at_once():
+                for item in cluster.map(run_task, tasks):
+                    done[item.name] = item
+                    announce(f"{item.name}: {_verdict(item)} ({len(done)} of {len(tasks)})")
+        except InterruptedBySignalError as end:
+            ended_early = f"interrupted by {Signals(end.number).name}"
+    kinds = {item.result.environment["kind"] for item in done.values() if item.result}
+    names = {item.result.environment["distribution"] for item in done.values() if item.result}
+    middlewares = {item.result.environment["rmw"] for item in done.values() if item.result}
+    return Smoke(
+        environment={
+            "kind": ", ".join(sorted(kinds)) or "unknown",
+            "distribution": ", ".join(sorted(names)),
+            "prefix": address,
+            "rmw": ", ".join(sorted(middlewares)) or "unknown",
+        },
+        packages=tuple(_of_package(package, done.get(package.name)) for package in wanted),
+        seconds=time.monotonic() - begun,
+        ended_early=ended_early,
+    )
+
+
+def _verdict(item: Done[Outcome]) -> str:
+    if item.result is None:
+        return item.error
+    return f"{'ok' if item.result.package.ok else 'not ok'}, on {item.worker}"
+
+
+def _of_package(package: Package, done: Done[Outcome] | None) -> PackageResult:
+    """Return the result of a package as this machine knows its files."""
+    manifest = in_repository(package, MANIFEST)
+    if done is None:
+        build = Build(ok=False, interrupted=True)
+        return PackageResult(package.name, build, manifest=manifest, ran=False)
+    if done.result is None:
+        return PackageResult(package.name, Build(ok=False, errors=(done.error,)), manifest=manifest)
+    result = done.result.package
+    if done.result.ended_early and result.build.interrupted:
+        build = Build(ok=False, errors=(done.result.ended_early,))
+        result = replace(result, build=build)
+    executables = tuple(
+        replace(item, source=in_repository(package, item.source) if item.source else "")
+        for item in result.executables
+    )
+    return replace(result, executables=executables, manifest=manifest, worker=done.worker)
