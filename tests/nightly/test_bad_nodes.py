@@ -1,0 +1,146 @@
+"""Nodes that misbehave: each is named rightly, and nothing of them is left."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scaffold.smoke.isolation import shared_memory
+from tests.smoke.smoke_packages import IGNORES_SIGINT, python_package, talker
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variables
+
+pytestmark = [pytest.mark.nightly, NEEDS_ROS, pytest.mark.timeout(0)]
+
+FORKS = talker(
+    "/forks",
+    imports="import os\nimport time",
+    tick="""\
+    if self.count < 5 and os.fork() == 0:
+        os.setsid()
+        if os.fork() == 0:
+            time.sleep(600)
+        os._exit(0)
+    """,
+)
+RENAMES = talker(
+    "/renames",
+    imports="import ctypes\nimport os\nimport time",
+    begin="""\
+    ctypes.CDLL(None).prctl(15, b'[kworker/0:1]', 0, 0, 0)
+    if os.fork() == 0:
+        os.setsid()
+        os.environ.clear()
+        os.execve('/bin/sleep', ['[kworker/0:2]', '600'], {})
+    """,
+)
+SPAMS = talker("/spams", imports="import sys", tick="sys.stdout.write('spam ' * 4_000_000)")
+ONCE_ONLY = talker("/exits", imports="import os", tick="os._exit(3)")
+DIES_LATER = talker(
+    "/dies",
+    imports="import time",
+    begin="self.begun = time.monotonic()",
+    tick="""\
+    if time.monotonic() - self.begun > 10:
+        raise RuntimeError('ten seconds are over')
+    """,
+)
+FAST = talker("/fast", period="0.0001")
+LARGE = talker(
+    "/large",
+    period="0.5",
+    imports="from std_msgs.msg import UInt8MultiArray",
+    begin="self.large = self.create_publisher(UInt8MultiArray, '/huge', 1)",
+    tick="self.large.publish(UInt8MultiArray(data=bytes(50_000_000)))",
+)
+NOTHING = talker("/nothing", tick="return")
+
+NODES = {
+    "dies": DIES_LATER,
+    "exits": ONCE_ONLY,
+    "fast": FAST,
+    "forks": FORKS,
+    "ignores": IGNORES_SIGINT,
+    "large": LARGE,
+    "nothing": NOTHING,
+    "renames": RENAMES,
+    "spams": SPAMS,
+}
+
+
+@pytest.fixture(scope="module")
+def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Run them all, two at a time; return what is said of each."""
+    root = tmp_path_factory.mktemp("zoo")
+    package = python_package(root / "src", "zoo", NODES)
+    (package / "smoke.yaml").write_text("executables: {dies: {duration: 14}}\n")
+    tmp = root / "tmp"
+    tmp.mkdir()
+    before = shared_memory.segments()
+    done = subprocess.run(
+        command_line(package, "--duration", "4", "--jobs", "2", "--format", "json"),
+        env=variables(tmp, XDG_STATE_HOME=str(root / "state")),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1, done.stderr
+    assert processes_of(tmp) == []
+    assert os.listdir(tmp) == []
+    assert [*(root / "state").glob("*/*/*")] == []
+    assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
+    executables: list[dict[str, Any]] = json.loads(done.stdout)["packages"][0]["executables"]
+    return {item["name"]: "\n".join(item["problems"]) for item in executables}
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("dies", "RuntimeError: ten seconds are over"),
+        ("exits", "exit code 3"),
+        ("fast", "publishes std_msgs/msg/String at 10000 Hz"),
+        ("forks", "leaves a process running: "),
+        ("ignores", "ignored SIGINT"),
+        ("nothing", "no message on /nothing"),
+        ("renames", "leaves a process running: [kworker/0:2]"),
+    ],
+)
+def test_what_is_wrong_is_named(problems: dict[str, str], name: str, said: str) -> None:
+    assert said in problems[name]
+
+
+@pytest.mark.parametrize("name", ["large", "spams"])
+def test_much_output_and_large_messages_keep_nothing_from_ending(
+    problems: dict[str, str], name: str
+) -> None:
+    """A rate may be missed, and the report says so; nothing hangs, crashes or stays."""
+    for word in ("observer", "hangs", "crashed", "ignored", "leaves"):
+        assert word not in problems[name]
+
+
+def test_files_of_a_full_disk(tmp_path: Path) -> None:
+    """What was seen until the disk is full is reported, in one line there is the reason."""
+    package = python_package(tmp_path / "src", "zoo", {"spams": SPAMS})
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    script = (
+        f"mount -t tmpfs -o size=8m tmpfs {disk} && "
+        f"exec {' '.join(command_line(package, '--duration', '4', '--format', 'json'))}"
+    )
+    done = subprocess.run(
+        ["unshare", "-m", "sh", "-c", script],
+        env=variables(disk, XDG_STATE_HOME=str(tmp_path / "state")),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if "unshare" in done.stderr or "mount" in done.stderr:
+        pytest.skip("no right to mount a small disk")
+    assert done.returncode in {1, 2}, done.stderr
+    assert "internal error" not in done.stderr
+    assert json.loads(done.stdout)["packages"][0]["name"] == "zoo"
+    assert processes_of(disk) == []
