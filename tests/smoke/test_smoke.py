@@ -124,12 +124,14 @@ def test_good_publisher(packages: dict[str, Result], package: str, name: str) ->
 
 def test_schema(packages: dict[str, Result]) -> None:
     package = packages["good_py"]
-    assert set(package) == {"name", "dependency", "build", "executables", "together", "tests"}
-    assert set(package["build"]) == {"ok", "seconds", "errors", "warnings"}
+    assert set(package) == {
+        "name", "dependency", "worker", "build", "executables", "together", "launches", "tests",
+    }  # fmt: skip
+    assert set(package["build"]) == {"ok", "interrupted", "seconds", "errors", "warnings"}
     found = executable(packages, "good_py", "talker")
     assert set(found) == {
-        "name", "ok", "nodes", "topics", "services", "actions", "parameters", "log", "usage",
-        "stop", "problems", "notes",
+        "name", "ok", "interrupted", "nodes", "topics", "services", "actions", "parameters",
+        "transitions", "log", "usage", "stop", "problems", "notes",
     }  # fmt: skip
     assert set(found["topics"][0]) == {
         "name", "type", "publishers", "subscribers", "rate_hz", "count", "messages", "endpoints",
@@ -262,6 +264,7 @@ def test_does_not_build(packages: dict[str, Result]) -> None:
 def test_dependency_does_not_build(packages: dict[str, Result]) -> None:
     assert packages["dependent"]["build"] == {
         "ok": False,
+        "interrupted": False,
         "seconds": 0.0,
         "errors": ["not built: it depends on unbuilt_cmake, which failed"],
         "warnings": [],
@@ -314,7 +317,9 @@ def test_command_line(sources: Path, tmp_path: Path) -> None:
     )  # fmt: skip
     assert (done.returncode, done.stderr) == (0, "")
     data = json.loads(done.stdout)
-    assert set(data) == {"schema_version", "environment", "packages", "ok", "seconds"}
+    assert set(data) == {
+        "schema_version", "environment", "packages", "ok", "ended_early", "seconds",
+    }  # fmt: skip
     assert set(data["environment"]) == {"kind", "distribution", "prefix", "rmw"}
     assert data["ok"] is True
     talker_ = next(e for e in data["packages"][0]["executables"] if e["name"] == "talker")
@@ -365,11 +370,12 @@ def test_interrupted(sources: Path, tmp_path: Path, number: signal.Signals, code
     ) as run:
         wait_until(lambda: any("lib/good_py/talker" in one for one in processes_of(tmp_path)))
         run.send_signal(number)
-        said = run.communicate(timeout=PATIENCE)
+        report, said = run.communicate(timeout=PATIENCE)
     assert run.returncode == code
     wait_until(lambda: processes_of(tmp_path) == [])
     if number != signal.SIGKILL:
-        assert said == ("", f"ros2-scaffold: interrupted by {number.name}\n")
+        assert f"\nended early: interrupted by {number.name}\n" in report
+        assert said == f"ros2-scaffold: interrupted by {number.name}\n"
         assert list(tmp_path.iterdir()) == []
 
 

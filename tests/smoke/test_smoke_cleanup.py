@@ -391,8 +391,9 @@ def test_interrupted_run_leaves_nothing(
     tmp = tmp_path / "tmp"
     segments = segments_in_use(tmp)
     run.send_signal(number)
-    said = run.communicate(timeout=PATIENCE)
-    assert said == ("", f"ros2-scaffold: interrupted by {number.name}\n")
+    report, said = run.communicate(timeout=PATIENCE)
+    assert f"\nended early: interrupted by {number.name}\n" in report
+    assert said == f"ros2-scaffold: interrupted by {number.name}\n"
     assert run.returncode == 128 + number
     assert (processes_of(tmp), list(tmp.iterdir()), left_of(segments)) == ([], [], set())
     assert list(tmp_path.glob("state/*/*/*")) == []

@@ -216,7 +216,11 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 announce=_announce,
                 interruption=interruption,
             )
-    _report(options, result)
+    try:
+        _report(options, result)
+    except OSError:
+        interruption.check()  # the terminal may be gone
+        raise
     others = [item for item in wanted if item.name != result.environment["distribution"]]
     if others and packages:
         _announce(f"not observed: {distributions.titles(others)}, which the packages are for, too")
