@@ -183,10 +183,11 @@ def run(options: argparse.Namespace) -> int:
     options.policy = choices.policy()
     session = _session(options, rules, choices, _kind_of_session(options))
     wanted = distro.wanted(options.distro, settings)
-    by_record, found = ({}, None) if wanted else _recorded(options, session, disk)
+    by_record, targets = ({}, None) if wanted else _recorded(options, session, disk)
     named = wanted or [item for items in by_record.values() for item in items]
     options.distributions = distributions.ordered(named or [distributions.JAZZY])
-    options.notes = (*distro.note(options.distributions), *(options.notes if found else ()))
+    left_out = () if targets is None else options.notes
+    options.notes = (*distro.note(options.distributions), *left_out)
     if len(options.distributions) > 1:
         from scaffold.check.several import AgreedSession
         from scaffold.cli.several_targets import SeveralTargets
@@ -194,7 +195,7 @@ def run(options: argparse.Namespace) -> int:
         agreeing = _session(options, rules, choices, AgreedSession)
         return SeveralTargets(options, agreeing, settings, disk, by_record).run()
     with distributions.targeting(options.distributions[0]):
-        return _run(options, session, settings, disk, directory, found)
+        return _run(options, session, settings, disk, directory, targets)
 
 
 def _recorded(
