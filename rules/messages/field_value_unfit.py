@@ -122,6 +122,28 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
+            "what numpy returns for a float and a bool",
+            {
+                "talker.py": "import numpy as np\n"
+                "from std_msgs.msg import Bool, Float32, Float64\n\n"
+                "Float32(data=np.float32(0.5))\n"
+                "Float64(data=np.float64(0.5))\n"
+                "Float64(data=float(np.float32(0.5)))\n"
+                "Bool(data=np.any([0, 1]))\n"
+                "Bool(data=bool(np.any([0, 1])))\n"
+            },
+            Report(
+                "4:14",
+                "'data' of std_msgs/msg/Float32 is float32, but "
+                "np.float32(0.5) is a numpy.float32, not a float; write float(...)",
+            ),
+            Report(
+                "7:11",
+                "'data' of std_msgs/msg/Bool is bool, but "
+                "np.any([0, 1]) is a numpy.bool_, not a bool; write bool(...)",
+            ),
+        ),
+        Example(
             "a 2-D array for a flat one",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"

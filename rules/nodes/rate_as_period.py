@@ -64,6 +64,15 @@ class RateAsPeriod(RclpyRule):
             ),
         ),
         Example(
+            "a rate in calls per second",
+            {"talker.py": _NODE.format("rate").replace(".value\n", ".value  # per second\n")},
+            Report(
+                "9:40",
+                "a rate of 20 Hz where the period belongs: one call in 20 s; write 1.0 / rate",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "what is called a rate, in seconds",
             {"talker.py": _NODE.format("rate").replace(".value\n", ".value  # rate in seconds\n")},
         ),
@@ -159,7 +168,7 @@ _LEAST_RATE = 1.5
 def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:
     """Tell whether the file says somewhere that what is given are seconds."""
     name = given.attr if isinstance(given, ast.Attribute) else getattr(given, "id", "")
-    pattern = rf"\b{re.escape(name)}\b[^\n]*(?:\bsec|\}} ?s\b)"
+    pattern = rf"\b{re.escape(name)}\b[^\n]*(?:(?<!per )\bsec|\}} ?s\b)"
     return bool(name) and re.search(pattern, file.module.source.text) is not None
 
 

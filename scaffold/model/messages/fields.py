@@ -63,6 +63,18 @@ _OF_TEXT = {
     "splitlines": "list",
 }
 """What methods of a text return."""
+_OF_NUMPY: Mapping[str, tuple[str, str]] = {
+    "numpy.float16": ("float", "numpy.float16"),
+    "numpy.float32": ("float", "numpy.float32"),
+    "numpy.bool_": ("bool", "numpy.bool_"),
+    "numpy.all": ("bool", "numpy.bool_"),
+    "numpy.any": ("bool", "numpy.bool_"),
+}
+"""Which class of numpy functions return, and the type of Python that it looks like.
+
+Humble refuses its objects with an AssertionError; later the C code of a message takes them for
+what they look like, and other values arrive. A ``numpy.float64`` is a float.
+"""
 _NUMBERS = frozenset({"int", "float"})
 _DEPTH = 8
 _SMALL = frozenset({"int8", "uint8", "byte", "char", "int16", "uint16"})
@@ -321,7 +333,7 @@ class TypeMismatches:
             return self._instead_of_message(node)
         kind = self._kinds.of(node)
         if kind is None:
-            return self._object_of_rclpy(node)
+            return self._object_of_numpy(type_, node) or self._object_of_rclpy(node)
         if kind not in _accepted(type_.name):
             return f"{self._shown(node)} is {_NAMES[kind]}"
         value = self._types.facts.evaluator.evaluate(node)
@@ -329,6 +341,17 @@ class TypeMismatches:
         if bound is not None and isinstance(value, str) and len(value) > bound:
             return f"{self._shown(node)} has {len(value)} characters, not {bound}"
         return self._out_of_range(type_, node, value)
+
+    def _object_of_numpy(self, type_: FieldType, node: ast.expr) -> str | None:
+        """Report a number or truth value of numpy that is not one of Python."""
+        value = self._types.facts.evaluator.single_value(node)
+        if not isinstance(value, ast.Call) or value.keywords or len(value.args) != 1:
+            return None
+        name = self._types.module.qualified_name(value.func) or ""
+        python, class_ = _OF_NUMPY.get(name, ("", ""))
+        if python != ("float" if type_.name in FLOATS else type_.name):
+            return None
+        return f"{self._shown(node)} is a {class_}, not a {python}; write {python}(...)"
 
     def _object_of_rclpy(self, node: ast.expr) -> str | None:
         """Report an rclpy object, or a method of it that is not called."""
