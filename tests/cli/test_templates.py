@@ -152,7 +152,7 @@ def test_what_overrides_nothing_is_refused(
         ("force", "the option --force"),
         ("package_directory", "the option --package-directory"),
         ("description", "the question of package"),
-        ("topic", "the question of lifecycle"),
+        ("topic", "the question of composed_nodes"),
         ("header", "a variable"),
         ("verb", "a variable"),
     ],

@@ -181,9 +181,10 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
 
 
 def _says(old: Iterable[str], new: Section) -> bool:
-    """Tell whether all commands of a section or a block are in some lines."""
-    commands = [line for line in new.lines if line.startswith("ros2 ")]
-    return bool(commands) and set(commands) <= set(old)
+    """Tell whether all commands of a section or a block, or all of its text, are in some lines."""
+    text = [line for line in new.lines if line.strip() and not _is_row(line)]
+    wanted = [line for line in text if line.startswith("ros2 ")] or text
+    return bool(wanted) and set(wanted) <= set(old)
 
 
 def _add_row(source: Source, header: tuple[str, ...], row: tuple[str, ...]) -> Source:
