@@ -954,7 +954,10 @@ def test_what_installs_other_launch_files_alone_is_said(
     ) in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("extra", [name for name in EXTRAS if not TEMPLATES[name].depends])
+@pytest.mark.parametrize(
+    "extra",
+    [name for name in EXTRAS if not (TEMPLATES[name].depends or TEMPLATES[name].needs_nodes)],
+)
 def test_an_extra_of_files_alone_writes_them(
     extra: str, demo: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -982,11 +985,12 @@ def test_an_extra_does_not_overwrite(demo: Path, capsys: pytest.CaptureFixture[s
     assert "__pycache__/" in (demo / ".gitignore").read_text()
 
 
-def test_a_package_without_nodes_has_nothing_to_launch(
-    demo: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("extra", [name for name in EXTRAS if TEMPLATES[name].needs_nodes])
+def test_an_extra_for_nodes_writes_nothing_without_any(
+    extra: str, demo: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert refused(demo, capsys, "launch") == (
-        f"launch has nothing to write for {demo}: it installs no node that is known"
+    assert refused(demo, capsys, extra) == (
+        f"{extra} has nothing to write for {demo}: it installs no node that is known"
     )
 
 
