@@ -342,7 +342,7 @@ def test_text(sources: Path, tmp_path: Path) -> None:
     (kept,) = tmp_path.iterdir()
     assert done.stderr == f"kept: {kept}\n"
     lines = done.stdout.splitlines()
-    assert lines[0].startswith("ROS 2 (")
+    assert lines[0].startswith("ROS 2 Jazzy (")
     assert "  talker.py: ok" in lines
     assert "    node /talker" in lines
     (topic,) = [line.split() for line in lines if line.startswith("    /numbers")]
