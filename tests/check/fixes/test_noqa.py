@@ -46,7 +46,7 @@ def talker(
     assert main(["new", "talker"]) == 0
     root = tmp_path / "talker"
     (root / "talker" / "extra.py").write_text(CODE)
-    (root / "talker" / "other.py").write_text("import numpy\nimport os  # noqa: F401\nnumpy.pi\n")
+    (root / "talker" / "other.py").write_text("import os  # noqa: F401\nimport scipy\nscipy.pi\n")
     manifest = root / "package.xml"
     manifest.write_text(
         manifest.read_text().replace("<test_depend>", "<depend>rclpy</depend>\n  <test_depend>", 1)
@@ -90,7 +90,7 @@ def test_only_what_is_selected_is_silenced(
     assert main(["check", "--add-noqa", "--diff", "--select", "CM001"]) == 1
     patch = capsys.readouterr().out
     assert "\n+project (listener)  # noqa: CM001\n" in patch
-    assert "import numpy  # noqa: PX020\n" in (talker / "talker" / "other.py").read_text()
+    assert "import scipy  # noqa: PX020\n" in (talker / "talker" / "other.py").read_text()
     assert "noqa" not in (talker / "CMakeLists.txt").read_text(), "a patch writes nothing"
 
 
