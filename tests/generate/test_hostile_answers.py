@@ -601,6 +601,18 @@ FRAMES = (
     *("", "/", "/map", "map/", "a//b", "1a", "a b", "a-b", "ä", "f" * 41, "a\n", "{{ a }}", "a'b"),
 )
 
+DISTRIBUTIONS = (
+    "humble",
+    "jazzy,lyrical",
+    "rolling",
+    "jazz",
+    "Jazzy",
+    "jazzy,jazzy",
+    ",",
+    "foxy",
+    "",
+)
+
 POOLS: dict[str, tuple[Any, ...]] = {
     "text": TEXTS,
     "person": PERSONS,
@@ -618,6 +630,7 @@ POOLS: dict[str, tuple[Any, ...]] = {
     "action": ACTIONS,
     "qos": QUALITIES,
     "rate": RATES,
+    "distributions": DISTRIBUTIONS,
 }
 ODD: tuple[Any, ...] = (
     *(True, None, 5, 2.5, [], ["a", 1], {"a": 1}, {}, "", b"x", [[]], float("nan")),

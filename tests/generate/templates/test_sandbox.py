@@ -196,4 +196,4 @@ def test_both_processes_render_the_same(tmp_path: Path) -> None:
                 draft(roots, templates, given, User("."), date(2025, 1, 1))
                 for roots in (own, content.roots("templates", (str(tmp_path),)))
             )
-            assert here == there
+            assert here == there._replace(roots=here.roots)
