@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import ast
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -43,6 +44,10 @@ PYTHON = {
 }
 """Python packages whose stubs are compared, by the package that holds them."""
 NAMED = ("rclpy", "ament_index_python")
+_OWN_ENTER = re.compile(
+    r"(?m)^(    def __enter__\(self\)) -> (?!None\b|Any\b|Self\b)[\w\[\], ]+: \.\.\.$"
+)
+"""How a class that has no better type names what ``with`` gives."""
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 Definition = Function | ast.ClassDef | ast.Assign | ast.AnnAssign
 Group = list[Definition]
@@ -428,6 +433,14 @@ def stubs(sources: Path, name: str) -> tuple[dict[str, str], list[str]]:
     return same, kept
 
 
+def of_subclasses(text: str) -> str:
+    """Let ``with`` give an object of the class at hand, not one of the base class."""
+    text, count = _OWN_ENTER.subn(r"\1 -> Self: ...", text)
+    if not count or re.search(r"import .*\bSelf\b", text):
+        return text
+    return re.sub(r"(?m)^(?=from |import )", "from typing_extensions import Self\n", text, count=1)
+
+
 def _of(table: Mapping[str, set[str]], path: str) -> dict[str, set[str]]:
     """Return the names of the classes of a module, by the name of the class."""
     start = f"{module_name(path)}."
@@ -479,7 +492,7 @@ def main() -> int:
         "arguments.txt": compared_arguments(old, new),
         "interfaces.txt": interfaces(sources, name),
         "removed_stubs.txt": "".join(f"{path}\n" for path in gone),
-        **{f"stubs/{path}": text for path, text in changed.items()},
+        **{f"stubs/{path}": of_subclasses(text) for path, text in changed.items()},
     }
     for path, text in files.items():
         file = target / path

@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Any
 from types import TracebackType
 from typing import Callable, Optional, Type
@@ -39,7 +40,7 @@ class JumpHandle:
         post_callback: Optional[Callable[[TimeJumpDictionary], None]],
     ) -> None: ...
     def unregister(self) -> None: ...
-    def __enter__(self) -> JumpHandle: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         t: Optional[Type[BaseException]],

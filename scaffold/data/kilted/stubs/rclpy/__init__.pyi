@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import List
 from typing import Optional
 from rclpy.context import Context as Context
@@ -106,7 +107,7 @@ class InitContextManager:
         domain_id: Optional[int],
         signal_handler_options: Optional[SignalHandlerOptions],
     ) -> None: ...
-    def __enter__(self) -> InitContextManager: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Dict
 from typing import Optional
 from typing import TypeVar
@@ -56,7 +57,7 @@ class Client(Generic[RequestT, ResponseT]):
     _executor_event: Any
     _lock: Any
 
-    def __enter__(self) -> Client[SrvRequestT, SrvResponseT]: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

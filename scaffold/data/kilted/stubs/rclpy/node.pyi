@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Any
 from typing import Callable
 from typing import Dict
@@ -345,7 +346,7 @@ class Node:
     __node: Any
     ParameterInput: TypeAlias = Union[AllowableParameterValue, Parameter.Type, ParameterValue]
 
-    def __enter__(self) -> Node: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import TypeVar
 from rclpy.callback_groups import CallbackGroup as CallbackGroup
 from rclpy.duration import Duration as Duration
@@ -38,7 +39,7 @@ class Publisher(Generic[MsgType]):
     qos_profile: QoSProfile
     event_handlers: EventHandler
 
-    def __enter__(self) -> Publisher[MsgT]: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

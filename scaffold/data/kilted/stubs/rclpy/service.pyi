@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Callable
 from typing import TypeVar
 from rclpy.callback_groups import CallbackGroup as CallbackGroup
@@ -49,7 +50,7 @@ class Service(Generic[RequestT, ResponseT]):
     _executor_event: Any
     qos_profile: QoSProfile
 
-    def __enter__(self) -> Service[SrvRequestT, SrvResponseT]: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

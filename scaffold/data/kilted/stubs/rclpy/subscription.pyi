@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from enum import Enum
 from typing import Callable
 from typing import TypeVar
@@ -53,7 +54,7 @@ class Subscription(Generic[MsgType]):
     _callback: Any
     _callback_type: Any
 
-    def __enter__(self) -> Subscription[MsgT]: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Callable
 from typing import Optional
 from rclpy.callback_groups import CallbackGroup as CallbackGroup
@@ -48,7 +49,7 @@ class Timer:
     __timer: Any
     __timer_period_ns: Any
 
-    def __enter__(self) -> Timer: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

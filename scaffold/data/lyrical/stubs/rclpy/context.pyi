@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Any
 from types import TracebackType
 from typing import Callable
@@ -34,7 +35,7 @@ class Context(ContextManager["Context"]):
     _logging_fini: Any
 
     def get_domain_id(self) -> int: ...
-    def __enter__(self) -> Context: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],

@@ -1,3 +1,4 @@
+from typing_extensions import Self
 from typing import Any
 from typing import Callable
 from typing import Dict
@@ -365,7 +366,7 @@ class Node(BaseNode):
     _on_destroy_service: Any
     _on_destroy_timer: Any
 
-    def __enter__(self) -> Node: ...
+    def __enter__(self) -> Self: ...
     def __exit__(
         self,
         exc_type: Optional[Type[BaseException]],
