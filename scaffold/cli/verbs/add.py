@@ -165,8 +165,9 @@ def _order(
     from scaffold.model.package import Package
     from scaffold.writing.transaction import RECORD
 
-    package = Package.at(directory)
-    recorded = update.recorded_content(package.tree, directory, settings.content)
+    # The package that is edited is read anew once it is locked: another run may be writing it.
+    before = Package.at(directory)
+    recorded = update.recorded_content(before.tree, directory, settings.content)
     roots = content.roots("templates", (*recorded, *settings.content))
     templates = template.load(roots)
     chosen = templates[choose(options.kind, parts.addable(templates), "KIND")]
@@ -177,7 +178,7 @@ def _order(
         raise InputError(f"NAME does not apply to {chosen.name}, which is for the whole package")
     if options.launch and chosen.role is not Role.NODE:
         raise InputError(f"--launch: does not apply to {chosen.name}, which is not a node")
-    target = Target(package, roots, templates, User(directory))
+    target = Target(Package.at(directory), roots, templates, User(directory))
     given = _given(options, templates, settings)
     given[ANSWER] = Given([item.name for item in targets], RECORD)
     return target, Wanted(chosen, options.name, given, options.launch)
