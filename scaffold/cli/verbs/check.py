@@ -201,7 +201,7 @@ def run(options: argparse.Namespace) -> int:
 def _recorded(
     options: argparse.Namespace, session: Session, disk: Disk
 ) -> tuple[dict[str, Sequence[Distribution]], list[Target] | None]:
-    """Return what each package is for, by directory; nothing if no record says so.
+    """Return what each package is for, by directory; nothing if that is the default for all.
 
     Then the packages come with it: they have been looked for with the default in mind.
     """
@@ -215,10 +215,13 @@ def _recorded(
         targets = find_targets(options, session, disk)
         directories = [target.package.directory for target in targets]
     records = {directory: distro.recorded(directory, disk) for directory in directories}
-    if not any(records.values()):
-        return {}, targets
     default = [distributions.JAZZY]
-    return {directory: named or default for directory, named in records.items()}, None
+    by_record: dict[str, Sequence[Distribution]] = {
+        directory: named or default for directory, named in records.items()
+    }
+    if all(named == default for named in by_record.values()):
+        return {}, targets
+    return by_record, None
 
 
 def _run(
