@@ -19,6 +19,7 @@ import os
 import sys
 import tempfile
 import time
+from contextlib import ExitStack
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from scaffold.generate import payload
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
 from scaffold.smoke import environment
+from scaffold.smoke.isolation import domain
 from tests.generate.payload.publishing import Publisher, receive
 from tests.generate.payload.test_payload import write
 
@@ -41,14 +43,15 @@ def main() -> int:
     options = parser.parse_args()
     os.environ.setdefault("AMENT_PREFIX_PATH", sys.prefix)  # where `new` looks for messages
     definitions = installed()
-    with tempfile.TemporaryDirectory() as scratch:
+    with ExitStack() as stack:
+        scratch = stack.enter_context(tempfile.TemporaryDirectory())
         directory = Path(options.keep or scratch)
         wanted = [
             publisher(directory, name, definitions) for name in options.types or names(definitions)
         ]
         variables = {
             **environment.select(os.environ).variables,
-            "ROS_DOMAIN_ID": str(1 + os.getpid() % 100),
+            "ROS_DOMAIN_ID": str(stack.enter_context(domain.reserved())),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
             "ROS_LOG_DIR": scratch,
         }

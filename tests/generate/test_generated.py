@@ -10,7 +10,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from itertools import cycle, islice, product
 from pathlib import Path
@@ -32,6 +32,7 @@ from scaffold.generate.templates import licenses, template
 from scaffold.generate.templates.template import Role
 from scaffold.model.discovery import targets
 from scaffold.smoke import environment
+from scaffold.smoke.isolation import domain
 from scaffold.writing.plan import WritePlan
 from tests import PATIENCE, oracles
 from tests.oracles import needs_system_linter
@@ -393,15 +394,16 @@ def counts(report: Path) -> tuple[int, int]:
 
 
 @pytest.fixture
-def variables(tmp_path: Path) -> dict[str, str]:
+def variables(tmp_path: Path) -> Iterator[dict[str, str]]:
     """Return an environment to run nodes in, apart from everything else."""
-    return {
-        **environment.select(os.environ).variables,
-        "ROS_DOMAIN_ID": str(1 + os.getpid() % 100),
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "ROS_LOG_DIR": str(tmp_path),
-        "PYTHONUNBUFFERED": "1",
-    }
+    with domain.reserved() as number:
+        yield {
+            **environment.select(os.environ).variables,
+            "ROS_DOMAIN_ID": str(number),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_LOG_DIR": str(tmp_path),
+            "PYTHONUNBUFFERED": "1",
+        }
 
 
 OBSERVE = dedent("""\

@@ -9,6 +9,7 @@ import signal
 import socket
 import sys
 from collections.abc import Callable, Coroutine
+from contextlib import ExitStack
 from importlib.util import find_spec
 from io import StringIO
 from pathlib import Path
@@ -135,6 +136,13 @@ def test_domains_are_given_once() -> None:
     with domain.reserved() as one, domain.reserved() as other:
         assert one != other
         assert {one, other} <= set(range(1, 102))
+
+
+def test_domains_of_other_tests_are_not_given() -> None:
+    coordinator = pytest.importorskip("domain_coordinator")
+    with ExitStack() as stack:
+        others = {stack.enter_context(coordinator.domain_id()) for _ in range(90)}
+        assert stack.enter_context(domain.reserved()) not in others
 
 
 def test_domain_whose_ports_are_taken_is_busy() -> None:

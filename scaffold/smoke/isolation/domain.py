@@ -18,19 +18,22 @@ _FIRST_PORT = 7400
 _PORTS = 250
 """DDS: domain ``d`` uses the UDP ports from 7400 + 250 d to before those of the next."""
 
+_FIRST_LOCK = 32768
+"""``domain_coordinator/impl.py``: who holds the TCP port 32768 + d has domain ``d``."""
+
 
 @contextmanager
 def reserved() -> Iterator[int]:
     """Hold a domain that is not in use on this machine.
 
-    It is held by a name in the abstract socket namespace: that is as large as the loopback
-    network itself, is shared by all users, and is given back by the kernel when the process ends
-    in any way. A lock file would be none of these.
+    It is held by a TCP port, as ``domain_coordinator`` of ROS 2 does it, so that tests that use
+    that and executables under test keep apart. The kernel gives a port back when the process ends
+    in any way.
 
     Raises:
         EnvironmentMissingError: all domains are in use.
     """
-    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as lock:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as lock:
         yield _take(lock)
 
 
@@ -41,7 +44,7 @@ def _take(lock: socket.socket) -> int:
     random.shuffle(numbers)
     for number in numbers:
         try:
-            lock.bind(f"\0ros2-scaffold-domain-{number}")
+            lock.bind(("127.0.0.1", _FIRST_LOCK + number))
         except OSError:
             continue
         return number

@@ -366,6 +366,7 @@ def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[st
             "+  <exec_depend>std_msgs</exec_depend>",
             "+  <test_depend>ament_cmake_pytest</test_depend>",
             "+  <test_depend>ament_index_python</test_depend>",
+            "+  <test_depend>domain_coordinator</test_depend>",
         ]
 
 

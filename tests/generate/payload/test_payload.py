@@ -33,6 +33,7 @@ from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.smoke import environment
+from scaffold.smoke.isolation import domain
 from scaffold.writing.plan import WritePlan
 from tests import oracles
 from tests.generate.payload.publishing import Publisher, receive
@@ -289,7 +290,6 @@ SAMPLE = (
 def test_publishers_are_received_in_another_process(tmp_path: Path) -> None:
     variables = {
         **environment.select(os.environ).variables,
-        "ROS_DOMAIN_ID": str(1 + os.getpid() % 100),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "ROS_LOG_DIR": str(tmp_path),
     }
@@ -299,7 +299,9 @@ def test_publishers_are_received_in_another_process(tmp_path: Path) -> None:
         script = directory / directory.name / "talker.py"
         filled = payload.payload(name, BUNDLED)
         wanted.append(Publisher(filled, script, f"/{directory.name}"))
-    received = list(receive(wanted, variables, tmp_path, jobs=len(wanted)))
+    with domain.reserved() as number:
+        variables["ROS_DOMAIN_ID"] = str(number)
+        received = list(receive(wanted, variables, tmp_path, jobs=len(wanted)))
     assert [one for one in received if not one.is_good] == []
     assert len(received) == len(SAMPLE)
 
