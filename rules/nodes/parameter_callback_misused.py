@@ -23,7 +23,7 @@ _NODE = (
 
 
 class ParameterCallbackMisused(RclpyRule):
-    """A parameter callback is called instead of passed, or misreads what it is given.
+    """A parameter callback is called instead of passed, or takes its list of parameters for one.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
     'list' object has no attribute 'value'`` as soon as a parameter is set. Until the callback

@@ -63,7 +63,7 @@ def _tight_classes(text: PythonText) -> Iterator[Finding]:
         if line.startswith("class"):
             after_class.add(logical.end_row + 1)
         if logical.end_row in after_class and line.startswith(("def ", "@")):
-            message = "no blank line between the line of the class and its first method"
+            message = "no blank line between the class statement and its first method"
             yield Finding("CNL100", logical.end_row, 1, message)
 
 

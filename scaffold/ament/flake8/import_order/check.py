@@ -167,7 +167,7 @@ def _for_types(text: PythonText) -> set[ast.stmt]:
 def _first_for_types(before: Statement, statement: Statement) -> Iterator[Finding]:
     """Yield I300: the blank line and the ``if`` between two imports are three lines on."""
     if statement.line - before.end_line != _TO_FIRST_FOR_TYPES:
-        message = "no single blank line between the imports and the block for type checkers"
+        message = "no single blank line between the imports and the if TYPE_CHECKING block"
         yield Finding("I300", statement.line, 1, message)
 
 
