@@ -311,6 +311,8 @@ def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_pa
         "sequential",
         "--packages-select",
         *TESTED,
+        "--ctest-args",
+        "--parallel=2",  # each test waits for its node most of the time
         PYTHONPATH=path,
     )
     assert done.returncode == 0, workspace.colcon("test-result", "--verbose").stdout
