@@ -105,6 +105,15 @@ def of_kind(kind: str) -> tuple[Change, ...]:
     return tuple(_change(entry) for entry in _entries()[kind])
 
 
+def removed_name(name: str) -> Change | None:
+    """Return why the target does not have a name.
+
+    Args:
+        name: The full name, without ``*``.
+    """
+    return next((item for item in of_kind("name") if name in item.names and item.is_removed), None)
+
+
 def removed_interface(name: str) -> Change | None:
     """Return why the target does not have an interface, or a field of one.
 

@@ -15,11 +15,15 @@ from scaffold.api import (
     Safety,
     Severity,
 )
-from scaffold.api.cmake import Command
+from scaffold.api.cmake import Argument, Command
 from scaffold.api.distributions import of_kind
 
 _LISTS = (
     "find_package(rclcpp REQUIRED)\nfind_package(std_msgs REQUIRED)\n"
+    "add_executable(talker talker.cpp)\n{}\n"
+)
+_NAMED = (
+    "set(DEPENDS rclcpp std_msgs)\nfind_package(rclcpp REQUIRED)\nfind_package(std_msgs REQUIRED)\n"
     "add_executable(talker talker.cpp)\n{}\n"
 )
 _OLD = "ament_target_dependencies"
@@ -27,10 +31,16 @@ _COMMENTED = f"{_OLD}(talker PUBLIC\n  rclcpp  # the node\n  std_msgs)"
 _KEYWORDS = frozenset({"PUBLIC", "INTERFACE"})
 _EXPORTING = frozenset(
     {"rclcpp", "rclcpp_action", "rclcpp_components", "rclcpp_lifecycle", "rcutils", "rcpputils"}
-    | {"tf2", "tf2_ros", "tf2_geometry_msgs", "tf2_eigen", "message_filters", "image_transport"}
-    | {"pluginlib", "class_loader", "ament_index_cpp", "rosbag2_cpp", "cv_bridge"}
+    | {"tf2", "tf2_ros", "tf2_geometry_msgs", "tf2_eigen", "tf2_kdl", "tf2_bullet"}
+    | {"message_filters", "image_transport", "image_geometry", "cv_bridge", "interactive_markers"}
+    | {"pluginlib", "class_loader", "ament_index_cpp", "diagnostic_updater"}
+    | {"rosbag2_cpp", "rosbag2_storage", "rosbag2_transport", "rosbag2_compression"}
+    | {"controller_interface", "controller_manager", "hardware_interface", "joint_limits"}
+    | {"transmission_interface", "ros2_control_test_assets"}
 )
 """Packages that export targets on every distribution."""
+_LATER = frozenset({"tf2_sensor_msgs"})
+"""Packages that look like interfaces, and export no targets on Humble."""
 
 
 class CommandRemoved(Rule):
@@ -49,6 +59,7 @@ class CommandRemoved(Rule):
     code = "CM110"
     name = "command-removed"
     is_fixed_for_all = True
+    is_deprecation = True
     other_severities = {Severity.INFO: "the distribution still has it, and warns"}
     examples = (
         Example(
@@ -74,6 +85,42 @@ class CommandRemoved(Rule):
                     "target_link_libraries(talker PUBLIC\n"
                     "  ${rclcpp_TARGETS}  # the node\n  ${std_msgs_TARGETS})"
                 )
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a list of packages",
+            {"CMakeLists.txt": _NAMED.format(f"{_OLD}(talker\n  ${{DEPENDS}}\n)")},
+            Report(
+                "5:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            fixed={
+                "CMakeLists.txt": _NAMED.format(
+                    "target_link_libraries(talker\n  ${rclcpp_TARGETS}\n  ${std_msgs_TARGETS}\n)"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a package of the workspace that exports no targets",
+            {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker shapes)")},
+            Report(
+                "4:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                unsafe_fix="write target_link_libraries",
+            ),
+            fixed={
+                "CMakeLists.txt": _LISTS.format("target_link_libraries(talker ${shapes_TARGETS})")
+            },
+            neighbours={
+                "shapes": {
+                    "package.xml": "<package><name>shapes</name></package>\n",
+                    "CMakeLists.txt": "project(shapes)\n",
+                }
             },
             distro="lyrical",
         ),
@@ -111,25 +158,43 @@ class CommandRemoved(Rule):
     def _fix(self, package: Package, command: Command) -> Fix | None:
         """Link the targets of the packages, in the place of each name."""
         _, *rest = command.arguments
-        names = [item for item in rest if item.value not in _KEYWORDS]
-        if not names or any(not item.value.replace("_", "").isalnum() for item in names):
+        items = [item for item in rest if item.value not in _KEYWORDS]
+        linked = [_packages(package, command, item) for item in items]
+        if not items or not all(linked):
             return None
-        if any(item.value == "SYSTEM" for item in names):
-            return None
-        is_sure = all(_exports(package, item.value) for item in names)
+        text = package.cmake.source.text
         edits = [
-            Edit("CMakeLists.txt", item.start, item.end, f"${{{item.value}_TARGETS}}")
-            for item in names
+            Edit("CMakeLists.txt", item.start, item.end, _separator(text, item.start).join(targets))
+            for item, names in zip(items, linked, strict=True)
+            for targets in [[f"${{{name}_TARGETS}}" for name in names]]
         ]
         start = command.start
         end = start + len(command.written_name)
         edits.append(Edit("CMakeLists.txt", start, end, "target_link_libraries"))
+        is_sure = all(_exports(package, name) for names in linked for name in names)
         safety = Safety.SAFE if is_sure else Safety.UNSAFE
         return Fix("write target_link_libraries", tuple(edits), safety)
+
+
+def _packages(package: Package, command: Command, argument: Argument) -> list[str]:
+    """Return the packages that an argument names, itself or as a list; none if that is unclear."""
+    names = package.cmake.expand_list([argument], command) or []
+    is_clear = all(name.replace("_", "").isalnum() and name != "SYSTEM" for name in names)
+    return names if is_clear else []
+
+
+def _separator(text: str, at: int) -> str:
+    """Return what belongs between names: each gets a line where the place has one of its own."""
+    before = text[text.rfind("\n", 0, at) + 1 : at]
+    return " " if before.strip() else f"\n{before}"
 
 
 def _exports(package: Package, name: str) -> bool:
     """Tell whether a package is known to export targets: libraries of ROS, and interfaces."""
     if name in _EXPORTING:
         return True
-    return name.endswith(("_msgs", "_interfaces", "_srvs")) and name != package.name
+    neighbor = package.workspace.get(name)
+    if neighbor is not None and neighbor.name != package.name and neighbor.has("CMakeLists.txt"):
+        return bool(neighbor.cmake.find("ament_export_targets", "rosidl_generate_interfaces"))
+    is_interface = name.endswith(("_msgs", "_interfaces", "_srvs")) and name not in _LATER
+    return is_interface and name != package.name

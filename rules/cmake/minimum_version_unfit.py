@@ -32,6 +32,7 @@ class MinimumVersionUnfit(Rule):
     name = "minimum-version-unfit"
     severity = Severity.WARNING
     is_fixed_for_all = True
+    is_deprecation = True
     other_severities = {
         Severity.ERROR: "the CMake of the distribution stops",
         Severity.INFO: "the CMake of the distribution warns",

@@ -31,6 +31,7 @@ class NameDeprecated(PythonRule):
     code = "IM051"
     name = "name-deprecated"
     is_fixed_for_all = True
+    is_deprecation = True
     severity = Severity.INFO
     examples = (
         Example("the new name", {"talker.py": _NODE.format("warning")}, distro="kilted"),

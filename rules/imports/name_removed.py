@@ -16,6 +16,19 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.get_logger().{}('hello')\n"
 )
+_ELSEWHERE = (
+    "from rclpy.node import Node\n\ntry:\n    import serial\n    SERIAL_AVAILABLE = True\n"
+    "except ImportError:\n    SERIAL_AVAILABLE = False\n\n\n"
+    "class Driver(Node):\n"
+    "    def drive(self):\n"
+    "        try:\n"
+    "            if not SERIAL_AVAILABLE or self.conversion_failed or hasattr(self, 'port'):\n"
+    "                self.get_logger().{}('no port')\n"
+    "            self.write()\n"
+    "            self.read()\n"
+    "        except Exception:\n"
+    "            self.stop()\n"
+)
 
 
 class NameRemoved(PythonRule):
@@ -57,6 +70,37 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "asked for on the logger itself",
+            {
+                "talker.py": _NODE.format("", "warn").replace(
+                    "        self.get",
+                    "        if hasattr(self.get_logger(), 'warn'):\n            self.get",
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "below conditions and a handler that are about something else",
+            {"talker.py": _ELSEWHERE.format("warn")},
+            Report(
+                "14:17",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
+                "Lyrical: AttributeError; use warning (rclpy 1456)",
+                fix="write warning",
+            ),
+            fixed={"talker.py": _ELSEWHERE.format("warning")},
+            distro="lyrical",
+        ),
+        Example(
+            "a function of another distribution",
+            {"params.py": "from ros2param.api import get_parameter_value\n"},
+            Report(
+                "1:27",
+                "ros2param.api.get_parameter_value was removed in Jazzy: "
+                "ImportError; import it from rclpy.parameter (ros2cli 866)",
+            ),
+        ),
+        Example(
             "a long name of a policy",
             {
                 "talker.py": "from rclpy.qos import QoSReliabilityPolicy\n\n"
@@ -64,15 +108,6 @@ class NameRemoved(PythonRule):
             },
             Report(
                 "3:10",
-                ""
-                ""
-                ""
-                ""
-                ""
-                ""
-                ""
-                ""
-                ""
                 "rclpy.qos.QoSReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT "
                 "was removed in Lyrical: AttributeError; use BEST_EFFORT (rclpy 1456)",
                 fix="write BEST_EFFORT",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import Definitions, FieldType, closest_word, interface_files
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} {})\n"
@@ -51,6 +52,22 @@ class FieldTypeUnknown(Rule):
                 "did you mean 'Point'?",
             ),
         ),
+        Example(
+            "a type that the distribution removed",
+            {
+                "package.xml": "<package><name>my_msgs</name></package>\n",
+                "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
+                "msg/Beat.msg": "geometry_msgs/Pose2D pose\n",
+            },
+            Report(
+                "msg/Beat.msg:1:1",
+                "type 'geometry_msgs/Pose2D' was removed in Lyrical; use "
+                "geometry_msgs/msg/Pose, or a message of your own with x, y and "
+                "theta: which is right depends on who reads it (common_interfaces "
+                "283)",
+            ),
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -67,6 +84,9 @@ def _flaw(definitions: Definitions, type_: FieldType, written: str, own: str) ->
     names = definitions.names(type_.package, "msg") if type_.package else None
     if names is None or type_.name in names:
         return None
+    change = removed_interface(f"{type_.package}/msg/{type_.name}")
+    if change is not None:
+        return f"type {written!r} {change.state}; {change.advice} ({change.source})"
     others = definitions.matches(f"msg/{type_.name}")
     if others and type_.package == own:
         package, _, name = others[0].split("/")

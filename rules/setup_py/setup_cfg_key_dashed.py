@@ -27,6 +27,7 @@ class SetupCfgKeyDashed(Rule):
     name = "setup-cfg-key-dashed"
     severity = Severity.WARNING
     is_fixed_for_all = True
+    is_deprecation = True
     examples = (
         Example("underscores", {"setup.py": "", "setup.cfg": _CFG.format("_")}),
         Example(

@@ -19,6 +19,7 @@ from scaffold.api import (
     closest_name,
     fact,
 )
+from scaffold.api.distributions import removed_name
 from scaffold.api.types import (
     TypeFinding,
     class_in,
@@ -37,6 +38,13 @@ _NODE = (
     "        self.client = ActionClient(self, Fibonacci, 'fibonacci')\n\n"
     "    def stop(self):\n"
     "        self.client.{}()\n"
+)
+_HINT = (
+    "from rclpy.node import Node\n\n\n"
+    "class Hinter(Node):\n"
+    "    def hint(self):\n"
+    "        for logger in [self.get_logger()]:\n"
+    "            logger.{}('hello')\n"
 )
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
@@ -114,6 +122,18 @@ class AttributeMissing(TypeRule):
             },
             Report("4:1", "std_msgs.msg.String has no 'text': AttributeError; it has data"),
         ),
+        Example(
+            "an attribute that the distribution removed",
+            {"hint.py": _HINT.format("warn")},
+            Report(
+                "7:13",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
+                "Lyrical: AttributeError; use warning (rclpy 1456)",
+                fix="write 'warning'",
+            ),
+            fixed={"hint.py": _HINT.format("warning")},
+            distro="lyrical",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -147,7 +167,13 @@ class AttributeMissing(TypeRule):
         if not closest and len(names) <= _FEW:
             hint = f"; it has {', '.join(sorted(names))}" if names else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
-        return self.report(finding, message, _fix(finding, node, closest) if closest else None)
+        change = removed_name(f"{shown}.{name}")
+        if change is not None:
+            message = f"{shown}.{name} {change.state}: AttributeError; "
+            message += f"{change.instead(change.use)} ({change.source})"
+            closest = change.use if change.has_replacement else ""
+        fix = _fix(finding, node, closest, is_sure=change is not None) if closest else None
+        return self.report(finding, message, fix)
 
 
 def _class_of_object(owner: str) -> str | None:
@@ -165,11 +191,11 @@ def _is_set(package: Package, name: str) -> bool:
     return any(name.encode() in data and pattern.search(data) for data in files)
 
 
-def _fix(finding: TypeFinding, node: ast.Attribute, closest: str) -> Fix:
+def _fix(finding: TypeFinding, node: ast.Attribute, closest: str, *, is_sure: bool) -> Fix:
     from difflib import SequenceMatcher
 
     _, end = finding.module.span(node)
-    is_sure = SequenceMatcher(None, node.attr, closest).ratio() >= _CERTAIN
+    is_sure = is_sure or SequenceMatcher(None, node.attr, closest).ratio() >= _CERTAIN
     edit = Edit(finding.path, end - len(node.attr), end, closest)
     safety = Safety.SAFE if is_sure else Safety.UNSAFE
     return Fix(f"write {closest!r}", (edit,), safety)

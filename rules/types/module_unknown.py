@@ -43,6 +43,7 @@ class ModuleUnknown(TypeRule):
     code = "TY001"
     name = "module-unknown"
     other_severities = {Severity.WARNING: "setuptools may lend the module"}
+    is_deprecation = True
     kinds = frozenset({"import-not-found"})
     examples = (
         Example("a module", {"talker.py": _NODE.format("std_msgs.msg")}),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.changes import Change, of_kind, removed_interface
+from scaffold.changes import Change, of_kind, removed_interface, removed_name
 from scaffold.distributions import Distribution, target
 
-__all__ = ["Change", "Distribution", "of_kind", "removed_interface", "target"]
+__all__ = ["Change", "Distribution", "of_kind", "removed_interface", "removed_name", "target"]

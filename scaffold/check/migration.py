@@ -30,17 +30,29 @@ class Consequences(NamedTuple):
     deprecated: Sequence[Diagnostic]
 
     @classmethod
-    def of(cls, result: Result) -> Consequences:
-        """Sort what is found in a package."""
-        by_severity: dict[Severity, list[Diagnostic]] = {severity: [] for severity in Severity}
+    def of(cls, result: Result, deprecations: Collection[str]) -> Consequences:
+        """Sort what is found in a package; advice that is about no deprecation is left out.
+
+        Args:
+            result: What is found.
+            deprecations: The codes of what works, and will go; see `Rule.is_deprecation`.
+        """
+        breaks: list[Diagnostic] = []
+        changes: list[Diagnostic] = []
+        deprecated: list[Diagnostic] = []
         for item in result.diagnostics:
-            by_severity[item.severity].append(item)
-        return cls(
-            result,
-            by_severity[Severity.ERROR],
-            by_severity[Severity.WARNING],
-            by_severity[Severity.INFO],
-        )
+            if item.severity is Severity.ERROR:
+                breaks.append(item)
+            elif item.code in deprecations:
+                deprecated.append(item)
+            elif item.severity is Severity.WARNING:
+                changes.append(item)
+        return cls(result, breaks, changes, deprecated)
+
+    @property
+    def diagnostics(self) -> Sequence[Diagnostic]:
+        """All of them."""
+        return [*self.breaks, *self.changes, *self.deprecated]
 
 
 class MigratingSession(Session):

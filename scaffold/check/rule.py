@@ -130,6 +130,8 @@ class Rule:
     """Why no release is made of what has this flaw: then it is an error with `check --release`."""
     is_fixed_for_all: ClassVar[bool] = False
     """Whether what a fix writes for a distribution runs on those before, which need no fix."""
+    is_deprecation: ClassVar[bool] = False
+    """Whether what it reports, unless that is an error, works and will go: see ``migrate``."""
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]

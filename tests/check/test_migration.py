@@ -179,13 +179,13 @@ def test_a_move_reports_what_breaks_what_changes_and_what_is_deprecated(
     assert found["breaks"] == sorted(
         ["CM005", "CM110", "LF080", "SP012", "TY001", "MS001", "MS002", *["IM050"] * 10]
     )
-    assert found["changes"] == ["IM052", "IM052", "SP005", "SP005"]
-    assert found["deprecated"] == ["IM051", "IM051", "IM051"]
+    assert found["changes"] == ["IM052", "IM052"]
+    assert found["deprecated"] == ["IM051", "IM051", "IM051", "SP005", "SP005"]
     assert all(item["distributions"] == ["lyrical"] for item in everything)
     assert main(["migrate", "--to", "lyrical"]) == 1
     *lines, summary = capsys.readouterr().out.splitlines()
     assert summary.startswith(
-        "2 packages from Jazzy to Lyrical: 17 break, 4 change silently, 3 deprecated; "
+        "2 packages from Jazzy to Lyrical: 17 break, 2 change silently, 5 deprecated; "
     )
     assert lines[0] == "listed:"
     assert "  breaks:" in lines
@@ -244,3 +244,38 @@ def test_a_move_to_the_same_distribution_is_refused(capsys: pytest.CaptureFixtur
     assert "the packages are for Jazzy already" in capsys.readouterr().err
     assert main(["migrate", "--to", "kited"]) == 2
     assert "--to: no distribution 'kited'; did you mean 'kilted'?" in capsys.readouterr().err
+
+
+def test_the_record_of_a_package_says_what_it_has_moved_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    person = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+    assert main(["new", "talker", "--distro", "humble", *person]) == 0
+    record = tmp_path / "talker" / ".ros2-scaffold.json"
+    before = record.read_text()
+    capsys.readouterr()
+    assert main(["migrate", "talker", "--to", "lyrical"]) == 0
+    assert "from Humble to Lyrical" in capsys.readouterr().out
+    assert record.read_text() == before
+    for kept, names in (("jazzy", ["jazzy", "lyrical"]), ("", ["lyrical"]), ("", ["lyrical"])):
+        flags = ("--keep", kept) if kept else ()
+        assert main(["migrate", "talker", "--to", "lyrical", "--fix", *flags]) == 0
+        written = record.read_text()
+        assert json.loads(written)["answers"]["distro"] == names
+        assert written == before.replace('["humble"]', json.dumps(names))
+    capsys.readouterr()
+    assert main(["check", "talker"]) == 0
+    assert "for Lyrical: no findings" in capsys.readouterr().out
+    assert main(["update", "talker"]) == 0
+    assert "ROS 2 Lyrical" in (tmp_path / "talker" / "README.md").read_text()
+
+
+def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["migrate", "listed", "--to", "lyrical", "--fix"])
+    assert "set check.distribution of the configuration" in capsys.readouterr().err
+    (workspace / "ros2-scaffold.toml").write_text('[check]\ndistribution = "lyrical"\n')
+    main(["migrate", "listed", "--to", "lyrical", "--from", "jazzy", "--fix"])
+    assert "check.distribution" not in capsys.readouterr().err

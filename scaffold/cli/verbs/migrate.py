@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from scaffold.check.migration import Consequences, MigratingSession
     from scaffold.check.result import Result
     from scaffold.cli.choices import Choices
+    from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
     from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
@@ -38,8 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="origin",
         metavar="NAME",
-        help=f"the one that they run on (default: {distro.KEY} of the configuration, else "
-        f"{distributions.DEFAULT})",
+        help=f"the one that they run on (default: {distro.KEY} of the configuration, else what "
+        f"`new --distro` made them for, else {distributions.DEFAULT})",
     )
     parser.add_argument(
         "--keep",
@@ -68,10 +69,12 @@ def run(options: argparse.Namespace) -> int:
     directory = check.common_directory(options.paths, Disk())
     settings = config.load(directory, (), Disk())
     warn(settings.warnings)
-    origin, target, kept = _distributions(options, distro.chosen(options.origin, settings)[0])
     choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
     _complete(options, choices)
     session = _session(choices)
+    target = distributions.named(options.to, "--to")
+    kept = distributions.several(options.keep, "--keep") if options.keep else []
+    origin = _origin(options, target, settings, session)
     has_failed = False
     with distributions.targeting(origin):
         before = _checked(options, session)
@@ -87,8 +90,11 @@ def run(options: argparse.Namespace) -> int:
             terminal.say(f"{check.fix_count(count)} {verb}")
             if options.diff:
                 return FINDINGS if count else CLEAN
+            directories = [item.package.directory for item in written]
+            has_failed |= _move(directories, distributions.ordered([*kept, target]), settings)
         results = _checked(options, session)
-    consequences = [Consequences.of(result) for result in results]
+    deprecations = {rule.code for rule in choices.rules if rule.is_deprecation}
+    consequences = [Consequences.of(result, deprecations) for result in results]
     if options.format == "json":
         terminal.show_json(_as_data(consequences, origin, target, kept))
     else:
@@ -100,24 +106,66 @@ def run(options: argparse.Namespace) -> int:
     return USAGE_ERROR if has_failed else FINDINGS if is_left else CLEAN
 
 
-def _distributions(
-    options: argparse.Namespace, default: Distribution
-) -> tuple[Distribution, Distribution, list[Distribution]]:
-    """Return where packages come from, where they go, and what they are kept for.
+def _origin(
+    options: argparse.Namespace, target: Distribution, settings: Config, session: MigratingSession
+) -> Distribution:
+    """Return where packages come from: the oldest that they are for, and that is not the target.
 
     Raises:
         InputError: there is no distribution of a name, or nothing to move.
     """
+    from scaffold.cli.verbs import check
     from scaffold.errors import InputError
 
-    target = distributions.named(options.to, "--to")
-    origin = distributions.named(options.origin, "--from") if options.origin else default
-    kept = distributions.several(options.keep, "--keep") if options.keep else []
-    if origin.place == target.place:
+    if options.origin:
+        candidates = [distributions.named(options.origin, "--from")]
+    else:
+        default = [distributions.named(distributions.DEFAULT)]
+        candidates = distro.wanted(None, settings) or [
+            origin
+            for item in check.find_targets(options, session, None)
+            for origin in distro.recorded(item.package.directory) or default
+        ]
+        if all(item.place == target.place for item in candidates):
+            candidates += default  # they have been moved before, which may be repeated
+    others = [item for item in candidates if item.place != target.place]
+    if not others:
         raise InputError(
-            f"the packages are for {origin.title} already: --from names where they come from"
+            f"the packages are for {target.title} already: --from names where they come from"
         )
-    return origin, target, kept
+    return distributions.ordered(others)[0]
+
+
+def _move(directories: Sequence[str], targets: Sequence[Distribution], settings: Config) -> bool:
+    """Say in the records of packages what they are for now; return whether that failed."""
+    from scaffold.cli import records
+    from scaffold.errors import ScaffoldError
+
+    titles = distributions.titles(targets)
+    has_failed = False
+    has_others = False
+    for directory in directories:
+        try:
+            is_moved = records.move(directory, targets)
+        except ScaffoldError as error:
+            terminal.error(str(error))
+            has_failed = True
+            continue
+        has_others = has_others or is_moved is None
+        if is_moved:
+            terminal.note(
+                f"{directory}: recorded as a package for {titles}; `ros2-scaffold update` brings "
+                "what its templates have for that"
+            )
+    named = distro.wanted(None, settings)
+    if named != [*targets] if named else has_others:
+        names = ",".join(target.name for target in targets)
+        usual = distributions.titles(named or [distributions.named(distributions.DEFAULT)])
+        terminal.note(
+            f"`check` without --distro checks for {usual}: set {distro.KEY} of the configuration, "
+            f"or pass --distro {names}"
+        )
+    return has_failed
 
 
 def _complete(options: argparse.Namespace, choices: Choices) -> None:
@@ -153,7 +201,7 @@ def _lines(
 
     for item in consequences:
         groups = [*zip(HEADINGS, item[1:], strict=True)]
-        if not any(diagnostics for _, diagnostics in groups):
+        if not item.diagnostics:
             continue
         yield f"{item.result.package.name}:"
         for heading, diagnostics in groups:
@@ -163,7 +211,7 @@ def _lines(
     totals = [sum(len(item[at]) for item in consequences) for at in range(1, 4)]
     counts = zip(totals, COUNTED, strict=True)
     named = ", ".join(f"{number} {state}" for number, state in counts)
-    every = [one for item in consequences for one in item.result.diagnostics]
+    every = [one for item in consequences for one in item.diagnostics]
     parts = [
         f"{count(len(consequences), 'package')} from {origin.title} to {target.title}: "
         + (named if every else "nothing changes")

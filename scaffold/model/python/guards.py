@@ -10,21 +10,26 @@ _LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _ALL = frozenset({"Exception", "BaseException"})
 
 
-def is_handled(module: PythonModule, node: ast.AST, exception: str) -> bool:
+def is_handled(
+    module: PythonModule, node: ast.AST, exception: str, *, is_broad: bool = True
+) -> bool:
     """Tell whether an exception raised at a node is caught in its function, or never raised.
 
     Args:
         module: The file.
         node: Where it is raised.
         exception: The last part of its name, such as ``AttributeError``.
+        is_broad: Whether a handler of any exception counts.
     """
+    expecting = {exception, *_ALL} if is_broad else {exception}
     child = node
     for parent in module.parents(node):
         if child in module.passed_over or _is_never_evaluated(module, child, parent):
             return True
         if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
             for handler in parent.handlers:
-                if handler.type is None or {exception, *_ALL} & last_names(handler.type):
+                is_any = handler.type is None
+                if (is_any and is_broad) or (handler.type and expecting & last_names(handler.type)):
                     return True
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
             return False

@@ -18,8 +18,13 @@ from scaffold.source import Location
 _LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
 _ABOVE = {"ModuleNotFoundError": "ImportError"}
 """The class above an error."""
-_DECIDING = re.compile(r"hasattr|version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_", re.IGNORECASE)
-"""Matches conditions that ask what there is."""
+_VERSION = re.compile(
+    r"version_info|__version__|VERSION|\b[Vv]ersion(?:\.parse)?\(|(?i:distro)"
+    r"|(?i:ros|rclpy|numpy|np|python)_?version"
+)
+"""Matches conditions that ask for a version of Python, of ROS or of a package."""
+_FLAG = re.compile(r"[A-Z0-9_]*(?:_AVAILABLE|\bHAS_|\bHAVE_)[A-Z0-9_]*")
+"""Matches what modules call the flags that say whether an import went well."""
 
 
 class ChangedUse(NamedTuple):
@@ -158,10 +163,12 @@ class _Search:
     ) -> Iterator[ChangedUse]:
         """Yield a use, unless the code knows about it."""
         change, written = matched
+        # `except Exception` around much code is not there for the name: the rest is skipped.
+        is_broad = error != "AttributeError"
         errors = {error, _ABOVE.get(error, error)}
-        if any(is_handled(self._module, node, one) for one in errors):
+        if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
             return
-        if is_asked_for(self._module, node):
+        if is_asked_for(self._module, node, name, written):
             return
         old = self._module.source.text[slice(*place)]
         # Before Python 3.12 nobody knows where in an f-string something is.
@@ -172,16 +179,71 @@ class _Search:
         yield ChangedUse(change, at, name, error, replacement, edits)
 
 
-def is_asked_for(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a node is below a condition that asks for a version or a name."""
+def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: str = "") -> bool:
+    """Tell whether a node is below a condition that asks for a version, or for a name.
+
+    Args:
+        module: The file.
+        node: What uses the name.
+        name: The full name.
+        replacement: What takes its place.
+    """
+    asked = _Asked(module, name.partition(".")[0], {name.rpartition(".")[2], replacement})
     child = node
     for parent in module.parents(node):
         match parent:
             case ast.If(test=test) | ast.IfExp(test=test) if child is not test:
-                if _DECIDING.search(module.text(test)):
+                if asked.decides(test):
                     return True
         child = parent
     return False
+
+
+class _Asked(NamedTuple):
+    """What a condition asks for that decides whether a name is used."""
+
+    module: PythonModule
+    root: str
+    """The package of the name."""
+    words: set[str]
+    """The last parts of the name, and of what takes its place."""
+
+    def decides(self, test: ast.expr) -> bool:
+        text = self.module.text(test)
+        if _VERSION.search(text):
+            return True
+        if "hasattr" in text and self._is_word_asked_for(test):
+            return True
+        return any(self._is_of_import(flag) for flag in _FLAG.findall(text))
+
+    def _is_word_asked_for(self, test: ast.expr) -> bool:
+        for node in ast.walk(test):
+            match node:
+                case ast.Call(func=ast.Name(id="hasattr"), args=[_, ast.Constant(value=str(word))]):
+                    if word in self.words:
+                        return True
+                case ast.Call(func=ast.Name(id="hasattr")):
+                    return True
+        return False
+
+    def _is_of_import(self, flag: str) -> bool:
+        """Tell whether a flag says that something of the package was imported."""
+        setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
+        return not setting or any(
+            item.module.partition(".")[0] == self.root
+            for node in setting
+            for item in self.module.imports
+            if node.lineno <= item.location.line <= (node.end_lineno or 0)
+        )
+
+
+def _assigned(node: ast.Try) -> set[str]:
+    """Return the names that a ``try`` binds."""
+    return {
+        name.id
+        for name in ast.walk(node)
+        if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
+    }
 
 
 def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
