@@ -21,6 +21,8 @@ ALIASES: Mapping[str, str] = {"rolling": "lyrical"}
 """Those that are the same as another for Python packages, until they move on."""
 NAMES = (*ORDER, *ALIASES)
 DEFAULT = "jazzy"
+VARIABLE = "ROS_DISTRO"
+"""The variable of an environment that names its distribution."""
 
 
 class Distribution:

@@ -11,6 +11,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 
+from scaffold.check.distribution_branches import run_on_target
 from scaffold.check.engine_rules import UnusedSuppression
 from scaffold.check.renamed_codes import renamed_codes
 from scaffold.diagnostic import Diagnostic
@@ -30,6 +31,8 @@ def apply(
 ) -> list[Diagnostic]:
     """Drop what is suppressed, and report suppressions that suppress nothing.
 
+    What is in branches for other distributions is dropped as well, whatever it is.
+
     Args:
         package: Where the diagnostics were found.
         diagnostics: What the rules said.
@@ -45,7 +48,7 @@ def apply(
         else:
             kept.append(diagnostic)
     kept.extend(_unused(package, used, ran))
-    return kept
+    return [*run_on_target(package, kept)]
 
 
 def _codes_on(package: Package, path: str, line: int) -> list[str] | None:

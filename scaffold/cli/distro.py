@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from scaffold.generate.questions.questions import Given
 
 KEY = "check.distribution"
-VARIABLE = "ROS_DISTRO"
+VARIABLE = distributions.VARIABLE
 FLAG = "--distro"
 ANSWER = "distro"
 """The question of `new` that the record in a package keeps the answer to."""

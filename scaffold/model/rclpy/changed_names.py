@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.changes import Change, of_kind
 from scaffold.edits import Edit
+from scaffold.model.python.distribution_branches import holds
 from scaffold.model.python.guards import is_handled
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
@@ -193,7 +194,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
     for parent in module.parents(node):
         match parent:
             case ast.If(test=test) | ast.IfExp(test=test) if child is not test:
-                if asked.decides(test):
+                if asked.decides(test) and holds(module, test) is None:
                     return True
         child = parent
     return False
