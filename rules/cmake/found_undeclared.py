@@ -34,6 +34,13 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "a library of the system",
+            {
+                "package.xml": _MANIFEST.format("  <depend>liboctomap-dev</depend>\n"),
+                "CMakeLists.txt": _LISTS.format("octomap"),
+            },
+        ),
+        Example(
             "transitive dependency of a metapackage",
             {
                 "package.xml": _MANIFEST.format("  <depend>common_interfaces</depend>\n"),
@@ -103,6 +110,8 @@ class FoundUndeclared(Rule):
                 continue  # interface-declarations-missing says it, with what else is missing
             if name in reported or name in declared or name in along or name == package.name:
                 continue
+            if f"lib{name}-dev" in declared:
+                continue  # the package of the system that has it
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:
                 continue
             if not found_package.required or package.cmake.is_off(found_package.command):

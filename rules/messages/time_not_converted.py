@@ -7,6 +7,9 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report
 from scaffold.api.messages import MessageTypes, rclpy_time
+from scaffold.api.python import PythonModule
+
+_OF_BUFFERS = frozenset({"set_transform", "set_transform_static"})
 
 _CODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
@@ -35,6 +38,17 @@ class TimeNotConverted(MessageRule):
     examples = (
         Example("converted", {"talker.py": _CODE.format(".to_msg()", ".to_msg()")}),
         Example(
+            "for a buffer of transforms, which reads both",
+            {
+                "talker.py": "from geometry_msgs.msg import TransformStamped\n"
+                "from rclpy.time import Time\nfrom tf2_py import BufferCore\n\n\n"
+                "def fill():\n"
+                "    transform = TransformStamped()\n"
+                "    transform.header.stamp = Time(seconds=1)\n"
+                "    BufferCore().set_transform(transform, 'test')\n"
+            },
+        ),
+        Example(
             "the time of the clock, for a field and for the header of an unknown message",
             {"talker.py": _CODE.format("", "")},
             Report(
@@ -56,7 +70,7 @@ class TimeNotConverted(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for value, field in _times(types):
             kind = rclpy_time(types, value)
-            if kind is None:
+            if kind is None or _is_for_buffer(types.module, value):
                 continue
             _, end = types.module.span(value)
             fix = None
@@ -83,3 +97,20 @@ def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         in_header = isinstance(holder, ast.Attribute) and holder.attr == "header"
         if in_header and store.value is not None and store.value not in headers:
             yield store.value, "header.stamp"
+
+
+def _is_for_buffer(module: PythonModule, value: ast.expr) -> bool:
+    """Tell whether the message is only handed to a buffer of tf2, whose code in C reads both."""
+    match module.parent(value):
+        case ast.Assign(targets=[ast.Attribute(value=ast.Attribute(value=ast.Name(id=name)))]):
+            scope = module.index.scope_of(value)
+            calls = [
+                call
+                for call in module.below(scope, ast.Call)
+                if any(isinstance(item, ast.Name) and item.id == name for item in call.args)
+            ]
+            return bool(calls) and all(
+                isinstance(call.func, ast.Attribute) and call.func.attr in _OF_BUFFERS
+                for call in calls
+            )
+    return False

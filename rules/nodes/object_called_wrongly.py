@@ -66,6 +66,13 @@ class ObjectCalledWrongly(RclpyRule):
             Report("16:9", "a Publisher is not callable: TypeError; call one of its methods"),
         ),
         Example(
+            "a method of a profile",
+            {
+                "talker.py": "from rclpy.qos import qos_profile_system_default\n\n"
+                "PROFILE = qos_profile_system_default.get_c_qos_profile()\n"
+            },
+        ),
+        Example(
             "a class of a module named action",
             {
                 "package.xml": "<package><name>talker</name></package>\n",
@@ -90,7 +97,7 @@ class ObjectCalledWrongly(RclpyRule):
 def _problem(file: RclpyFile, call: ast.Call) -> str:
     name = file.module.qualified_name(call.func) or ""
     problem = ""
-    if name.startswith(_PRESETS):
+    if name.startswith(_PRESETS) and "." not in name.removeprefix(_PRESETS):
         problem = f"{name[10:]} is a profile, not a function: TypeError; remove the ()"
     elif re.fullmatch(_WHOLE, name) and file.interface(call.func):
         part = "Goal" if ".action." in name else "Request"

@@ -33,6 +33,10 @@ class DependencyIsIndexName(Rule):
             },
         ),
         Example(
+            "what only the documentation needs, which rosdep does not install",
+            {"package.xml": "<package>\n  <doc_depend>numpy</doc_depend>\n</package>\n"},
+        ),
+        Example(
             "the name for pip",
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
             Report(
@@ -64,6 +68,8 @@ class DependencyIsIndexName(Rule):
             module = module_of_key(dependency.name)
             if module is None or package.workspace.get(dependency.name) is not None:
                 continue
+            if dependency.kind == "doc_depend":
+                continue  # which rosdep does not install
             if _is_found_by_cmake(package, dependency.name):
                 continue
             key = _key(package, module)

@@ -48,6 +48,16 @@ class SetupCfgMissing(Rule):
             },
         ),
         Example(
+            "the command of a package with verbs of `ros2`",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    _ENTRY.replace("]}", "], 'ros2cli.command': ['talk = talker.talk:Talk']}")
+                ),
+                **_NODE,
+            },
+        ),
+        Example(
             "missing",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             Report(

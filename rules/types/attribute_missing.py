@@ -61,6 +61,8 @@ _BASES = frozenset(
 """Classes of which no object is: only classes derived from them are used."""
 _INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
 """A service or an action, of which there are no objects either, but of its parts."""
+_AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
+"""The fields of the message that callbacks for feedback get."""
 _FEW = 6
 """Names that a message can list."""
 
@@ -97,6 +99,14 @@ class AttributeMissing(TypeRule):
             {
                 "asker.py": _NODE.format("destroy")
                 + "\n    def feedback(self, message: Fibonacci):\n"
+                "        print(message.feedback)\n"
+            },
+        ),
+        Example(
+            "the feedback as annotation of the message around it",
+            {
+                "asker.py": _NODE.format("destroy")
+                + "\n    def feedback(self, message: Fibonacci.Feedback):\n"
                 "        print(message.feedback)\n"
             },
         ),
@@ -153,7 +163,7 @@ class AttributeMissing(TypeRule):
             shown, names = owner, module_names(finding.package, owner)
         else:
             class_ = _class_of_object(owner) or class_itself(owner)
-            if not class_:
+            if not class_ or _is_of_message_around(full_name(class_), name):
                 return None
             shown, names = full_name(class_), members(finding.package, class_)
             is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
@@ -181,6 +191,11 @@ def _class_of_object(owner: str) -> str | None:
     class_ = class_in(owner)
     shown = full_name(class_) if class_ else ""
     return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
+
+
+def _is_of_message_around(shown: str, name: str) -> bool:
+    """Tell whether the annotation of a callback names the feedback for the message around it."""
+    return shown.endswith("_Feedback") and name in _AROUND_FEEDBACK
 
 
 @fact

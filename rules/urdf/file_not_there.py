@@ -70,6 +70,15 @@ class FileNotThere(Rule):
             },
         ),
         Example(
+            "made by Bazel",
+            {
+                **_FILES,
+                "urdf/BUILD.bazel": "",
+                "urdf/arm.urdf.xacro": "<robot/>\n",
+                "urdf/robot.xacro": _ROBOT.format("arm.urdf", "package://talker/urdf/base.stl"),
+            },
+        ),
+        Example(
             "another name; another directory",
             {
                 **_FILES,
@@ -153,9 +162,20 @@ def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
 
 
 def _is_there(package: Package, named: NamedFile) -> bool:
-    """Tell whether a file is next to its user, in the source or after installation."""
+    """Tell whether a file is next to its user, or made by the build from one that is."""
     if package.has(named.path) or named.path.startswith(".."):
+        return True
+    if package.has(f"{named.path}.xacro") and _is_built_by_bazel(package, named.path):
         return True
     name = named.path.rpartition("/")[2]
     files = share_of(package).files
     return any(path.rpartition("/")[2] == name for path in (*files, *package.files))
+
+
+def _is_built_by_bazel(package: Package, path: str) -> bool:
+    """Tell whether a directory around a path is one of Bazel's, which expands xacro files."""
+    directories = path.split("/")[:-1]
+    return any(
+        package.has("/".join((*directories[:depth], "BUILD.bazel")))
+        for depth in range(1, len(directories) + 1)
+    )

@@ -145,6 +145,7 @@ _OTHER_MODULES = {
     "networkx": "python3-networkx",
     "numpy": "python3-numpy",
     "open3d": "python3-open3d-pip",
+    "osrf_pycommon": "osrf_pycommon python3-osrf-pycommon",
     "packaging": "python3-packaging",
     "paho": "python3-paho-mqtt",
     "pandas": "python3-pandas",

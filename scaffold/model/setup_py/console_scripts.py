@@ -14,8 +14,11 @@ if TYPE_CHECKING:
 def node_scripts(package: Package) -> list[EntryPoint]:
     """Return the console scripts that start nodes: their module imports rclpy.
 
-    Others may be tools that rightly go to ``bin/``, such as the ament linters themselves.
+    Others may be tools that rightly go to ``bin/``, such as the ament linters themselves, and
+    what extends the command ``ros2``, or is it.
     """
+    if any(entry.group.startswith("ros2cli.") for entry in package.setup_py.entry_points):
+        return []
     return [entry for entry in package.setup_py.console_scripts if _is_node(package, entry)]
 
 
