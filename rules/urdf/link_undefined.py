@@ -70,7 +70,7 @@ class LinkUndefined(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
-            is_whole = not robot.is_open and not robot.is_partial and _has_root(robot)
+            is_whole = robot.is_complete and _has_root(robot)
             if robot.file.is_robot and is_whole:
                 yield from self._check(package, robot)
 

@@ -72,7 +72,7 @@ class MacroCallUnfit(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
-            for misfit in robot.misfits:
+            for misfit in robot.problems.misfits:
                 yield self.report(misfit, _message(package, misfit))
 
 

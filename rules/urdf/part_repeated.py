@@ -70,7 +70,7 @@ class PartRepeated(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
-            if robot.file.is_robot and not robot.undefined:
+            if robot.file.is_robot and not robot.problems.undefined:
                 yield from self._check(package, robot)
 
     def _check(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:

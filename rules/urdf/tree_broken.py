@@ -67,7 +67,7 @@ class TreeBroken(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
-            if robot.file.is_robot and not robot.is_open and not robot.is_partial:
+            if robot.file.is_robot and robot.is_complete:
                 yield from self._check(package, robot)
 
     def _check(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:

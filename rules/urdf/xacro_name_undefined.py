@@ -125,7 +125,7 @@ class XacroNameUndefined(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             is_used_here = is_launched(package, robot.file.path)
-            for undefined in robot.undefined:
+            for undefined in robot.problems.undefined:
                 message = _message(package, undefined, is_used_here=is_used_here)
                 if message:
                     yield self.report(undefined, message)

@@ -18,7 +18,9 @@ from scaffold.model.robot.robots import (
     robots,
     urdf_parts,
 )
-from scaffold.model.robot.xacro import Expansion, Misfit, NamedFile, Part, Undefined
+from scaffold.model.robot.xacro.expansion import Expansion
+from scaffold.model.robot.xacro.parts import NamedFile, Part
+from scaffold.model.robot.xacro.problems import Misfit, Problems, Undefined
 
 __all__ = [
     "BRIDGED_TYPES",
@@ -28,6 +30,7 @@ __all__ = [
     "Misfit",
     "NamedFile",
     "Part",
+    "Problems",
     "RobotFile",
     "Robots",
     "Undefined",

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from scaffold.model.package import mentions
 from scaffold.model.robot.expressions import SHARE_MARK, is_known
 from scaffold.model.robot.files import RobotFile, next_to, robot_file, robot_paths
-from scaffold.model.robot.xacro import NOT_URDF, Expansion, NamedFile, Part
+from scaffold.model.robot.xacro.expansion import Expansion
+from scaffold.model.robot.xacro.parts import NOT_URDF, NamedFile, Part
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -114,7 +115,7 @@ def _is_whole(expansion: Expansion) -> bool:
     if not expansion.file.is_xacro:
         return True
     makes_something = any(part.tag != "material" for part in root.children)
-    makes_something |= bool(expansion.misfits or expansion.undefined)
+    makes_something |= bool(expansion.problems.misfits or expansion.problems.undefined)
     return makes_something and (root.tag != "robot" or root.get("name") is not None)
 
 

@@ -77,14 +77,14 @@ def test_a_file_that_is_not_known_leaves_names_open() -> None:
         '<link name="${radius}"/><xacro:gripper/>'
     )
     (robot,) = robots(package(a=text)).whole
-    assert robot.is_open
-    assert robot.undefined == []
+    assert robot.problems.is_open
+    assert robot.problems.undefined == []
 
 
 def test_macros_that_call_themselves_end() -> None:
     text = '<xacro:macro name="m"><link name="a"/><xacro:m/></xacro:macro><xacro:m/>'
     (robot,) = robots(package(a=text)).whole
-    assert robot.is_open
+    assert robot.problems.is_open
 
 
 @pytest.mark.parametrize(
