@@ -95,6 +95,8 @@ class Session:
         self._types: TypeFindings | None = None
         self.types_failure = ""
         """Why types were not checked; empty if they were, or were not to be."""
+        self.unchecked: dict[str, list[str]] = {}
+        """Packages that could not be checked, by the reason."""
         self.after_rule: Callable[[], None] = _do_nothing
         """Called after each rule that ran over a package, for who shows how far it is."""
 

@@ -122,7 +122,7 @@ class SeveralTargets:
                 if slot is not None and not session.types_failure:
                     self._runs.append(memory.save(slot, self._disk, results, 0, None))
             options.notes += check.foreign_note(session, results)
-            check.note_types(session)
+            check.note_unchecked(session)
         self._targets = [*{target.package.directory: target for target in every}.values()]
         return by_distribution
 
@@ -152,7 +152,7 @@ class SeveralTargets:
         is_unfinished = check.note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
-        if getattr(options, "slot", None) is None:
+        if getattr(options, "slot", None) is None or options.cluster is not None:
             return None
         names = [item.name for item in options.distributions]
         key = check.flags_key(options, self._targets)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import uuid
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -49,8 +50,13 @@ class Cluster:
     def __init__(self, client: Dask) -> None:
         self._client = client
 
+    @property
+    def threads(self) -> int:
+        """How many tasks its workers do at a time."""
+        return sum(self._client.nthreads().values()) or 1
+
     def map(
-        self, function: Callable[[Task], Result], tasks: Mapping[str, Task]
+        self, function: Callable[..., Result], tasks: Mapping[str, Task], *shared: object
     ) -> Iterator[Done[Result]]:
         """Hand out tasks; yield what becomes of each, once, in the order in which they end.
 
@@ -59,16 +65,27 @@ class Cluster:
 
         Args:
             function: A function of this tool, which the workers have.
-            tasks: Its arguments, by name.
+            tasks: Its first arguments, by name.
+            shared: Its other arguments, the same for all: they travel once to each worker, however
+                large they are.
         """
         run = uuid.uuid4().hex
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that they are large
+            given = [
+                # As results of tasks they outlive the worker that has them.
+                self._client.submit(worker.same, item, key=f"ros2-scaffold-{run}-shared-{number}")
+                for number, item in enumerate(shared)
+            ]
         waiting: dict[str, str] = {}
         futures = []
         for name, task in tasks.items():
             key = f"ros2-scaffold-{run}-{name}"
             waiting[key] = name
             futures.append(
-                self._client.submit(worker.work, function, task, __version__, key=key, pure=False)
+                self._client.submit(
+                    worker.work, function, __version__, task, *given, key=key, pure=False
+                )
             )
         try:
             for future in _dask().as_completed(futures, loop=self._client.loop):
@@ -77,7 +94,7 @@ class Cluster:
                 future.release()
         finally:
             with suppress(Exception):  # the scheduler may be gone
-                self._client.cancel(futures, force=True)
+                self._client.cancel([*futures, *given], force=True)
 
 
 def _dask() -> Dask:
@@ -117,7 +134,7 @@ def connected(address: str) -> Iterator[Cluster]:
         raise EnvironmentMissingError(
             f"--cluster needs Dask; run: {installation.command('cluster')}"
         ) from error
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors become lines of ours
+    _silence()
     try:
         client = dask.Client(address, timeout=TIMEOUT, set_as_default=False)
     except Exception as error:  # whatever a wrong address, a wrong port or TLS raises
@@ -128,6 +145,14 @@ def connected(address: str) -> Iterator[Cluster]:
     finally:
         with suppress(Exception):
             client.close(timeout=TIMEOUT)
+
+
+def _silence() -> None:
+    """Keep Dask from logging: what goes wrong becomes a line of ours."""
+    names = [*logging.root.manager.loggerDict, "distributed"]  # it sets levels of many
+    for name in names:
+        if name.partition(".")[0] in {"distributed", "tornado", "asyncio"}:
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 def _refused(address: str, error: Exception) -> str:

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from scaffold import __version__
 
-Task = TypeVar("Task")
+Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
@@ -18,13 +18,18 @@ def version() -> str:
     return __version__
 
 
-def work(function: Callable[[Task], Result], task: Task, expected: str) -> tuple[str, Result]:
+def same(item: Item) -> Item:
+    """Return what tasks share, to keep it on a worker."""
+    return item
+
+
+def work(function: Callable[..., Result], expected: str, *arguments: object) -> tuple[str, Result]:
     """Do a task; return the name of the worker and the result.
 
     Args:
         function: A function of this tool.
-        task: Its argument.
         expected: The version of this tool where the task comes from.
+        arguments: Of the function.
 
     Raises:
         RuntimeError: this worker, which may have joined later, has another version.
@@ -33,4 +38,4 @@ def work(function: Callable[[Task], Result], task: Task, expected: str) -> tuple
     name = f"{socket.gethostname()} ({worker.address})"
     if __version__ != expected:
         raise RuntimeError(f"{name} has ros2-scaffold {__version__}, and not {expected}")
-    return name, function(task)
+    return name, function(*arguments)

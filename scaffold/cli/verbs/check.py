@@ -92,6 +92,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "breaks in other files",
     )
     parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help="check on the workers of the Dask cluster whose scheduler is there, such as "
+        "tcp://host:8786; they get the sources",
+    )
+    parser.add_argument(
         "--no-types", action="store_true", help="skip the rules that need the type checker"
     )
     parser.add_argument(
@@ -174,6 +180,7 @@ def run(options: argparse.Namespace) -> int:
     baselines.validate(options, disk)
     since.validate(options)
     _validate_noqa(options)
+    _validate_cluster(options)
     directory = common_directory([options.stdin_filename] if is_unsaved else options.paths, disk)
     settings = config.load(directory, tuple(options.content), disk)
     warn(settings.warnings)
@@ -182,6 +189,8 @@ def run(options: argparse.Namespace) -> int:
     choices = Choices(settings, rules)
     options.policy = choices.policy()
     session = _session(options, rules, choices, _kind_of_session(options))
+    if options.cluster is not None:
+        _give_settings(session, options, choices, settings)
     wanted = distro.wanted(options.distro, settings)
     by_record, targets = ({}, None) if wanted else _recorded(options, session, disk)
     named = wanted or [item for items in by_record.values() for item in items]
@@ -192,7 +201,11 @@ def run(options: argparse.Namespace) -> int:
         from scaffold.check.several import AgreedSession
         from scaffold.cli.several_targets import SeveralTargets
 
-        agreeing = _session(options, rules, choices, AgreedSession)
+        agreeing = (
+            session
+            if isinstance(session, AgreedSession)
+            else _session(options, rules, choices, AgreedSession)
+        )
         return SeveralTargets(options, agreeing, settings, disk, by_record).run()
     with distributions.targeting(options.distributions[0]):
         return _run(options, session, settings, disk, directory, targets)
@@ -247,13 +260,14 @@ def _run(
     is_unfinished = note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
+    is_forgotten = is_forgotten or options.cluster is not None
     slot = None if is_forgotten else _slot(options, targets)
     change = since.Since(directory, options.since, targets) if options.since else None
     targets = change.targets() if change else targets
     memory = ResultCache(slot.last if slot else None, targets, is_saved=slot is not None)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     options.notes += foreign_note(session, results)
-    note_types(session)
+    note_unchecked(session)
     if options.write_baseline:
         return baselines.write(options, results)
     if change:
@@ -267,8 +281,13 @@ def _run(
     return code
 
 
-def note_types(session: Session) -> None:
-    """Say that types were not checked, and why."""
+def note_unchecked(session: Session) -> None:
+    """Say what was not checked, and why: types, or packages."""
+    from scaffold.reporters.summary import count
+
+    for reason, packages in session.unchecked.items():
+        names = sorted({*packages})  # once for all distributions
+        terminal.error(f"{count(len(names), 'package')} not checked: {reason}: {', '.join(names)}")
     if session.types_failure:
         failure = session.types_failure
         terminal.error(f"types are not checked: {failure}; --no-types leaves them out")
@@ -279,7 +298,8 @@ def final_code(options: argparse.Namespace, session: Session, results: list[Resu
     from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
 
     code = exit_code(results, is_zero=options.exit_zero)
-    return USAGE_ERROR if session.types_failure and code != INTERNAL_ERROR else code
+    is_partial = session.types_failure or session.unchecked
+    return USAGE_ERROR if is_partial and code != INTERNAL_ERROR else code
 
 
 def _kind_of_session(options: argparse.Namespace) -> type[Session]:
@@ -289,6 +309,10 @@ def _kind_of_session(options: argparse.Namespace) -> type[Session]:
         from scaffold.check.fixes.noqa import SuppressingSession
 
         return SuppressingSession
+    if options.cluster is not None:
+        from scaffold.check.on_cluster import ClusterSession
+
+        return ClusterSession
     return Session
 
 
@@ -312,6 +336,42 @@ def _validate_noqa(options: argparse.Namespace) -> None:
     for flag in ("fix", "reference", "stdin_filename", "since", "baseline", "write_baseline"):
         if options.add_noqa and getattr(options, flag):
             raise InputError(f"--add-noqa only adds comments: leave out --{flag.replace('_', '-')}")
+
+
+def _validate_cluster(options: argparse.Namespace) -> None:
+    from scaffold.errors import InputError
+
+    local = ("fix", "diff", "add_noqa", "reference", "stdin_filename", "since", "content")
+    for flag in local if options.cluster is not None else ():
+        if getattr(options, flag):
+            raise InputError(f"--{flag.replace('_', '-')} works without --cluster only")
+
+
+def _give_settings(
+    session: Session, options: argparse.Namespace, choices: Choices, config: Config
+) -> None:
+    """Tell a session what the workers of the cluster make theirs of."""
+    from scaffold.check.batch import Settings
+    from scaffold.check.on_cluster import ClusterSession
+    from scaffold.errors import InputError
+
+    if config.content:
+        raise InputError(
+            f"{config.directories[0].origin}: 'content' works without --cluster only: its workers "
+            "have the rules of the tool"
+        )
+    if isinstance(session, ClusterSession):
+        session.address = options.cluster
+        session.settings = Settings(
+            session.selection,
+            session.adjustments,
+            has_types=not options.no_types,
+            is_reference=options.reference_config,
+            line_length=choices.line_length,
+            paths=(*options.paths,),
+            whole_packages=options.whole_packages,
+            policy=options.policy,
+        )
 
 
 def find_targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
@@ -376,7 +436,7 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
         terminal.write_error(reports.text([result], report_options(options)))
     else:
         (result,) = baselines.hide(options, session.run_batch([target]), [target], session)
-        note_types(session)
+        note_unchecked(session)
         reports.write(options, [result], report_options(options))
     return final_code(options, session, [result])
 
@@ -431,7 +491,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
     results = baselines.hide(options, results, checked, session)
-    note_types(session)
+    note_unchecked(session)
     code = _report_fixes(options, session, results, written)
     return USAGE_ERROR if has_failed else code
 

@@ -1,0 +1,41 @@
+"""Checks batches in processes of their own, on a worker of a cluster.
+
+A worker has threads; the current directory, the environment and the target that packages are
+checked with are those of a process.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+
+from scaffold.check import batch
+from scaffold.cluster.mirror import Mirror
+
+
+def check(work: batch.Batch, files: Mirror) -> batch.Answer:
+    """Check a batch in a process of its own.
+
+    Raises:
+        RuntimeError: the process does not get to its end.
+    """
+    done = subprocess.run(
+        [sys.executable, "-m", __name__],
+        input=pickle.dumps((work, files)),
+        capture_output=True,
+        cwd=os.sep,  # nothing there is imported by mistake
+        check=False,
+    )
+    if done.returncode:
+        lines = done.stderr.decode(errors="replace").strip().splitlines()
+        raise RuntimeError(lines[-1] if lines else f"its process ended with {done.returncode}")
+    answer: batch.Answer = pickle.loads(done.stdout)  # noqa: S301  what this tool wrote just now
+    return answer
+
+
+if __name__ == "__main__":
+    # Whoever sends work to a cluster may run code there.
+    sent = pickle.load(sys.stdin.buffer)  # noqa: S301
+    sys.stdout.buffer.write(pickle.dumps(batch.check(*sent)))
