@@ -138,6 +138,8 @@ def _table(title: str, found: list[Change]) -> Iterator[str]:
         first = item.removed if title == "Removed" else item.deprecated or item.changed
         since = first.title if first is not None else ""
         instead = f"`{item.use}`" if item.use else item.advice
+        if item.use == "*":
+            instead = "the rest of the name"
         later = "" if item.since.name == changes.EARLIEST else f" (from {item.since.title} on)"
         fixed = "yes" if item.use or item.names[0] in FIXED else ""
         names = "<br>".join(f"`{name}`" for name in item.names)
@@ -150,13 +152,37 @@ def _interfaces(one: Distribution) -> Iterator[str]:
     base, own = _definitions(named(DEFAULT)), _definitions(one)
     gone, added = sorted(base.keys() - own.keys()), sorted(own.keys() - base.keys())
     other = sorted(name for name in base.keys() & own.keys() if base[name] != own[name])
-    rows = (("not there", gone), ("only there", added), ("other fields or constants", other))
-    if any(names for _, names in rows):
-        yield f"## Interfaces, compared with {DEFAULT.capitalize()}"
-        yield ""
-        for what, names in rows:
-            if names:
-                yield f"- {what}: {', '.join(f'`{name}`' for name in names)}"
+    packages = sorted({name.partition("/")[0] for name in (*gone, *added, *other)})
+    if not packages:
+        return
+    yield f"## Interfaces, compared with {DEFAULT.capitalize()}"
+    yield ""
+    yield f"| package | not in {one.title} | only in {one.title} | other fields and constants |"
+    yield "|---|---|---|---|"
+    for package in packages:
+        cells = [
+            ", ".join(f"`{name.partition('/')[2]}`" for name in names if _is_of(name, package))
+            for names in (gone, added)
+        ]
+        fields = [
+            f"`{name.partition('/')[2]}`: {_fields(base[name], own[name])}"
+            for name in other
+            if _is_of(name, package)
+        ]
+        yield f"| {package} | {' | '.join(cells)} | {'<br>'.join(fields)} |"
+
+
+def _is_of(name: str, package: str) -> bool:
+    return name.startswith(f"{package}/")
+
+
+def _fields(base: str, own: str) -> str:
+    """Return what an interface has more and less than that of the same name."""
+    before, after = base.splitlines(), own.splitlines()
+    more = [line for line in after if line not in before]
+    less = [line for line in before if line not in after]
+    parts = [f"has {_listed(more)}"] * bool(more) + [f"lacks {_listed(less)}"] * bool(less)
+    return ", ".join(parts) or "another order"
 
 
 def _members(one: Distribution) -> Iterator[str]:
@@ -168,9 +194,11 @@ def _members(one: Distribution) -> Iterator[str]:
         added = sorted(new.get(class_, set()) - old.get(class_, set()))
         gone = sorted(old.get(class_, set()) - new.get(class_, set()))
         if class_ not in old:
-            lines.append(f"- `{class_}` is new")
+            if not _is_name(before, class_):
+                lines.append(f"- `{class_}` is new")
         elif class_ not in new:
-            lines.append(f"- `{class_}` is gone")
+            if not _is_name(one, class_):
+                lines.append(f"- `{class_}` is gone")
         elif added or gone:
             changes_ = [f"has {_listed(added)}"] * bool(added)
             changes_ += [f"lacks {_listed(gone)}"] * bool(gone)
@@ -180,6 +208,12 @@ def _members(one: Distribution) -> Iterator[str]:
         yield f"## Classes of rclpy, compared with {before.title}"
         yield ""
         yield from lines
+
+
+def _is_name(one: Distribution, class_: str) -> bool:
+    """Tell whether a module has a name that another distribution has as a class."""
+    module, _, name = class_.rpartition(".")
+    return name in names_of(one).get(module, ())
 
 
 def _listed(names: list[str]) -> str:
