@@ -22,12 +22,23 @@ _NEW = (
     "'--x', '1', '--y', '0', '--z', '0', '--yaw', '0', '--pitch', '0', '--roll', '0', "
     "'--frame-id', 'base', '--child-frame-id', 'laser'"
 )
+_LINES = (
+    "\n                 '--x', '1',\n                 '--y', '0',\n                 '--z', '0',"
+    "\n                 '--yaw', '0',\n                 '--pitch', '0',"
+    "\n                 '--roll', '0',\n                 '--frame-id', 'base',"
+    "\n                 '--child-frame-id', 'laser',\n             "
+)
+_ROOMY = (
+    "\n  {}'1', {}'0', {}'0',\n  {}'0', {}'0', {}'0',  # of yaw first\n  {}'base',\n  {}'laser'"
+)
 _FRAMES = ("--frame-id", "--child-frame-id")
 _FLAGS = {
     8: ("--x", "--y", "--z", "--yaw", "--pitch", "--roll", *_FRAMES),
     9: ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", *_FRAMES),
 }
 """By the number of arguments without names."""
+_WIDTH = 99
+"""The characters of a line that ament_flake8 allows."""
 
 
 class StaticTransformArguments(Rule):
@@ -65,8 +76,24 @@ class StaticTransformArguments(Rule):
                 fix="write the names",
             ),
             fixed={
-                "launch/a.launch.py": _LAUNCH.format(_NEW),
+                "launch/a.launch.py": _LAUNCH.format(_LINES),
                 "launch/b.launch.xml": _XML.format(_NEW.replace("'", "").replace(",", "")),
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a list with room",
+            {"launch/a.launch.py": _LAUNCH.format(_ROOMY.format(*[""] * 8))},
+            Report(
+                "8:24",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            fixed={
+                "launch/a.launch.py": _LAUNCH.format(
+                    _ROOMY.format(*[f"'{flag}', " for flag in _FLAGS[8]])
+                )
             },
             distro="lyrical",
         ),
@@ -106,7 +133,7 @@ def _written_in_python(
             case ast.Constant(value=written), ast.List(elts=values) if written == name:
                 flags = _FLAGS.get(len(values))
                 if flags is not None and not any(map(_is_flag, values)):
-                    yield launch.location(given), tuple(_edits(launch, values, flags))
+                    yield launch.location(given), tuple(_edits(launch, given, flags))
 
 
 def _named(words: Sequence[str], flags: Sequence[str]) -> str:
@@ -125,7 +152,29 @@ def _is_flag(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and str(node.value).startswith("--")
 
 
-def _edits(launch: LaunchFile, values: list[ast.expr], flags: tuple[str, ...]) -> Iterator[Edit]:
-    for value, flag in zip(values, flags, strict=True):
-        start, _ = launch.module.span(value)
-        yield Edit(launch.path, start, start, f"'{flag}', ")
+def _edits(launch: LaunchFile, given: ast.List, flags: tuple[str, ...]) -> Iterator[Edit]:
+    """Put the names before the values; in a list that gets too wide, each pair on a line."""
+    text = launch.module.source.text
+    start, end = launch.module.span(given)
+    spans = [launch.module.span(value) for value in given.elts]
+    added = [
+        Edit(launch.path, place, place, f"'{flag}', ")
+        for (place, _), flag in zip(spans, flags, strict=True)
+    ]
+    above = text.rfind("\n", 0, start) + 1
+    below = text.find("\n", end)
+    parts = [text[above : spans[0][0]]]
+    for (first, _), (after, _), flag in zip(
+        spans, [*spans[1:], (below, below)], flags, strict=True
+    ):
+        parts.append(f"'{flag}', {text[first:after]}")
+    if max(map(len, "".join(parts).split("\n"))) <= _WIDTH or "#" in text[start:end]:
+        yield from added
+        return
+    line = text[above:start]
+    indent = line[: len(line) - len(line.lstrip())]
+    pairs = [
+        f"{indent}    '{flag}', {text[first:last]},\n"
+        for (first, last), flag in zip(spans, flags, strict=True)
+    ]
+    yield Edit(launch.path, start, end, f"[\n{''.join(pairs)}{indent}]")

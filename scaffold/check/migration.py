@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 AREAS = ("PX", "CM", "SP", "LY", "TS", "NM", "IM", "ND", "MS", "LF", "PF", "TY", "SC")
 """The beginnings of the codes that a move may change: all but those of style."""
 
+ORDER = ("I100", "I101", "I201")
+"""The codes of imports that are not in order, as modules with other names may leave them."""
+
 
 class Consequences(NamedTuple):
     """What a move does to one package."""
@@ -66,6 +69,28 @@ class MigratingSession(Session):
         reported = super()._report(target, diagnostics)
         directory = target.package.directory
         return [item for item in reported if _identity(directory, item) not in self.known]
+
+
+class OrderSession(Session):
+    """Reports imports that are not in order, in files where they were before the fixes."""
+
+    unordered: Collection[tuple[str, str]] = ()
+    """The directories and paths of the other files."""
+
+    def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+        reported = super()._report(target, diagnostics)
+        directory = target.package.directory
+        return [item for item in reported if (directory, item.location.path) not in self.unordered]
+
+
+def unordered(results: Sequence[Result]) -> set[tuple[str, str]]:
+    """Return the directories and paths of files whose imports are not in order."""
+    return {
+        (result.package.directory, item.location.path)
+        for result in results
+        for item in result.diagnostics
+        if item.code in ORDER
+    }
 
 
 def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:

@@ -279,3 +279,16 @@ def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
     (workspace / "ros2-scaffold.toml").write_text('[check]\ndistribution = "lyrical"\n')
     main(["migrate", "listed", "--to", "lyrical", "--from", "jazzy", "--fix"])
     assert "check.distribution" not in capsys.readouterr().err
+
+
+def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
+    package = workspace / "twenty" / "twenty"
+    ordered = "from rclpy.node import Node\nfrom rclpy.qos_event import QoSEventHandler\n"
+    unordered = "from rclpy.qos_event import QoSEventHandler\nimport rclpy\n"
+    (package / "ordered.py").write_text(ordered)
+    (package / "unordered.py").write_text(unordered)
+    main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
+    handler = "from rclpy.event_handler import EventHandler as QoSEventHandler\n"
+    node = "from rclpy.node import Node\n"
+    assert (package / "ordered.py").read_text() == handler + node
+    assert (package / "unordered.py").read_text() == handler + "import rclpy\n"

@@ -58,7 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Report what a move changes, and fix what is safe; return the exit code."""
     from scaffold.check import registry
-    from scaffold.check.migration import Consequences, identities
+    from scaffold.check.migration import ORDER, Consequences, identities
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.cli.settings import warn
@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     origin = _origin(options, target, settings, session)
     has_failed = False
     with distributions.targeting(origin):
-        before = _checked(options, session)
+        before = _checked(options, _session(choices, ORDER) if options.fix else session)
     session.known = identities(before)
     with distributions.targeting(target, origin, kept):
         targets = check.find_targets(options, session, None)
@@ -90,6 +90,8 @@ def run(options: argparse.Namespace) -> int:
             terminal.say(f"{check.fix_count(count)} {verb}")
             if options.diff:
                 return FINDINGS if count else CLEAN
+            with distributions.targeting(origin):
+                has_failed |= _sort_imports(options, choices, before)
             directories = [item.package.directory for item in written]
             has_failed |= _move(directories, distributions.ordered([*kept, target]), settings)
         results = _checked(options, session)
@@ -136,6 +138,24 @@ def _origin(
     return distributions.ordered(others)[0]
 
 
+def _sort_imports(options: argparse.Namespace, choices: Choices, before: Sequence[Result]) -> bool:
+    """Sort imports that are not in order any more, by their new names; return whether that failed.
+
+    That is judged for where the packages come from: nothing but the fixes has changed there.
+    """
+    from scaffold.check.migration import ORDER, OrderSession, unordered
+    from scaffold.cli.verbs import check
+
+    selection = choices.selection([",".join(ORDER)])
+    session = OrderSession(choices.rules, selection, choices.adjustments())
+    session.unordered = unordered(before)
+    targets = check.find_targets(options, session, None)
+    _, has_failed = fixing.write(
+        options, session, targets, lambda: check.find_targets(options, session, None)
+    )
+    return has_failed
+
+
 def _move(directories: Sequence[str], targets: Sequence[Distribution], settings: Config) -> bool:
     """Say in the records of packages what they are for now; return whether that failed."""
     from scaffold.cli import records
@@ -176,12 +196,11 @@ def _complete(options: argparse.Namespace, choices: Choices) -> None:
     options.notes = ()
 
 
-def _session(choices: Choices) -> MigratingSession:
+def _session(choices: Choices, more: Sequence[str] = ()) -> MigratingSession:
     from scaffold.check.migration import AREAS, MigratingSession
 
-    return MigratingSession(
-        choices.rules, choices.selection([",".join(AREAS)]), choices.adjustments(), has_types=True
-    )
+    selection = choices.selection([",".join([*AREAS, *more])])
+    return MigratingSession(choices.rules, selection, choices.adjustments(), has_types=True)
 
 
 def _checked(options: argparse.Namespace, session: MigratingSession) -> list[Result]:
