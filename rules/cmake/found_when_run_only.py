@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity, ViewError
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
@@ -16,7 +16,7 @@ class FoundWhenRunOnly(Rule):
     """``find_package`` looks for a package that the manifest declares for running alone.
 
     **Why.** The build farm, and ``rosdep install --dependency-types build``, leave it out, and
-    CMake stops.
+    CMake stops. Where everything is installed, as ``rosdep install`` alone does, it builds.
 
     **Fix.** Add a ``<build_depend>``, or write ``<depend>`` instead of the ``<exec_depend>``. A
     package of Python code alone need not be found at all.
@@ -27,6 +27,8 @@ class FoundWhenRunOnly(Rule):
 
     code = "CM107"
     name = "found-when-run-only"
+    severity = Severity.WARNING
+    release_refused = "the build farm does not install the package before it builds"
     examples = (
         Example(
             "for the build",

@@ -8,8 +8,6 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, 
 from scaffold.api.cmake import Generation, generations, may_generate_more, uses_ament
 from scaffold.api.interfaces import is_commented_out, names_used_in_code, ungenerated_candidates
 
-_NAMES = ("_msgs", "_interfaces", "_srvs", "_actions")
-"""Ends of the names of packages whose interfaces are for others."""
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  %s\n)\n"
 
 
@@ -17,7 +15,7 @@ class InterfaceNotGenerated(Rule):
     """A .msg, .srv or .action file is there, but nothing is generated from it.
 
     **Why.** The build succeeds; ``ros2 interface show`` and every import say that there is no
-    such type. A warning where nothing in the workspace names the type.
+    such type. A warning where no code in the workspace imports the type from this package.
 
     **Fix.** Add the file to ``rosidl_generate_interfaces``. Packages of the build type
     ament_python cannot generate interfaces: move the file to a package of ament_cmake.
@@ -27,7 +25,7 @@ class InterfaceNotGenerated(Rule):
 
     code = "CM060"
     name = "interface-not-generated"
-    other_severities = {Severity.WARNING: "nothing in the package uses the interface"}
+    other_severities = {Severity.WARNING: "no code of the workspace imports the interface"}
     examples = (
         Example(
             "listed; omitted on purpose, as a comment says; a file for tests",
@@ -63,6 +61,7 @@ class InterfaceNotGenerated(Rule):
             Report(
                 "CMakeLists.txt:1:1",
                 "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -105,7 +104,7 @@ class InterfaceNotGenerated(Rule):
             project = package.cmake.project
             if project is not None and uses_ament(package):
                 message = f"nothing generates {files[0]}: rosidl_generate_interfaces is not called"
-                is_used = package.name.endswith(_NAMES) or any(_type_of(x) in used for x in files)
+                is_used = any(_type_of(path) in used for path in files)
                 yield self.report(project.name_location, message, severity=_severity(is_used))
             return
         listed = {file.path for call in calls for file in call.files}

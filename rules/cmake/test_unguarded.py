@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 COMMANDS = (
     "ament_add_gmock",
@@ -39,16 +39,20 @@ _TEST = "ament_add_pytest_test(talk test/test_talk.py)\n"
 class TestUnguarded(Rule):
     """A test is registered, or a ``<test_depend>`` found, outside of ``if(BUILD_TESTING)``.
 
-    **Why.** A release build has no test dependencies: CMake stops at a package that is not
-    installed, or at an unknown command.
+    **Why.** A build without tests (``-DBUILD_TESTING=OFF``, as on a build farm that skips them)
+    has no test dependencies: CMake stops at a package that is not installed, or at an unknown
+    command. Where they are installed, the package builds.
 
     **Fix.** Move the call into ``if(BUILD_TESTING)``.
 
-    **Source.** ROS 2 documentation, "ament_cmake user documentation", "Testing and linting".
+    **Source.** ROS 2 documentation, "ament_cmake user documentation", "Testing and linting";
+    ros_buildfarm #903, which leaves the test dependencies out where tests are skipped.
     """
 
     code = "CM024"
     name = "test-unguarded"
+    severity = Severity.WARNING
+    release_refused = "the build farm may build it without its test dependencies"
     examples = (
         Example(
             "a guarded package",

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
 from scaffold.api.launch import FUNCTION, NODES, LaunchFile
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
@@ -27,7 +27,8 @@ class DescriptionIncomplete(LaunchRule):
     """A launch file makes an action that it does not return, or cannot be asked for what it makes.
 
     **Why.** An action that is in no list is never executed, without a word; ``ros2 launch`` calls
-    ``generate_launch_description`` without arguments, and ``add_action`` returns ``None``.
+    ``generate_launch_description`` without arguments, and ``add_action`` returns ``None``. A
+    warning where a variable holds the action: it may be kept for later.
 
     **Fix.** Put the action in the list; take no arguments; return the LaunchDescription.
 
@@ -36,6 +37,7 @@ class DescriptionIncomplete(LaunchRule):
 
     code = "LF042"
     name = "description-incomplete"
+    other_severities = {Severity.WARNING: "a variable holds the action"}
     examples = (
         Example("complete", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
         Example(
@@ -66,7 +68,11 @@ class DescriptionIncomplete(LaunchRule):
                     "", "other = Node(package='talker', executable='node')", ""
                 )
             },
-            Report("8:13", "this Node is not in the LaunchDescription: it is never launched"),
+            Report(
+                "8:13",
+                "this Node is not in the LaunchDescription: it is never launched",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "an action that is switched off",
@@ -96,7 +102,9 @@ class DescriptionIncomplete(LaunchRule):
             is_dropped = is_dropped and call.kind in _EXECUTED
             if is_dropped or (call.kind in _ASSIGNED and _is_never_used(launch, call.call)):
                 yield self.report(
-                    call, f"this {call.kind} is not in the LaunchDescription: it is never launched"
+                    call,
+                    f"this {call.kind} is not in the LaunchDescription: it is never launched",
+                    severity=Severity.ERROR if is_dropped else Severity.WARNING,
                 )
         for statement in launch.module.walk(ast.Return):
             if function is None or (

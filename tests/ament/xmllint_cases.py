@@ -82,6 +82,26 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             {"package.xml": "<package/>\n", "test/data/empty.xml": ""},
         ),
         Example(
+            "plugins in two elements at the top, where no linter runs",
+            {
+                "package.xml": "<package/>\n",
+                "plugins.xml": '<library path="a"/>\n<library path="b"/>\n',
+            },
+        ),
+        Example(
+            "a file, and a linter, that the package excludes",
+            {
+                "package.xml": "<package>\n"
+                "  <test_depend>ament_lint_auto</test_depend>\n"
+                "  <test_depend>ament_cmake_xmllint</test_depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+                "  find_package(ament_lint_auto REQUIRED)\n"
+                "  set(AMENT_LINT_AUTO_FILE_EXCLUDE config/broken.xml)\n"
+                "  ament_lint_auto_find_test_dependencies()\nendif()\nament_package()\n",
+                "config/broken.xml": "<a>\n",
+            },
+        ),
+        Example(
             "an element is not closed",
             {"launch/talker.launch.xml": "<launch>\n  <node>\n</launch>\n"},
             Report(
