@@ -25,7 +25,7 @@ from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
 from scaffold.configuration.exclusion import Exclusion
-from scaffold.diagnostic import MAX_FINDINGS, Diagnostic
+from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 
 WORTH_PARTS = 2
 """Python files from which on it pays to keep findings in parts; others are checked anew."""
+
+_ABOUT_PYTHON = frozenset({"IM", "LF", "MS", "ND"})
+"""The areas whose rules look at what types are about."""
 
 
 class Ruled(NamedTuple):
@@ -162,8 +165,7 @@ class Session:
         diagnostics = [*rules.diagnostics, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if typed is not None:
-            places = {item.location[:2] for item in rules.diagnostics}
-            diagnostics += [item for item in typed.diagnostics if item.location[:2] not in places]
+            diagnostics += _besides(rules.diagnostics, typed.diagnostics)
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}
                 verdict = verdict._replace(types=typed.parts, facts=facts)
@@ -351,3 +353,22 @@ def _bounded(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
 def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
     """Return rules of content directories, of ament's linters and of the engine, by code."""
     return sorted([*rules, *AMENT_RULES, *INTERNAL_RULES], key=lambda rule: rule.code)
+
+
+def _besides(of_rules: Sequence[Diagnostic], of_types: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Return the findings about types that no rule reports in its own words.
+
+    A rule knows more of a mistake than its types: that is so at the same place, and for errors in
+    Python code on the same line.
+    """
+    places = {item.location[:3] for item in of_rules}
+    lines = {
+        item.location[:2]
+        for item in of_rules
+        if item.severity is Severity.ERROR and item.code[:2] in _ABOUT_PYTHON
+    }
+    return [
+        item
+        for item in of_types
+        if item.location[:3] not in places and item.location[:2] not in lines
+    ]

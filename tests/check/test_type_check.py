@@ -201,6 +201,30 @@ class Mapper(Node):
     assert check("mapper") == ["mapper/mapper/node.py:29:TY003"]
 
 
+def test_a_finding_of_another_kind_on_the_line_hides_nothing(check: Check, source: Path) -> None:
+    node = """import tf2_geometry_msgs
+from geometry_msgs.msg import PointStamped
+from rclpy.node import Node
+from tf2_ros import Buffer, TransformListener
+
+
+class Follower(Node):
+    def __init__(self):
+        super().__init__('follower')
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.create_subscription(PointStamped, 'point', self.on_point, 10)
+
+    def on_point(self, point):
+        self.point = self.buffer.transform(point, 'map', timeout=0.5)
+        self.get_parameter('a', 'b')
+"""
+    make_package(source, "follower", {"follower/node.py": node})
+    path = "follower/follower/node.py"
+    found = check("follower", "--select", "TY,ND040,ND110")
+    assert found == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:ND040"]
+
+
 def test_annotations_of_the_user_are_not_believed(check: Check, source: Path) -> None:
     node = """from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
