@@ -16,6 +16,8 @@ _NEW = {
     "rospy": "rclpy",
     "tf": "tf2_ros",
 }
+_WITHOUT_PYTHON = {"rclcpp": "rclpy", "rclcpp_action": "rclpy.action", "tf2": "tf2_ros"}
+"""Libraries of ROS 2 for C++ alone."""
 _MANIFEST = (
     "<package format='3'><name>talker</name><export><build_type>ament_cmake</build_type></export>"
     "</package>\n"
@@ -23,7 +25,7 @@ _MANIFEST = (
 
 
 class ModuleOfRos1Imported(Rule):
-    """A module of ROS 1 is imported.
+    """A module of ROS 1 is imported, or one of ROS 2 that is there for C++ alone.
 
     **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started.
 
@@ -36,6 +38,14 @@ class ModuleOfRos1Imported(Rule):
     name = "module-of-ros1-imported"
     examples = (
         Example("of ROS 2", {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\n"}),
+        Example(
+            "of C++",
+            {
+                "package.xml": _MANIFEST,
+                "talker/node.py": "import rclpy\nfrom tf2 import LookupException\n",
+            },
+            Report("talker/node.py:2:1", "'tf2' has no Python module; use tf2_ros"),
+        ),
         Example(
             "of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
@@ -50,8 +60,13 @@ class ModuleOfRos1Imported(Rule):
             if all(item.root != "rclpy" or item.in_tests for item in imports):
                 continue
             for item in imports:
-                if item.root not in _NEW or item.guarded or item.conditional:
+                root = item.root
+                is_known = root in _NEW or root in _WITHOUT_PYTHON
+                if not is_known or item.guarded or item.conditional or package.has_directory(root):
                     continue
-                if not package.has_directory(item.root):
-                    message = f"{item.root!r} belongs to ROS 1; use {_NEW[item.root]}"
-                    yield self.report(item, message)
+                message = (
+                    f"{root!r} belongs to ROS 1; use {_NEW[root]}"
+                    if root in _NEW
+                    else f"{root!r} has no Python module; use {_WITHOUT_PYTHON[root]}"
+                )
+                yield self.report(item, message)

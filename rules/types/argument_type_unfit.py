@@ -41,6 +41,8 @@ _UNCHECKED = (".get_parameter_or",)
 """What works with anything as long as the parameter is declared."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """What calls ``int()`` on its nanoseconds, which are annotated as an int."""
+_TIMEOUTS = {"transform": 2, "transform_full": 4}
+"""Where functions of tf2 with several signatures take a timeout."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 
@@ -57,7 +59,7 @@ class ArgumentTypeUnfit(TypeRule):
 
     code = "TY005"
     name = "argument-type-unfit"
-    kinds = frozenset({"invalid-argument-type"})
+    kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
         Example(
@@ -99,6 +101,23 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "clients of two services in a dictionary",
+            {
+                "reset.py": "from rclpy.node import Node\n"
+                "from std_srvs.srv import SetBool, Trigger\n\n\n"
+                "class Resetter(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('resetter')\n"
+                "        made = []\n"
+                "        made.append(self.create_client(Trigger, 'reset'))\n"
+                "        self.asked = {'reset': made[-1]}\n"
+                "        made.append(self.create_client(SetBool, 'enable'))\n"
+                "        self.asked['enable'] = made[-1]\n\n"
+                "    def reset(self):\n"
+                "        self.asked['reset'].call_async(Trigger.Request())\n"
+            },
+        ),
+        Example(
             "a str for a number, a class for an object, a number for a duration",
             {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
             Report(
@@ -120,6 +139,21 @@ class ArgumentTypeUnfit(TypeRule):
             ),
         ),
         Example(
+            "a number as the timeout of a transformation",
+            {
+                "look.py": "import tf2_geometry_msgs\nfrom geometry_msgs.msg import PointStamped\n"
+                "from tf2_ros import Buffer\n\n\n"
+                "def look(buffer: Buffer):\n"
+                "    buffer = Buffer()\n"
+                "    return buffer.transform(PointStamped(), 'map', timeout=0.5)\n"
+            },
+            Report(
+                "8:60",
+                "'timeout' of transform() must be a rclpy.duration.Duration, not a "
+                "float: transform() fails; write Duration(seconds=...)",
+            ),
+        ),
+        Example(
             "times of two kinds",
             {"age.py": _TIMES},
             Report(
@@ -137,6 +171,10 @@ class ArgumentTypeUnfit(TypeRule):
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        is_overloaded = finding.kind == "no-matching-overload"
+        return self._judge_overload(finding) if is_overloaded else self._judge_argument(finding)
+
+    def _judge_argument(self, finding: TypeFinding) -> Diagnostic | None:
         matched = finding.match(
             rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
             r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
@@ -169,6 +207,31 @@ class ArgumentTypeUnfit(TypeRule):
             f"{needs} must be {with_article(name_of(expected))}, not {in_words(given)}: "
             f"{where} fails{hint}",
         )
+
+    def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
+        """Judge a timeout: the type checker does not say which argument fits no signature."""
+        call = finding.node(ast.Call)
+        matched = finding.match(rf"No overload of .*`{MARKED}\.(?P<name>\w+)` matches arguments")
+        if call is None or matched is None or matched["name"] not in _TIMEOUTS:
+            return None
+        value = _timeout(call, matched["name"])
+        if not (isinstance(value, ast.Constant) and type(value.value) in {int, float}):
+            return None
+        name, kind = matched["name"], with_article(type(value.value).__name__)
+        return self.report(
+            finding.module.location(value),
+            f"'timeout' of {name}() must be a rclpy.duration.Duration, not {kind}: {name}() fails; "
+            "write Duration(seconds=...)",
+        )
+
+
+def _timeout(call: ast.Call, name: str) -> ast.expr | None:
+    """Return the timeout that ``transform`` or ``transform_full`` gets."""
+    for keyword in call.keywords:
+        if keyword.arg == "timeout":
+            return keyword.value
+    place = _TIMEOUTS[name]
+    return call.args[place] if len(call.args) > place else None
 
 
 def _instead(expected: str, given: str) -> str:

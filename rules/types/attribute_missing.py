@@ -118,6 +118,43 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "a callback that annotates its self",
+            {
+                "listener.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+                "class Listener(Node):\n"
+                "    def __init__(self: Node):\n"
+                "        super().__init__('listener')\n"
+                "        self.heard = []\n"
+                "        self.create_subscription(String, 'chatter', self.on_chatter, 10)\n\n"
+                "    def on_chatter(self: Node, message: String):\n"
+                "        self.heard.append(message.data)\n"
+            },
+        ),
+        Example(
+            "futures of others",
+            {
+                "asker.py": _NODE.format("destroy") + "\n    def ask(self, pool):\n"
+                "        pool.submit(self.stop).add_done_callback(self.on_done)\n\n"
+                "    def on_done(self, future):\n"
+                "        print(future.running())\n"
+            },
+        ),
+        Example(
+            "a future taken for the goal handle that it brings",
+            {
+                "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
+                "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
+                "        future.add_done_callback(self.on_goal)\n\n"
+                "    def on_goal(self, future):\n"
+                "        return future.accepted\n"
+            },
+            Report(
+                "19:16",
+                "rclpy.task.Future has no 'accepted': AttributeError; what the future brings "
+                "is in result()",
+            ),
+        ),
+        Example(
             "an attribute of ROS 1",
             {"asker.py": _NODE.format("cancel_all_goals")},
             Report(
@@ -171,10 +208,13 @@ class AttributeMissing(TypeRule):
                 return None  # an object of rclpy takes any attribute
             if not is_message and _is_set(finding.package, name):
                 return None
-        closest = closest_name(finding.package, name, names, 0.6)
+        is_future = shown == "rclpy.task.Future"
+        closest = "" if is_future else closest_name(finding.package, name, names, 0.6)
         hint = f"; did you mean {closest!r}?" if closest else ""
+        if is_future:
+            hint = "; what the future brings is in result()"
         names -= _OF_ALL_MESSAGES
-        if not closest and len(names) <= _FEW:
+        if not hint and len(names) <= _FEW:
             hint = f"; it has {', '.join(sorted(names))}" if names else ""
         message = f"{shown} has no {name!r}: AttributeError{hint}"
         change = removed_name(f"{shown}.{name}")

@@ -31,7 +31,11 @@ class NameNotInModule(TypeRule):
         Example("names that exist", {"talker.py": "from rclpy.node import Node\n"}),
         Example(
             "what a module imports for itself",
-            {"talker.py": "from rclpy.executors import time\n\nprint(time.time())\n"},
+            {
+                "talker.py": "from rclpy.executors import time\n"
+                "from launch_ros.substitutions.find_package import get_package_share_directory\n\n"
+                "print(time.time(), get_package_share_directory('rclpy'))\n"
+            },
         ),
         Example(
             "a moved name",

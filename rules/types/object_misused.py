@@ -37,6 +37,19 @@ class ObjectMisused(TypeRule):
     examples = (
         Example("a field", {"height.py": _NODE.format("point.z")}),
         Example(
+            "elements of what another function makes of an object",
+            {
+                "plan.py": "from plans import nested\nfrom rclpy.node import Node\n\n\n"
+                "class Planner(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('planner')\n"
+                "        self.plans = self.get_parameters_by_prefix('plans')\n"
+                "        self.plans = nested(self.plans)\n\n"
+                "    def start(self):\n"
+                "        return [plan['start'] for plan in self.plans.values()]\n"
+            },
+        ),
+        Example(
             "an element",
             {"height.py": _NODE.format("point[2]")},
             Report("6:12", "a geometry_msgs.msg.Point has no elements: TypeError"),

@@ -9,12 +9,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-_WORDS = (b"create_subscription(", b"create_service(", b"ActionServer(")
-_CALL = re.compile(r"\b(create_subscription|create_service|ActionServer)\(")
+_WORDS = (
+    b"create_subscription(",
+    b"create_service(",
+    b"ActionServer(",
+    b"add_done_callback(",
+)
+_CALL = re.compile(r"\b(create_subscription|create_service|ActionServer|add_done_callback)\(")
+_OTHER_FUTURES = re.compile(r"\b(?:asyncio|concurrent|submit)\b")
 _TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
 _CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
 _SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
 _PARAMETER = r"\w+(?:\s*:\s*[\w.\[\]\"']+)?"
+_SELF = r"self(?:\s*:\s*[\w.\"']+)?"
 _END = r"(\s*,?\s*\)\s*(?:->[^\n]*)?:)"
 _REBOUND = (
     r"(?:^|[;:])[ \t]*{0}[ \t]*(?::[^=\n]*)?=(?!=)[^\n]*(?<!,)$"
@@ -22,7 +29,12 @@ _REBOUND = (
 )
 """Matches what gives a name another value; not a keyword argument on a line of its own."""
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
-_IMPORT = f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n"
+_FUTURE = "_Ros2Future"
+_IMPORTS = {
+    _GOAL_HANDLE: f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n",
+    _FUTURE: f"\nfrom rclpy.task import Future as {_FUTURE}\n",
+}
+"""What is imported at the end of a file, by the name that is used."""
 _LONGEST = 2_000
 """Characters of a call that are looked at."""
 _CALLBACKS = {
@@ -50,18 +62,23 @@ def with_callback_types(data: bytes) -> bytes:
     except UnicodeDecodeError:
         return data
     segments = _SEGMENT.split(text)
-    result = "".join(_annotated(segment) for segment in segments)
-    return (result + _IMPORT if _GOAL_HANDLE in result else result).encode()
+    is_of_ros = _OTHER_FUTURES.search(text) is None
+    result = "".join(_annotated(segment, is_of_ros) for segment in segments)
+    imports = [line for name, line in _IMPORTS.items() if name in result]
+    return "".join([result, *imports]).encode()
 
 
-def _annotated(segment: str) -> str:
+def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its name says it
     """Return a class, or what is outside of classes, with what its callbacks get."""
     types: dict[str, tuple[str, ...]] = {}
     for name, given in _registered(segment):
+        if given == (_FUTURE,) and not has_ros_futures:
+            continue
         types[name] = () if types.get(name, given) != given else given
     for name, given in types.items():
         pattern = (
-            rf"(\bdef {name}\(\s*(?:self\s*,\s*)?)({_PARAMETER})(?:(\s*,\s*)({_PARAMETER}))?{_END}"
+            rf"(\bdef {name}\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER})"
+            rf"(?:(\s*,\s*)({_PARAMETER}))?{_END}"
         )
         matches = list(re.finditer(pattern, segment))
         if len(matches) == 1 and given:
@@ -105,6 +122,11 @@ def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     for call in _CALL.finditer(segment):
         function = call[1]
         arguments = _arguments(segment, call.end())
+        if function == "add_done_callback":
+            callback = _CALLBACK.fullmatch(arguments.get("0", ""))
+            if callback is not None:
+                yield callback[1], (_FUTURE,)
+            continue
         place, callbacks = _CALLBACKS[function]
         type_ = arguments.get(str(place), "")
         if not _TYPE.fullmatch(type_):
