@@ -35,6 +35,15 @@ class ProgramInstalledAsFile(Rule):
             executable=("talker/node.py",),
         ),
         Example(
+            "run by CMake itself",
+            {
+                "CMakeLists.txt": _LISTS.format("FILES"),
+                "cmake/generate.cmake": "set(SCRIPT ${talker_DIR}/../../../lib/talker/node.py)\n",
+                "talker/node.py": _NODE,
+            },
+            executable=("talker/node.py",),
+        ),
+        Example(
             "as a file",
             {"CMakeLists.txt": _LISTS.format("FILES"), "talker/node.py": _NODE},
             Report(
@@ -73,7 +82,7 @@ class ProgramInstalledAsFile(Rule):
                 continue
             for item in install.items:
                 path = self._script(package, item.path or "", install.kind)
-                if path and path not in programs:
+                if path and path not in programs and not _is_run_by_cmake(package, path):
                     message = (
                         f"install({install.kind}) drops the executable bit of {path}: `ros2 run` "
                         "finds no executable; install it with PROGRAMS"
@@ -109,3 +118,13 @@ class ProgramInstalledAsFile(Rule):
                 edit = Edit("CMakeLists.txt", argument.start, argument.end, "PROGRAMS")
                 return Fix("write PROGRAMS", (edit,), Safety.SAFE)
         return None
+
+
+def _is_run_by_cmake(package: Package, path: str) -> bool:
+    """Tell whether a file of CMake names a script where it is installed, to run it itself."""
+    place = f"/{package.cmake.project_name}/{path.rpartition('/')[2]}"
+    return any(
+        place in package.source(file).text
+        for file in package.files
+        if file.endswith((".cmake", ".cmake.in"))
+    )

@@ -76,6 +76,17 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a file that the node writes",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    made = {'output_file': os.path.join(share, 'config', 'made.yaml')}\n"
+                    "    return",
+                ),
+            },
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,

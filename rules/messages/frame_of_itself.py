@@ -64,6 +64,17 @@ class FrameOfItself(RclpyRule):
             },
         ),
         Example(
+            "an odometry, which is no transform",
+            {
+                "odometer.py": "import rclpy\nfrom nav_msgs.msg import Odometry\n\n\n"
+                "def odometry(frame):\n"
+                "    message = Odometry()\n"
+                "    message.header.frame_id = frame\n"
+                "    message.child_frame_id = frame\n"
+                "    return message\n"
+            },
+        ),
+        Example(
             "a lookup",
             {
                 "follower.py": "from rclpy.time import Time\nimport rclpy\nimport tf2_ros\n\n\n"
@@ -92,6 +103,8 @@ def _stored_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Yield what is assigned to ``child_frame_id``, with the frame of the header there."""
     for store in file.evaluator.stores("child_frame_id"):
         parent = _parent_frame(file, store.node)
+        if _is_odometry(file, store.node.value):
+            continue  # it is no transform, but what moves in a frame
         if store.value is not None and parent is not None:
             yield store.value, parent
 
@@ -159,3 +172,9 @@ def _origin(file: RclpyFile, node: ast.Name | ast.Attribute) -> str:
         if bound is not None and len(bound[1]) > 1:
             return f"{node.id}@{node.lineno}:{node.col_offset}"
     return ast.unparse(file.evaluator.single_value(node))
+
+
+def _is_odometry(file: RclpyFile, message: ast.expr) -> bool:
+    """Tell whether a message is made as one of nav_msgs."""
+    made = file.evaluator.single_value(message)
+    return isinstance(made, ast.Call) and ast.unparse(made.func).endswith("Odometry")

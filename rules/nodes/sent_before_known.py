@@ -44,6 +44,16 @@ class SentBeforeKnown(RclpyRule):
             "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}
         ),
         Example(
+            "again and again",
+            {
+                "caller.py": _NODE.format("").replace(
+                    "        self.future =",
+                    "        for _ in range(9):\n            self.call()\n\n"
+                    "    def call(self):\n        self.future =",
+                )
+            },
+        ),
+        Example(
             "at once",
             {"caller.py": _NODE.format("")},
             Report(
@@ -63,9 +73,26 @@ class SentBeforeKnown(RclpyRule):
                 if not isinstance(func, ast.Attribute) or func.attr not in _SENDING:
                     continue
                 class_, what, wait = _SENDING[func.attr]
-                if class_of(file, func.value) == class_:
+                if class_of(file, func.value) == class_ and not _is_repeated(file, call):
                     message = (
                         f"the {what} is sent before the server is known: it is lost, and the "
                         f"future is never done; call {wait} first"
                     )
                     yield self.report(file.module.location(call), message)
+
+
+def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether a loop sends it again, here or where the function is called."""
+    module = file.module
+    function = module.enclosing_function(call)
+    name = function.name if function is not None else ""
+    callers = (
+        item
+        for item in module.walk(ast.Call)
+        if isinstance(item.func, ast.Attribute) and item.func.attr == name != "__init__"
+    )
+    return any(
+        isinstance(parent, ast.For | ast.While)
+        for item in (call, *callers)
+        for parent in module.parents(item)
+    )

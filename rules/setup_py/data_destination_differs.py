@@ -40,6 +40,15 @@ class DataDestinationDiffers(Rule):
     examples = (
         Example("right", {**_FILES, "setup.py": _SETUP.format("'share/talker/launch'", _GLOB)}),
         Example(
+            "a second copy elsewhere",
+            {
+                **_FILES,
+                "setup.py": _SETUP.format("'share/talker/launch'", _GLOB).replace(
+                    "]),", f"]),\n        ('share/other', {_GLOB}),"
+                ),
+            },
+        ),
+        Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
             Report(
@@ -80,11 +89,18 @@ class DataDestinationDiffers(Rule):
         if setup.name != package.name and setup.name is not None:
             return  # SP009 reports it, or it is unknown
         share = f"share/{package.name}"
+        copied = {
+            source
+            for data in setup.data_files
+            if isinstance(data.destination, str) and f"{data.destination}/".startswith(f"{share}/")
+            for source in data.sources
+        }
         for data in setup.data_files:
             if data.malformed:
                 yield self.report(data, f"{data.malformed}: the build stops")
             problem = _problem(data, share)
-            if problem:
+            is_copy = copied.issuperset(data.sources) and "absolute" not in problem
+            if problem and not is_copy:
                 yield self.report(data.destination_location, problem)
         keyword = setup.keywords.get("data_files")
         for call in ast.walk(keyword.node) if keyword else ():

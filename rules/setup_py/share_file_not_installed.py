@@ -64,6 +64,33 @@ class ShareFileNotInstalled(Rule):
             ),
         ),
         Example(
+            "a parameter file that is read from the source tree, and one that is installed",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
+                ),
+                "launch/talk.launch.py": "CONFIG = 'src/talker/config/talker.yaml'\n"
+                "RVIZ = 'my_view.rviz'\nMAP = 'share/talker/maps/hall.pgm'\n" + _LAUNCH,
+                "config/talker.yaml": "",
+                "maps/hall.pgm": "",
+                "rviz/view.rviz": "",
+            },
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of config/, for instance config/talker.yaml",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "setup.py:7:16", "data_files installs nothing of maps/, for instance maps/hall.pgm"
+            ),
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of rviz/, for instance rviz/view.rviz",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a name that the pattern does not match",
             {
                 "package.xml": _MANIFEST,

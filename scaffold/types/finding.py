@@ -11,6 +11,7 @@ from typing import TypeVar
 from scaffold.model.package import Package
 from scaffold.model.python.module import PythonModule, last_names
 from scaffold.source import Location
+from scaffold.types import origins
 from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)
@@ -26,6 +27,8 @@ _PROBED = frozenset(
 )
 _ANYTHING = frozenset({"Exception", "BaseException"})
 _EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
+_OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
+"""Kinds about an object, not about a call of it."""
 _SHORT = 2
 """Statements of a ``try`` that only asks whether something works."""
 
@@ -113,7 +116,7 @@ class TypeFinding:
         Code that asks for a version, a module or an attribute, and code that tries, knows better.
         """
         node = self.innermost
-        if node is None or self._calls_entry(node):
+        if node is None or self._is_of_several(node):
             return False
         child = node
         for parent in self.module.parents(node):
@@ -132,15 +135,17 @@ class TypeFinding:
             child = parent
         return child not in self.module.passed_over
 
-    def _calls_entry(self, node: ast.AST) -> bool:
-        """Tell whether a call, or that of an argument, is of an entry: ``sensor['callback'](1)``.
-
-        The type checker takes for the entry what any other entry is.
-        """
+    def _is_of_several(self, node: ast.AST) -> bool:
+        """Tell whether what is called or used may be another object than the reported one."""
+        if self.kind == "missing-attribute":
+            return False  # only reported if no object of them has it
         call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), None)
-        return any(
-            isinstance(it, ast.Call) and isinstance(it.func, ast.Subscript) for it in (node, call)
-        )
+        called: list[ast.AST] = [it.func for it in (node, call) if isinstance(it, ast.Call)]
+        if any(isinstance(func, ast.Subscript) for func in called):
+            return True
+        if self.kind in _OF_ELEMENTS:
+            called = [node]
+        return any(origins.is_of_several(self.module, it) for it in called or [node])
 
     def _asks_what_there_is(self, test: ast.expr) -> bool:
         """Tell whether a condition asks for a version, a kind of object, or what was imported."""

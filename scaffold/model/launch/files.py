@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.python_file import LaunchFile
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
 ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 DIRECTORIES = ("launch/", "launches/")
 _USERS = (".py", ".xml", ".yaml", ".yml", ".cpp", ".hpp")
+_LONGEST_PATH = 200
 DATA_DIRECTORIES = ("config", "params", "param", "rviz", "urdf", "maps", "worlds", "meshes")
 """Directories whose files are read at run time from ``share/<package>``."""
 
@@ -47,9 +49,19 @@ def is_named(package: Package, directory: str) -> bool:
                 text = other.source(path).text
             except ViewError:
                 continue
-            named = {name for name in wanted if name in text}
+            named = {name for name in wanted if name in text and _is_named_in(text, name)}
             if named - _of_other_packages(package, other, path):
                 return True
+    return False
+
+
+def _is_named_in(text: str, name: str) -> bool:
+    """Tell whether a text names a file, and not by a path into a source tree."""
+    for match in re.finditer(rf"{re.escape(name)}(?![\w.-])", text):
+        line = text[max(0, match.start() - _LONGEST_PATH) : match.start()]
+        path = re.split(r"[\"'\s=]", line)[-1]
+        if path[-1:] in {"", "/"} and "/src/" not in f"/{path}":
+            return True
     return False
 
 

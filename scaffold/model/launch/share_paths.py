@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
@@ -65,6 +66,8 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
     """Tell whether a launch file makes the file itself, ``open(path, 'w')``, or asks for it."""
     holder = launch.module.parent(node)
+    if isinstance(holder, ast.Dict) and _is_for_output(holder, node):
+        return True
     targets = holder.targets if isinstance(holder, ast.Assign) else ()
     names = {target.id for target in targets if isinstance(target, ast.Name)}
     for call in launch.module.walk(ast.Call) if names else ():
@@ -78,6 +81,15 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
             ):
                 return not _is_demanded(launch, call)
     return False
+
+
+def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
+    """Tell whether a parameter has a name such as ``output_file``: its node writes the file."""
+    return any(
+        isinstance(key, ast.Constant) and re.search(r"output|save|record|export", str(key.value))
+        for key, value in zip(parameters.keys, parameters.values, strict=True)
+        if value is path
+    )
 
 
 def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:

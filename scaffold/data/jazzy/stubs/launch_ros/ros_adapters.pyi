@@ -1,3 +1,4 @@
+from rclpy.executors import SingleThreadedExecutor as SingleThreadedExecutor
 from typing import Any
 
 from launch.launch_context import LaunchContext

@@ -1,3 +1,4 @@
+from rclpy.qos import DurabilityPolicy as DurabilityPolicy, HistoryPolicy as HistoryPolicy
 from collections.abc import Iterable
 
 from rclpy.node import Node as Node

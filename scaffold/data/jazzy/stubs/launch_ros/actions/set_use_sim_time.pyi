@@ -1,3 +1,4 @@
+from rclpy.parameter import Parameter as Parameter
 from launch.action import Action as Action
 from launch.condition import Condition
 

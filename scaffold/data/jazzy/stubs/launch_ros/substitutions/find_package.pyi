@@ -1,3 +1,7 @@
+from ament_index_python.packages import (
+    get_package_prefix as get_package_prefix,
+    get_package_share_directory as get_package_share_directory,
+)
 from launch.some_substitutions_type import (
     SomeSubstitutionsType as SomeSubstitutionsType,
 )

@@ -1,0 +1,71 @@
+"""Where a value comes from, as far as that decides whether its type is certain."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.model.python.module import PythonModule
+
+_DEEPEST = 20
+"""Names, attributes, elements and calls that one value comes from."""
+
+
+def is_of_several(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a value may be one of several that the type checker reports one by one.
+
+    That is so for entries of a dictionary, ``self.clients['reset']``, and for what comes from an
+    attribute that gets values of several origins.
+    """
+    for origin in _origins(module, node):
+        match origin:
+            case ast.Subscript(slice=ast.Constant(value=str())):
+                return True
+            case ast.Attribute(value=ast.Name(id="self"), attr=name):
+                if len(_sources_of(module, name)) > 1:
+                    return True
+    return False
+
+
+def _origins(module: PythonModule, node: ast.AST) -> Iterator[ast.AST]:
+    """Yield an expression and what it is read from: ``a.b``, and ``a``."""
+    for _ in range(_DEEPEST):
+        yield node
+        match node:
+            case ast.Attribute(value=value) | ast.Subscript(value=value):
+                node = value
+            case ast.Call(func=func):
+                node = func
+            case ast.Name():
+                looped = _looped_over(module, node)
+                if looped is None:
+                    return
+                node = looped
+            case _:
+                return
+
+
+def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
+    """Return what the loop that binds a name runs over."""
+    lookup = module.index.lookup(name.id, name)
+    for binding in lookup[1] if lookup is not None else ():
+        if binding.kind == "loop":
+            for node in (binding.node, *module.parents(binding.node)):
+                if isinstance(node, ast.For | ast.AsyncFor | ast.comprehension):
+                    return node.iter
+    return None
+
+
+def _sources_of(module: PythonModule, name: str) -> set[str]:
+    """Return what makes the values that an attribute of ``self`` gets."""
+    sources = set()
+    statements: list[ast.Assign | ast.AnnAssign] = [*module.walk(ast.Assign)]
+    statements += module.walk(ast.AnnAssign)
+    for statement in statements:
+        targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+        value = statement.value
+        if value is None or (isinstance(value, ast.Constant) and value.value is None):
+            continue
+        if any(isinstance(target, ast.Attribute) and target.attr == name for target in targets):
+            sources.add(ast.unparse(value.func if isinstance(value, ast.Call) else value))
+    return sources
