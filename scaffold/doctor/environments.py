@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from shlex import quote
 
 from scaffold import distributions
 from scaffold.doctor.machine import Machine, has_package
@@ -88,8 +89,17 @@ def _wheels(machine: Machine) -> Environment:
     return Environment("wheels", machine.own_prefix, distribution, lacking, reason)
 
 
+def colcon_command(machine: Machine) -> str:
+    """Return the command after which colcon is there."""
+    for prefix in machine.prefixes:
+        directory = os.path.join(prefix, "bin")
+        if os.access(os.path.join(directory, "colcon"), os.X_OK):  # of Python wheels
+            return f"export PATH={quote(directory)}:$PATH"
+    return f"sudo apt install {COLCON}"
+
+
 def _tools(machine: Machine) -> Iterator[Missing]:
     if machine.python is None:
         yield Missing("python3", "sudo apt install python3")
     if machine.program("colcon") is None:
-        yield Missing("colcon", f"sudo apt install {COLCON}")
+        yield Missing("colcon", colcon_command(machine))

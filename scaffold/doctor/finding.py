@@ -11,5 +11,5 @@ class Finding(NamedTuple):
 
     severity: Severity
     message: str
-    fix: str = ""
-    """A command or a change; empty where nothing has to be done."""
+    fix: str
+    """A command, with a comment where there is more to say."""

@@ -67,8 +67,7 @@ def _lines(environments: Sequence[Environment], findings: Findings) -> Iterator[
     order = (Severity.ERROR, Severity.WARNING, Severity.INFO)
     for name, finding in sorted(findings, key=lambda item: order.index(item[1].severity)):
         yield f"{finding.severity.value}: {finding.message} [{name}]"
-        if finding.fix:
-            yield f"    {finding.fix}"
+        yield f"    {finding.fix}"
     problems = sum(finding.severity is not Severity.INFO for _, finding in findings)
     if problems:
         yield f"{problems} problem{'' if problems == 1 else 's'}"

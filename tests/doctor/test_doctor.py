@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -69,10 +70,21 @@ def sourced(prefix: Path, **more: str) -> Mapping[str, str]:
     return {**paths, "PYTHONPATH": str(prefix / "lib/python3.12/site-packages"), **more}
 
 
+def assert_command(fix: str) -> None:
+    """Make sure that a beginner can paste it."""
+    bash = ["bash", "--norc", "-c"]
+    words = shlex.split(fix, comments=True)
+    assert subprocess.run(["bash", "-n", "-c", fix], check=False).returncode == 0
+    known = {"sudo", "conda", "ros2", "colcon"}
+    is_builtin = subprocess.run([*bash, f"type -t {words[0]}"], capture_output=True, check=False)
+    assert words[0] in known or is_builtin.returncode == 0, fix
+
+
 def found(seen: Machine) -> dict[str, tuple[str, str, str]]:
     result = {}
     for name, finding in checks.run(seen):
         assert name not in result, "two findings of one check"
+        assert_command(finding.fix)
         result[name] = (finding.severity.value, finding.message, finding.fix)
     return result
 
@@ -119,7 +131,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
     ]
     assert severity == "error"
     assert message == (f"{top}/install was built with humble, which its setup files source again")
-    assert fix == f"rm -r {top}/build {top}/install && colcon build"
+    assert fix == f"cd {top} && rm -r build install && colcon build"
 
 
 @pytest.mark.parametrize(
@@ -133,7 +145,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
                 "RMW_IMPLEMENTATION is 'rmw_cyclonedds_cpp', which is not installed: `import "
                 "rclpy` fails; there is rmw_fastrtps_cpp"
             ),
-            "sudo apt install ros-jazzy-rmw-cyclonedds-cpp, or: unset RMW_IMPLEMENTATION",
+            "sudo apt install ros-jazzy-rmw-cyclonedds-cpp  # or: unset RMW_IMPLEMENTATION",
         ),
         (
             "domain-id",
@@ -154,7 +166,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
             {"ROS_DOMAIN_ID": "150"},
             "warning",
             "ROS_DOMAIN_ID is 150: its ports may be taken by other programs now and then",
-            "use a number from 0 to 101",
+            "export ROS_DOMAIN_ID=48  # a number from 0 to 101",
         ),
         (
             "discovery",
@@ -178,7 +190,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
             {"ROS_AUTOMATIC_DISCOVERY_RANGE": "lan"},
             "warning",
             "ROS_AUTOMATIC_DISCOVERY_RANGE is 'lan', which counts as LOCALHOST",
-            "use one of SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT",
+            "export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET  # or LOCALHOST, OFF, SYSTEM_DEFAULT",
         ),
     ],
 )
@@ -187,6 +199,11 @@ def test_variable_that_does_not_work(
 ) -> None:
     seen = machine(root, **sourced(installation(root), **variables))
     assert found(seen) == {name: (severity, message, fix)}
+
+
+def test_middleware_that_does_not_exist_is_not_to_be_installed(root: Path) -> None:
+    seen = machine(root, **sourced(installation(root), RMW_IMPLEMENTATION="rmw_cyclone"))
+    assert found(seen)["rmw-missing"][2] == "unset RMW_IMPLEMENTATION"
 
 
 def test_localhost_only_is_right_in_humble(root: Path) -> None:
@@ -223,6 +240,17 @@ def test_no_colcon(root: Path) -> None:
     text = "\n".join(report.text(environments(seen), []))
     assert "    colcon is missing: sudo apt install python3-colcon-common-extensions" in text
     assert "error: no ROS 2 that can build and run packages: install one of these" in text
+
+
+def test_colcon_of_wheels_that_are_sourced(root: Path) -> None:
+    (root / "bin" / "colcon").unlink()
+    wheels = root / "venv"
+    touch(wheels / INDEX / "packages" / "rclpy")
+    program(wheels / "bin" / "colcon")
+    variables = {"AMENT_PREFIX_PATH": str(wheels), "RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
+    result = found(machine(root, **variables))
+    assert result["colcon-missing"][2] == f"export PATH={wheels}/bin:$PATH"
+    assert result["rmw-missing"][2] == "unset RMW_IMPLEMENTATION"
 
 
 def test_package_that_hides_another(root: Path) -> None:

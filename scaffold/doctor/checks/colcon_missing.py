@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.diagnostic import Severity
-from scaffold.doctor.environments import COLCON
+from scaffold.doctor.environments import colcon_command
 from scaffold.doctor.finding import Finding
 from scaffold.doctor.machine import Machine
 
@@ -17,5 +17,5 @@ def check(machine: Machine) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             "colcon is not on PATH: packages cannot be built",
-            f"sudo apt install {COLCON}",
+            colcon_command(machine),
         )

@@ -38,7 +38,7 @@ def check(machine: Machine) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"ROS_AUTOMATIC_DISCOVERY_RANGE is {reach!r}, which counts as LOCALHOST",
-            f"use one of {', '.join(RANGES)}",
+            f"export ROS_AUTOMATIC_DISCOVERY_RANGE={RANGES[0]}  # or {', '.join(RANGES[1:])}",
         )
     elif reach.upper() == "OFF":
         yield Finding(

@@ -29,5 +29,5 @@ def check(machine: Machine) -> Iterator[Finding]:
         yield Finding(
             Severity.WARNING,
             f"ROS_DOMAIN_ID is {number}: its ports may be taken by other programs now and then",
-            f"use a number from 0 to {LAST_SAFE}",
+            f"export ROS_DOMAIN_ID={number % (LAST_SAFE + 1)}  # a number from 0 to {LAST_SAFE}",
         )

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from shlex import quote
 
 from scaffold.diagnostic import Severity
 from scaffold.doctor.finding import Finding
 from scaffold.doctor.machine import Machine
+from scaffold.doctor.shell import START_FILES
 
 _VARIABLES = (
     "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH", "PYTHONPATH",
@@ -28,7 +31,7 @@ def check(machine: Machine) -> Iterator[Finding]:
             Severity.ERROR,
             f"two distributions are sourced in one shell: {where}; libraries of one crash the "
             "other",
-            "open a new terminal and source one of them, also in ~/.bashrc",
+            _keep_one(machine),
         )
     named = machine.variables.get("ROS_DISTRO")
     every = map(machine.distribution_of, machine.prefixes)
@@ -37,9 +40,18 @@ def check(machine: Machine) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             f"ROS_DISTRO is {named!r}, but AMENT_PREFIX_PATH names {', '.join(sorted(sourced))}",
-            "open a new terminal and source one of them",
+            _keep_one(machine),
         )
     yield from _of_workspace(machine, sourced)
+
+
+def _keep_one(machine: Machine) -> str:
+    shell = os.path.basename(machine.variables.get("SHELL", ""))
+    start = START_FILES.get(shell, START_FILES["bash"])
+    return (
+        f"grep -n {machine.installed}/ {start}  # keep the lines of one distribution there, and "
+        "open a new terminal"
+    )
 
 
 def _of_workspace(machine: Machine, sourced: set[str]) -> Iterator[Finding]:
@@ -54,5 +66,5 @@ def _of_workspace(machine: Machine, sourced: set[str]) -> Iterator[Finding]:
             Severity.ERROR,
             f"{workspace.install} was built with {', '.join(sorted(strange))}, which its setup "
             "files source again",
-            f"rm -r {workspace.top}/build {workspace.install} && colcon build",
+            f"cd {quote(workspace.top)} && rm -r build install && colcon build",
         )

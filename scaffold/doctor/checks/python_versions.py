@@ -19,10 +19,10 @@ def check(machine: Machine) -> Iterator[Finding]:
         version = python_in(path)
         if version is not None and version != running:
             others.setdefault(version, path)
-    for version, path in sorted(others.items()):
+    for _, path in sorted(others.items()):
         yield Finding(
             Severity.ERROR,
             f"PYTHONPATH names {path}, but python3 is {running} ({machine.python}): modules that "
             "are compiled, such as those of rclpy, are not found",
-            f"use Python {version}, or source a ROS 2 that was built for Python {running}",
+            f"unset PYTHONPATH  # then source a ROS 2 for Python {running}",
         )

@@ -8,6 +8,17 @@ from scaffold.diagnostic import Severity
 from scaffold.doctor.finding import Finding
 from scaffold.doctor.machine import Machine, middlewares
 
+KNOWN = frozenset(
+    {
+        "rmw_connextdds",
+        "rmw_cyclonedds_cpp",
+        "rmw_fastrtps_cpp",
+        "rmw_fastrtps_dynamic_cpp",
+        "rmw_zenoh_cpp",
+    }
+)
+"""Those that have packages."""
+
 
 def check(machine: Machine) -> Iterator[Finding]:
     """Yield a finding if RMW_IMPLEMENTATION names one that is not there."""
@@ -22,5 +33,7 @@ def check(machine: Machine) -> Iterator[Finding]:
         Severity.ERROR,
         f"RMW_IMPLEMENTATION is {wanted!r}, which is not installed: `import rclpy` fails; there is "
         f"{', '.join(there) or 'none'}",
-        f"sudo apt install {package}, or: unset RMW_IMPLEMENTATION",
+        f"sudo apt install {package}  # or: unset RMW_IMPLEMENTATION"
+        if wanted in KNOWN and any(map(machine.distribution_of, machine.prefixes))
+        else "unset RMW_IMPLEMENTATION",
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from shlex import quote
 
 from scaffold.diagnostic import Severity
 from scaffold.doctor.finding import Finding
@@ -21,5 +23,13 @@ def check(machine: Machine) -> Iterator[Finding]:
             yield Finding(
                 Severity.INFO,
                 f"{name!r} of {prefixes[0]} hides that of {hidden}",
-                "remove it from the first if that is not intended",
+                _removal(name, prefixes[0]),
             )
+
+
+def _removal(name: str, prefix: str) -> str:
+    top = os.path.dirname(os.path.dirname(prefix))
+    build = os.path.join(top, "build", name)
+    if os.path.basename(prefix) == name and os.path.isdir(build):
+        return f"rm -r {quote(prefix)} {quote(build)}  # unless it is intended"
+    return f"ros2 pkg prefix {name}  # says which one is used; is that intended?"

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from shlex import quote
 
 from scaffold.diagnostic import Severity
 from scaffold.doctor.finding import Finding
@@ -18,10 +20,11 @@ def check(machine: Machine) -> Iterator[Finding]:
     yield from _gone(workspace)
     for name, directories in workspace.sources.items():
         if len(directories) > 1:
+            newest = max(directories, key=os.path.getctime)
             yield Finding(
                 Severity.ERROR,
                 f"two packages are called {name!r}: {', '.join(directories)}; colcon builds none",
-                "rename or remove one of them",
+                f"touch {quote(os.path.join(newest, 'COLCON_IGNORE'))}  # or rename one",
             )
         elif name in workspace.installed:
             moment = workspace.built(name)
@@ -30,13 +33,13 @@ def check(machine: Machine) -> Iterator[Finding]:
                 yield Finding(
                     Severity.WARNING,
                     f"{changed} has changed since {name!r} was built: the old code runs",
-                    f"cd {workspace.top} && colcon build --packages-select {name}",
+                    f"cd {quote(workspace.top)} && colcon build --packages-select {name}",
                 )
         elif workspace.installed:
             yield Finding(
                 Severity.INFO,
                 f"{name!r} is not built",
-                f"cd {workspace.top} && colcon build --packages-select {name}",
+                f"cd {quote(workspace.top)} && colcon build --packages-select {name}",
             )
 
 
@@ -44,12 +47,12 @@ def _gone(workspace: Workspace) -> Iterator[Finding]:
     for name in workspace.installed:
         if name not in workspace.sources:
             prefix = workspace.installed[name]
-            remove = f"{workspace.top}/build/{name} {prefix}"
+            places = [os.path.join(workspace.top, "build", name), prefix]
             if prefix == workspace.install:
-                remove = f"{workspace.top}/build {workspace.install}"
+                places = [os.path.join(workspace.top, "build"), workspace.install]
             yield Finding(
                 Severity.WARNING,
                 f"{name!r} is installed in {workspace.install}, but not in src any more: `ros2 "
                 "run` still finds it",
-                f"rm -r {remove}",
+                f"rm -r {' '.join(map(quote, places))}",
             )
