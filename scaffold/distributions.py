@@ -15,11 +15,20 @@ from typing import Any
 from scaffold.errors import InputError
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "data")
-ORDER = ("humble", "jazzy", "kilted", "lyrical")
-"""Those with data of their own, oldest first."""
-ALIASES: Mapping[str, str] = {"rolling": "lyrical"}
+ORDER = tuple(
+    name
+    for name in sorted(os.listdir(DATA))
+    if os.path.exists(os.path.join(DATA, name, "profile.toml"))
+)
+"""Those with data of their own, oldest first: their names follow the alphabet."""
+ALIASES: Mapping[str, str] = {"rolling": ORDER[-1]}
 """Those that are the same as another for Python packages, until they move on."""
 NAMES = (*ORDER, *ALIASES)
+ENDED = frozenset(
+    {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "iron"}
+    | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
+)
+"""Those that are supported no more, the ones of ROS 1 included; they are still met."""
 DEFAULT = "jazzy"
 VARIABLE = "ROS_DISTRO"
 """The variable of an environment that names its distribution."""
@@ -100,6 +109,13 @@ def named(name: str, origin: str = "") -> Distribution:
     if name not in _KNOWN:
         _KNOWN[name] = Distribution(name)
     return _KNOWN[name]
+
+
+def nearest(name: str) -> Distribution:
+    """Return the distribution whose data say most of one that may have none: the next later one."""
+    if name in NAMES:
+        return named(name)
+    return named(next((known for known in ORDER if known > name), ORDER[-1]))
 
 
 def refusal(name: object) -> str:

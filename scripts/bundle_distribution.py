@@ -9,7 +9,8 @@ Usage:
 The data of Jazzy is made from installed packages and was completed by hand (bundle_names.py,
 make_stubs.py), so others are written as Jazzy's with what differs between the two sources. Stubs
 that are the same are not stored again; those that a distribution does not have any more are in
-``removed_stubs.txt``. ``profile.toml`` is written by hand.
+``removed_stubs.txt``. ``profile.toml`` and ``standard_library.txt`` are those of the distribution
+before until somebody reviews them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 
+from scaffold.distributions import ORDER
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
 from scripts.bundle_interfaces import HEAD, PACKAGES, bundled
@@ -499,7 +501,18 @@ def main() -> int:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
         sys.stdout.write(f"{file.relative_to(DATA)}: {len(text)}\n")
+    for missing in with_facts(name):
+        sys.stdout.write(f"{name}/{missing}: copied, review each line\n")
     return 0
+
+
+def with_facts(name: str) -> Iterator[str]:
+    """Copy what is written by hand from the distribution before, and yield the files."""
+    before = DATA / max((other for other in ORDER if other < name), default=BASE)
+    for file in ("profile.toml", "standard_library.txt"):
+        if (before / file).is_file() and not (DATA / name / file).exists():
+            (DATA / name / file).write_bytes((before / file).read_bytes())
+            yield file
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import pytest
 
 from scaffold import distributions
 from scaffold.cli.main import main
-from scaffold.distributions import NAMES, ORDER, named
+from scaffold.distributions import NAMES, ORDER, named, nearest
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.manifest import conditions
 from scaffold.model.rclpy.api import names_of
@@ -165,8 +165,41 @@ def test_the_configuration_names_targets(
     assert main(["check", "--select", "ND,TY"]) == 1
     assert "(lyrical)" in capsys.readouterr().out
     assert main(["check", "--select", "ND,TY", "--distro", "jazzy"]) == 0
-    assert main(["check", "--select", "ND,TY", "--since", "HEAD"]) == 2
-    assert "--since works for one distribution at a time" in capsys.readouterr().err
+    assert main(["check", "--select", "ND,TY", "--add-noqa"]) == 2
+    assert "--add-noqa works for one distribution at a time" in capsys.readouterr().err
+
+
+def test_a_change_is_checked_for_several(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = write(tmp_path, NODE.format("shout"))
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=Ada", "-c", "user.email=ada@example.org"]
+    for command in (["init", "-q"], ["add", "."], ["commit", "-q", "-m", "Talk"]):
+        subprocess.run([*git, *command], check=True)
+    (package / "talker" / "other.py").write_text(NODE.format("warn"))
+    monkeypatch.chdir(tmp_path)
+    arguments = ["--select", "ND,TY", "--since", "HEAD", "--distro", "jazzy,lyrical"]
+    assert main(["check", *arguments]) == 1
+    printed = capsys.readouterr().out
+    assert "other.py:8" in printed
+    assert "node.py:8" not in printed
+    assert "since HEAD: 1 changed file; 1 older finding in other files hidden" in printed
+
+
+def test_an_unsaved_text_is_checked_and_fixed_for_several(tmp_path: Path) -> None:
+    package = write(tmp_path, "")
+    command = [sys.executable, "-m", "scaffold", "check", "--select", "IM,ND,TY"]
+    command += ["--distro", "jazzy,lyrical", "--stdin-filename", str(package / "talker/node.py")]
+    text = NODE.format("warn")
+    found = subprocess.run(command, input=text, capture_output=True, text=True, check=False)
+    assert found.returncode == 1
+    assert "node.py:8:9: error" in found.stdout
+    assert "(lyrical)" in found.stdout
+    fixed = subprocess.run(
+        [*command, "--fix"], input=text, capture_output=True, text=True, check=False
+    )
+    assert fixed.stdout == NODE.format("warning")
+    assert fixed.returncode == 0
 
 
 def test_what_is_remembered_is_of_one_target(
@@ -224,14 +257,22 @@ def test_each_distribution_has_its_data(name: str) -> None:
 
 
 def test_no_code_asks_for_the_name_of_a_distribution() -> None:
-    pattern = re.compile(r"""[=!]=\s*["'](?:humble|jazzy|kilted|lyrical|rolling)["']""")
-    asking = [
-        str(path.relative_to(ROOT))
-        for top in ("rules", "scaffold")
-        for path in sorted((ROOT / top).rglob("*.py"))
-        if pattern.search(path.read_text()) and "distro" in path.read_text()
-    ]
-    assert asking == []
+    exempt = "(?<!distro=)(?<!moved_from=)(?<!did you mean )"  # examples of rules
+    pattern = re.compile(rf"""{exempt}["'](?:{"|".join(NAMES)})["']""")
+    asking = {
+        str(path.relative_to(ROOT)): found
+        for top in ("rules", "scaffold", "templates")
+        for path in sorted((ROOT / top).rglob("*"))
+        if path.suffix in {".py", ".yaml", ".jinja"}
+        and (found := pattern.findall(path.read_text()))
+    }
+    assert asking == {"scaffold/distributions.py": ['"rolling"', '"jazzy"']}
+
+
+def test_a_distribution_without_data_is_taken_for_the_next_one() -> None:
+    found = {name: nearest(name).name for name in ("foxy", "iron", "kilted", "rolling", "mellow")}
+    expected = {"foxy": "humble", "iron": "jazzy", "kilted": "kilted", "rolling": "rolling"}
+    assert found == {**expected, "mellow": ORDER[-1]}
 
 
 def test_the_pages_are_current(tmp_path: Path) -> None:

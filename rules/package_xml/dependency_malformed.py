@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api.distributions import ENDED, NAMES
 
-_DEBIAN = r"ros-(foxy|galactic|humble|iron|jazzy|kilted|rolling|noetic|melodic)-(.+)"
+_DEBIAN = rf"ros-({'|'.join((*NAMES, *sorted(ENDED)))})-(.+)"
 _MODULES = (".msg", ".srv", ".action")
 _OF_PYTHON_2 = frozenset(
     {"lxml", "matplotlib", "numpy", "opencv", "pandas", "pil", "psutil", "pyqt5", "requests"}

@@ -3,6 +3,16 @@
 from __future__ import annotations
 
 from scaffold.changes import Change, of_kind, removed_interface, removed_name
-from scaffold.distributions import Distribution, target
+from scaffold.distributions import ENDED, NAMES, Distribution, refusal, target
 
-__all__ = ["Change", "Distribution", "of_kind", "removed_interface", "removed_name", "target"]
+__all__ = [
+    "ENDED",
+    "NAMES",
+    "Change",
+    "Distribution",
+    "of_kind",
+    "refusal",
+    "removed_interface",
+    "removed_name",
+    "target",
+]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from scaffold.model.manifest import requirements
-from scaffold.model.manifest.conditions import ConditionError, holds
+from scaffold.model.manifest.conditions import ConditionError, holds, misspelled
 from scaffold.model.manifest.manifest import Manifest
 from scaffold.model.manifest.package_name import name_used_elsewhere
 from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
@@ -17,6 +17,7 @@ __all__ = [
     "holds",
     "is_placeholder",
     "is_placeholder_address",
+    "misspelled",
     "name_used_elsewhere",
     "required_packages",
     "requirements",

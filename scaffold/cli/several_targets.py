@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.cli import baselines, fixing, terminal
+from scaffold.cli.since import Since
 
 if TYPE_CHECKING:
     import argparse
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     ByDistribution = dict[Distribution, list[Result]]
 
-ONE_AT_A_TIME = ("add_noqa", "reference", "stdin_filename", "since")
+ONE_AT_A_TIME = ("add_noqa", "reference")
 """The flags that work for one distribution only."""
 
 
@@ -60,7 +61,10 @@ class SeveralTargets:
 
         for flag in ONE_AT_A_TIME:
             if getattr(self._options, flag):
-                raise InputError(f"--{flag.replace('_', '-')} works for one distribution at a time")
+                name = f"--{flag.replace('_', '-')}"
+                raise InputError(f"{name} works for one distribution at a time; name it: --distro")
+        if self._options.stdin_filename:
+            return self._run_unsaved()
         if self._is_mixed and (self._options.fix or self._options.diff):
             titles = distributions.titles(self._options.distributions)
             raise InputError(
@@ -70,6 +74,47 @@ class SeveralTargets:
         if self._options.fix or self._options.diff:
             return self._fix()
         return self._report(self._checked(), is_saved=True)
+
+    def _run_unsaved(self) -> int:
+        """Check or fix standard input; a fixed text is all that standard output gets."""
+        from scaffold.check.several import agreed, merged
+        from scaffold.cli import reports, standard_input
+        from scaffold.cli.verbs import check
+
+        options, session = self._options, self._session
+        path = options.stdin_filename
+        text = standard_input.read(path, self._disk)
+        by_distribution = self._checked_unsaved(text)
+        if options.fix:
+            *others, latest = options.distributions
+            session.agreed = agreed(by_distribution)
+            with distributions.targeting(latest, kept=others):
+                target = standard_input.target_of(text, path, self._disk, options.policy)
+                text, _ = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
+            session.agreed = None
+            by_distribution = self._checked_unsaved(text)
+        results = baselines.hide(options, merged(by_distribution), self._targets, session)
+        if options.fix:
+            terminal.write_error(reports.text(results, check.report_options(options)))
+        else:
+            check.note_unchecked(session)
+            reports.write(options, results, check.report_options(options))
+        return check.final_code(options, session, results)
+
+    def _checked_unsaved(self, text: bytes) -> ByDistribution:
+        from scaffold.cli import standard_input
+
+        options = self._options
+        by_distribution: ByDistribution = {}
+        for distribution in options.distributions:
+            others = [item for item in options.distributions if item is not distribution]
+            with distributions.targeting(distribution, kept=others):
+                target = standard_input.target_of(
+                    text, options.stdin_filename, self._disk, options.policy
+                )
+                by_distribution[distribution] = self._session.run_batch([target])
+            self._targets = [target]
+        return by_distribution
 
     def _fix(self) -> int:
         """Fix what is right for all of them, and report what is left for each."""
@@ -103,6 +148,8 @@ class SeveralTargets:
         options, session = self._options, self._session
         by_distribution: ByDistribution = {}
         self._runs, every = [], []
+        directory = check.common_directory(options.paths, self._disk)
+        since_notes: dict[Distribution, str] = {}
         for distribution in options.distributions:
             options.notes = self._notes
             others = [item for item in options.distributions if item is not distribution]
@@ -112,17 +159,24 @@ class SeveralTargets:
                     for target in check.find_targets(options, session, self._disk)
                     if distribution in self._by_record.get(target.package.directory, [distribution])
                 ]
+                change = None
+                if options.since:
+                    change = Since(directory, options.since, self._targets)
+                    self._targets = change.targets()
                 every += self._targets
-                slot = self._slot(distribution)
+                slot = None if change else self._slot(distribution)
                 memory = ResultCache(
                     slot.last if slot else None, self._targets, is_saved=slot is not None
                 )
                 results = list(progress.shown(memory.run(session), len(self._targets), "packages"))
+                if change is not None:
+                    results, since_notes[distribution] = change.limit(results, session)
                 by_distribution[distribution] = results
                 if slot is not None and not session.types_failure:
                     self._runs.append(memory.save(slot, self._disk, results, 0, None))
             options.notes += check.foreign_note(session, results)
             check.note_unchecked(session)
+        options.notes += _since_notes(since_notes)
         self._targets = [*{target.package.directory: target for target in every}.values()]
         return by_distribution
 
@@ -172,3 +226,10 @@ class SeveralTargets:
             trees.append({k: v for tree in known for k, v in tree.items()} if whole else None)
         outside = {key: value for run in runs for key, value in run.outside.items()}
         slot.save(CachedRun(outside, trees, (), code, output, (*self._settings.warnings,)))
+
+
+def _since_notes(by_distribution: Mapping[Distribution, str]) -> tuple[str, ...]:
+    """Return what to say of the change, once if it is the same for all."""
+    if len({*by_distribution.values()}) < len(by_distribution):
+        return (*dict.fromkeys(by_distribution.values()),)
+    return tuple(f"{one.title}: {note}" for one, note in by_distribution.items())

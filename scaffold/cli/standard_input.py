@@ -42,26 +42,41 @@ def validate(options: argparse.Namespace) -> bool:
     return True
 
 
-def read(path: str, disk: Disk, policy: Policy) -> Target:
-    """Return the file of a package with what standard input holds.
+def read(path: str, disk: Disk) -> bytes:
+    """Return what standard input holds.
 
     Args:
-        path: The file; it need not be there.
+        path: The file that it is of; it need not be there.
         disk: Records what was accessed outside of the package.
-        policy: What the configuration says that rules have to know.
 
     Raises:
-        InputError: the path is in no package and not one of a Python file, or there is too much.
+        InputError: the path is a directory, or there is too much.
     """
-    from scaffold.check.fixes.overlay import Overlay
     from scaffold.files.disk import MAX_BYTES
-    from scaffold.model.discovery import targets as discovery
 
     if disk.is_directory(path):
         raise InputError(f"--stdin-filename {path}: is a directory; name a file")
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
         raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB is the limit")
+    return data
+
+
+def target_of(data: bytes, path: str, disk: Disk, policy: Policy) -> Target:
+    """Return the file of a package with a text in its place.
+
+    Args:
+        data: The text.
+        path: The file; it need not be there.
+        disk: Records what was accessed outside of the package.
+        policy: What the configuration says that rules have to know.
+
+    Raises:
+        InputError: the path is in no package and not one of a Python file.
+    """
+    from scaffold.check.fixes.overlay import Overlay
+    from scaffold.model.discovery import targets as discovery
+
     (target,) = discovery.find([path], disk, are_saved=False, policy=policy)
     overlay = Overlay(target.package.tree)
     overlay.changed[_name(target)] = data
@@ -69,8 +84,8 @@ def read(path: str, disk: Disk, policy: Policy) -> Target:
     return target
 
 
-def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
-    """Write the text with what can be fixed in it to standard output; return what remains.
+def fix(session: Session, target: Target, *, unsafe: bool) -> tuple[bytes, Result]:
+    """Write the text with what can be fixed in it to standard output; return it and what remains.
 
     Other files are not changed, so fixes that change one are skipped.
     """
@@ -85,8 +100,9 @@ def fix(session: Session, target: Target, *, unsafe: bool) -> Result:
 
     before = target.package.tree.read(name)
     fixed = fixer.fix(target.package, check, unsafe=unsafe)
-    terminal.write_bytes(fixed.changed.get(name, before))
-    return Result(fixed.package, len(fixed.package.files), fixed.diagnostics)
+    text = fixed.changed.get(name, before)
+    terminal.write_bytes(text)
+    return text, Result(fixed.package, len(fixed.package.files), fixed.diagnostics)
 
 
 def _name(target: Target) -> str:

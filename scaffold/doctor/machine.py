@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from scaffold.distributions import DEFAULT
 from scaffold.doctor.workspace import Workspace
 
 INSTALLED = "/opt/ros"
 NETWORK = "/sys/class/net"
-PREFERRED = "jazzy"
 
 _PYTHON = re.compile(r"python(3\.\d+)")
 
@@ -44,9 +44,9 @@ class Machine:
 
     @cached_property
     def installations(self) -> list[str]:
-        """The distributions that are installed, the preferred one first."""
+        """The distributions that are installed, the default one first."""
         names = [path.parent.name for path in Path(self.installed).glob("*/setup.bash")]
-        return sorted(names, key=lambda name: (name != PREFERRED, name))
+        return sorted(names, key=lambda name: (name != DEFAULT, name))
 
     def distribution_of(self, path: str) -> str | None:
         """Return the distribution in whose installation a path is."""
@@ -55,9 +55,9 @@ class Machine:
 
     @cached_property
     def distribution(self) -> str:
-        """The distribution that is sourced or installed, else the preferred one."""
+        """The distribution that is sourced or installed, else the default one."""
         named = self.variables.get("ROS_DISTRO") if self.prefixes else None
-        return named or next(iter(self.installations), PREFERRED)
+        return named or next(iter(self.installations), DEFAULT)
 
     @cached_property
     def python(self) -> str | None:

@@ -429,9 +429,11 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     """Check or fix standard input; a fixed text is all that standard output gets."""
     from scaffold.cli import reports, standard_input
 
-    target = standard_input.read(options.stdin_filename, disk, options.policy)
+    path = options.stdin_filename
+    text = standard_input.read(path, disk)
+    target = standard_input.target_of(text, path, disk, options.policy)
     if options.fix:
-        result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
+        _, result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
         (result,) = baselines.hide(options, [result], [target], session)
         terminal.write_error(reports.text([result], report_options(options)))
     else:

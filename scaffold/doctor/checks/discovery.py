@@ -4,21 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from scaffold import distributions
 from scaffold.diagnostic import Severity
 from scaffold.doctor.finding import Finding
 from scaffold.doctor.machine import Machine
 
 RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
-_OLD = frozenset({"foxy", "galactic", "humble"})
-"""Distributions that know ROS_LOCALHOST_ONLY alone."""
+_OLD = "ROS_LOCALHOST_ONLY"
+"""The variable of distributions that do not know the range."""
 _TRUE = "1"
 
 
 def check(machine: Machine) -> Iterator[Finding]:
     """Yield findings for variables that are ignored, deprecated or switch everything off."""
-    is_old = machine.distribution in _OLD
-    only = machine.variables.get("ROS_LOCALHOST_ONLY", "")
+    is_old = _OLD in distributions.nearest(machine.distribution).fact("templates.only_here")
+    only = machine.variables.get(_OLD, "")
     reach = machine.variables.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "")
     if only and not is_old:
         instead = "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST"

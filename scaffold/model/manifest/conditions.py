@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NoReturn
 
 from scaffold import distributions
@@ -54,6 +54,28 @@ def holds(condition: str, variables: Mapping[str, str] | None = None) -> bool:
 def names_unknown(condition: str) -> bool:
     """Tell whether a condition asks for a variable that is not of ROS, but of who builds it."""
     return any(name not in VARIABLES for name in re.findall(r"\$([A-Za-z0-9_]+)", condition))
+
+
+def misspelled(condition: str) -> Iterator[tuple[str, str]]:
+    """Yield the variables and distributions that nobody knows, with the known ones that are near.
+
+    Args:
+        condition: A condition that follows the grammar.
+    """
+    from difflib import get_close_matches
+
+    tokens = [token for token in _tokens(condition) if token.kind != "paren"]
+    variables = {f"${name}" for name in VARIABLES}
+    for token in tokens:
+        if token.kind == "variable" and token.text not in variables:
+            yield from ((token.text, near) for near in get_close_matches(token.text, variables, 1))
+    compared = [*zip(tokens, tokens[2:], strict=False)]
+    for one, other in [*compared, *((other, one) for one, other in compared)]:
+        name = other.text.strip("\"'")
+        is_asked = one.text == f"${distributions.VARIABLE}" and other.kind in {"word", "text"}
+        if is_asked and name not in {*distributions.NAMES, *distributions.ENDED}:
+            near = get_close_matches(name.lower(), distributions.NAMES, 1, 0.75)
+            yield from ((name, known) for known in near)
 
 
 def _tokens(condition: str) -> list[_Token]:

@@ -19,11 +19,7 @@ from scaffold import distributions
 if TYPE_CHECKING:
     from scaffold.files.disk import Disk
 
-_DISTROS = frozenset(
-    {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "humble", "iron"}
-    | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
-    | {"jazzy", "kilted", "lyrical", "rolling"}
-)
+_DISTROS = distributions.ENDED.union(distributions.NAMES)
 MAX_BYTES = 50_000_000
 """Of one source; that of a distribution has less than one million."""
 
