@@ -57,8 +57,18 @@ NODES: Mapping[str, Mapping[str, str]] = {
     "base": {"node_kind": "tf2_broadcaster"},
     "finder": {"node_kind": "tf2_listener"},
     "mount": {"node_kind": "tf2_static_broadcaster"},
+    "teleop": {"node_kind": "keyboard_teleop"},
+    "manager": {"node_kind": "lifecycle_manager"},
+    "duo": {"node_kind": "composed_nodes"},
+    "mask": {"node_kind": "image_pipeline"},
+    "watcher": {"node_kind": "diagnostics"},
+    "device": {"node_kind": "serial_driver"},
+    "patrol": {"node_kind": "nav2_client"},
 }
-LIBRARIES = ("message_filters", "tf2_msgs", "tf2_ros", "tf2_py")
+LIBRARIES = (
+    *("cv_bridge", "diagnostic_updater", "message_filters", "nav2_simple_commander"),
+    *("serial", "tf2_msgs", "tf2_ros", "tf2_py"),
+)
 """What some kinds need and no wheel has."""
 NOTHING_TO_SEE = (
     r"get_logger|^\s*#|\"\"\"|super\(\)\.__init__\('|destroy|try_shutdown|SIGTERM|rclpy\.ok|"
@@ -175,7 +185,8 @@ def passes(directory: Path) -> subprocess.CompletedProcess[str]:
 
 def missing(text: str) -> list[str]:
     """Return the libraries that a node needs and that are not installed."""
-    return [name for name in LIBRARIES if re.search(rf"\b{name}\b", text) and not find_spec(name)]
+    imported = set(re.findall(r"^(?:from|import) (\w+)", text, re.MULTILINE))
+    return [name for name in LIBRARIES if name in imported and not find_spec(name)]
 
 
 def sample(sources: Mapping[str, str]) -> list[Mutant]:

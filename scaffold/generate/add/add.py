@@ -286,13 +286,28 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
 
 
 def _not_launched(package: Package, addition: Addition) -> Iterator[str]:
-    """Yield the launch file that starts other nodes of the package, but not a new one."""
+    """Yield which launch files start other nodes of the package, but not a new one."""
     program = addition.program
-    for path in launch_files(package) if program is not None and not addition.launch else ():
-        text = package.source(path).text
-        starts_others = re.search(rf"\b{re.escape(package.name)}\b", text) and "ode" in text
-        if program is not None and starts_others and not re.search(rf"\b{program.name}\b", text):
-            yield f"{path} does not start {program.name}: --launch {path} would add it"
+    if program is None or addition.launch:
+        return
+    others = [
+        path
+        for path in launch_files(package)
+        if _starts_others(package.source(path).text, package.name, program.name)
+    ]
+    if len(others) == 1:
+        yield f"{others[0]} does not start {program.name}: --launch {others[0]} would add it"
+    elif others:
+        yield (
+            f"{len(others)} launch files do not start {program.name}, such as {others[0]}: "
+            "--launch FILE would add it"
+        )
+
+
+def _starts_others(text: str, package: str, program: str) -> bool:
+    names_package = re.search(rf"\b{re.escape(package)}\b", text) is not None
+    names_program = re.search(rf"\b{re.escape(program)}\b", text) is not None
+    return names_package and "ode" in text and not names_program
 
 
 def _why_no_header(package: Package, made: Piece) -> str:

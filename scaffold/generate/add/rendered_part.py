@@ -107,7 +107,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
     """
     layout = layout_of(target.package)
     if wanted.template.role is Role.EXTRA:
-        return _extra(target, old, wanted, day)
+        return _extra(target, old, wanted, layout, day)
     part = {parts.KIND: wanted.template.name, "name": wanted.name}
     composed = _compose(target, {**wanted.given, parts.ADD: Given([part], "NAME")}, day)
     composed.context["is_added"] = True
@@ -162,7 +162,9 @@ def _launch_file(package: Package, given: str) -> str:
     return path
 
 
-def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | None) -> Piece:
+def _extra(
+    target: Target, old: Provenance | None, wanted: Wanted, layout: Layout, day: date | None
+) -> Piece:
     """Render an extra for the nodes that the package has, ours and those of others."""
     package, template = target.package, wanted.template
     recorded = update.recorded(old, target.templates, package.directory, []) if old else {}
@@ -174,7 +176,7 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
     context = composed.context
     existing = existing_nodes.find(package, context["nodes"], context["programs"])
     context["nodes"] = existing.nodes
-    rendered = _rendered(target, composed, [(template, context)])
+    rendered = _rendered(target, composed, [(template, context)], layout)
     if not rendered.files:
         raise InputError(
             f"{template.name} has nothing to write for {package.directory or package.name}: it "
@@ -182,13 +184,14 @@ def _extra(target: Target, old: Provenance | None, wanted: Wanted, day: date | N
         )
     addition = _described(composed, template, context, package.name, rendered)
     tests = filter(None, (composed.renderer.text(text, context) for text in template.tests))
-    addition = addition._replace(test=next(tests, None))
+    placed = (_placed(path, {_TESTS: layout.tests}) for path in tests)
+    addition = addition._replace(test=next(placed, None))
     readme = f"{template.name}/{_OF_README}{ENDING}"
     if composed.renderer.has(readme):
         macro = f"{{% import '{readme}' as readme with context %}}{{{{ readme.run() }}}}"
         text = composed.renderer.text(macro, context).strip("\n")
         addition = addition._replace(readme=f"## Run\n\n{text}\n" if text else "")
-    is_launch = any(path.startswith(LAUNCH) for path in rendered.files)
+    is_launch = template.needs_nodes and any(path.startswith(LAUNCH) for path in rendered.files)
     return Piece(template, composed, rendered, addition, existing.others if is_launch else ())
 
 
@@ -225,21 +228,17 @@ def _only(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
 
 
 def _rendered(
-    target: Target, composed: Composed, scopes: Sequence[_Scope], layout: Layout | None = None
+    target: Target, composed: Composed, scopes: Sequence[_Scope], layout: Layout
 ) -> Rendered:
-    """Render files alone; those of a part go where the package has such files."""
+    """Render files alone; programs and tests go where the package has such files."""
     rendered = composed.renderer.package(scopes)
     name = target.package.name
-    places = ((name, layout.programs), (_TESTS, layout.tests)) if layout else ()
 
     def place(path: str) -> str:
-        for old, new in places:
-            if path.startswith(f"{old}/"):
-                return f"{new}/{path.removeprefix(f'{old}/')}"
-        return path
+        return _placed(path, {name: layout.programs, _TESTS: layout.tests})
 
     files = {place(path): _without_gap(text) for path, text in rendered.files.items()}
-    if layout and any(path.startswith(f"{layout.programs}/") for path in files):
+    if any(path.startswith(f"{layout.programs}/") for path in files):
         files |= dict.fromkeys(layout.new_files, "")
     return Rendered(
         files,
@@ -247,6 +246,12 @@ def _rendered(
         {place(path): note for path, note in rendered.notes.items()},
         rendered.unread,
     )
+
+
+def _placed(path: str, places: Mapping[str, str]) -> str:
+    """Return a path in the directory that a package has instead of the usual one."""
+    directory, _, rest = path.partition("/")
+    return f"{places[directory]}/{rest}" if rest and directory in places else path
 
 
 def _without_gap(text: str) -> str:

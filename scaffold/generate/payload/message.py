@@ -16,7 +16,7 @@ from scaffold.model.interfaces.definitions import Definitions
 
 MAX_LINES = 24
 """Statements that a reader takes in."""
-MAX_CHECKS = 4
+MAX_CHECKS = 8
 MAX_CHECK = 84
 """Characters of an expression in a test."""
 MAX_LOG = 52
@@ -47,7 +47,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         statements=tuple(lines),
         log=words_.log,
         says=words_.says,
-        checks=tuple(check for check in words_.checks if len(check) <= MAX_CHECK)[:MAX_CHECKS],
+        checks=tuple(filter(is_short, words_.checks))[:MAX_CHECKS],
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
@@ -56,6 +56,11 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         is_changing=changes(lines),
         message=types.own_alias,
     )
+
+
+def is_short(check: str) -> bool:
+    """Tell whether the lines of a check fit into those of a test."""
+    return all(len(line) <= MAX_CHECK for line in check.splitlines())
 
 
 def _fill(types: Types) -> tuple[list[str], Walk]:

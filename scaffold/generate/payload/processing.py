@@ -26,15 +26,28 @@ class Process(NamedTuple):
     """Lines of a method: they fill ``msg`` from ``received``; where both have the same type,
     they change ``msg``, the message received."""
     check: str
-    """An expression that is true of a published ``message`` and the ``item`` that it is made of;
-    false if the node does not look at its input."""
+    """An expression that is true of a published ``message`` and the ``item`` that it is made of,
+    and of no other message, headers aside."""
     constant: str = ""
     """A line of the module."""
+    sent: str = ""
+    """Lines that change the ``msg`` that a test sends, where the usual values would hide errors:
+    equal ranges their minimum, a robot on the plane the height."""
 
     @property
     def lines(self) -> tuple[str, ...]:
         """The code, without the indentation of the table."""
-        return tuple(line for line in dedent(self.code).splitlines() if line.strip())
+        return _lines(self.code)
+
+    @property
+    def sent_lines(self) -> tuple[str, ...]:
+        """The lines of a test, without the indentation of the table."""
+        return _lines(self.sent)
+
+    @property
+    def expected(self) -> str:
+        """The check, without the indentation of the table."""
+        return dedent(self.check).strip()
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -55,6 +68,10 @@ class Process(NamedTuple):
     def is_counted(self) -> bool:
         """Whether the code uses ``self.count``, the number of messages published so far."""
         return "self.count" in self.code
+
+
+def _lines(code: str) -> tuple[str, ...]:
+    return tuple(line for line in dedent(code).splitlines() if line.strip())
 
 
 def of_pair(received: Payload, published: Payload) -> Process | None:
@@ -102,23 +119,32 @@ _NEAREST = """
     ]
     nearest = min(valid, default=received.range_max)  # meters
 """
+_OBSTACLE = """
+    msg.ranges[0] = 0.0  # no obstacle: too near to be measured
+    msg.ranges[1] = 1.2 * distance - 1.0  # the nearest obstacle
+"""
 _DISTANCE = Process(
     "the distance to the nearest obstacle",
     f"{_NEAREST}    msg.data = nearest\n",
-    "message.data == min(item.ranges)",
+    "message.data == item.ranges[1]",
+    sent=_OBSTACLE,
 )
 _APPROACH = """
     # Slow down in front of an obstacle, and stop at the distance STOP
     {target}.linear.x = min(MAX_SPEED, max(0.0, 0.5 * (nearest - STOP)))  # meters per second
 """
-_APPROACH_CHECK = "{}.linear.x == pytest.approx(min(0.5, 0.5 * (min(item.ranges) - 1.0)))"
+_APPROACH_CHECK = "{}.linear.x == pytest.approx(max(0.0, min(0.5, 0.5 * item.ranges[1] - 0.5)))"
 _SPEED = Process(
     "the speed over ground",
     """
     velocity = received.twist.twist.linear
     msg.data = math.hypot(velocity.x, velocity.y)  # meters per second
     """,
-    "message.data == pytest.approx(abs(item.twist.twist.linear.x))",
+    """
+    message.data == pytest.approx(
+        math.hypot(item.twist.twist.linear.x, item.twist.twist.linear.y))
+    """,
+    sent="msg.twist.twist.linear.y = 0.15",
 )
 _YAW = Process(
     "the heading of the sensor",
@@ -127,7 +153,14 @@ _YAW = Process(
     sine, cosine = 2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y**2 + q.z**2)
     msg.data = math.atan2(sine, cosine)  # radians, about the vertical axis
     """,
-    "abs(math.sin(message.data / 2.0)) == pytest.approx(abs(item.orientation.z), abs=1e-4)",
+    """
+    math.sin(message.data / 2.0) * item.orientation.w == pytest.approx(
+        math.cos(message.data / 2.0) * item.orientation.z, abs=1e-4)
+    """,
+    sent="""
+    q = msg.orientation
+    q.x, q.y, q.z, q.w = 0.6 * q.w, 0.6 * q.z, 0.8 * q.z, 0.8 * q.w  # rolled, same heading
+    """,
 )
 _COMPASS = Process(
     "the heading of the sensor, seen from magnetic north",
@@ -135,7 +168,10 @@ _COMPASS = Process(
     field = received.magnetic_field
     msg.data = math.atan2(-field.y, field.x)  # radians
     """,
-    "math.tan(message.data) == pytest.approx(-item.magnetic_field.y / item.magnetic_field.x)",
+    """
+    message.data == pytest.approx(
+        math.atan2(-item.magnetic_field.y, item.magnetic_field.x), abs=1e-4)
+    """,
 )
 _TELEOP = """
     if len(received.axes) >= 2:
@@ -169,8 +205,9 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/LaserScan", "std_msgs/Bool"): Process(
         "whether there is an obstacle near the sensor",
         f"{_NEAREST}    msg.data = nearest < STOP\n",
-        "message.data == min(item.ranges) < 1.0",
+        "message.data == (item.ranges[1] < 1.0)",
         "STOP = 1.0  # meters",
+        _OBSTACLE,
     ),
     ("sensor_msgs/LaserScan", "sensor_msgs/Range"): Process(
         "the distance to the nearest obstacle, as that of a range finder",
@@ -180,7 +217,14 @@ PROCESSES: dict[tuple[str, str], Process] = {
     msg.max_range = received.range_max
     msg.range = nearest
         """,
-        "message.range == min(item.ranges)",
+        """(
+            message.radiation_type == Range.INFRARED
+            and message.field_of_view == pytest.approx(item.angle_max - item.angle_min)
+            and message.min_range == item.range_min
+            and message.max_range == item.range_max
+            and message.range == item.ranges[1]
+        )""",
+        sent=_OBSTACLE,
     ),
     ("sensor_msgs/LaserScan", "sensor_msgs/LaserScan"): Process(
         "scans in which what is far away is out of range",
@@ -197,17 +241,23 @@ PROCESSES: dict[tuple[str, str], Process] = {
         _NEAREST + _APPROACH.format(target="msg"),
         _APPROACH_CHECK.format("message"),
         "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
+        _OBSTACLE,
     ),
     ("sensor_msgs/LaserScan", "geometry_msgs/TwistStamped"): Process(
         "a velocity that stops in front of obstacles",
         _NEAREST + _APPROACH.format(target="msg.twist"),
         _APPROACH_CHECK.format("message.twist"),
         "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
+        _OBSTACLE,
     ),
     ("sensor_msgs/Image", "sensor_msgs/Image"): Process(
         "negatives of the images received",
         "msg.data = bytes(255 - value for value in msg.data)",
-        "message.data[0] == 255 - item.data[0]",
+        """(
+            len(message.data) == len(item.data)
+            and message.data[0] == 255 - item.data[0]
+            and message.data[-1] == 255 - item.data[-1]
+        )""",
     ),
     ("sensor_msgs/Image", "std_msgs/Float32"): Process(
         "the mean brightness of the images received",
@@ -238,13 +288,19 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/Joy", "geometry_msgs/Twist"): Process(
         "a velocity that follows the left stick of a gamepad",
         _TELEOP.format(target="msg"),
-        "message.linear.x == pytest.approx(0.5 * item.axes[1])",
+        """(
+            message.linear.x == pytest.approx(0.5 * item.axes[1])
+            and message.angular.z == pytest.approx(item.axes[0])
+        )""",
         "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
     ),
     ("sensor_msgs/Joy", "geometry_msgs/TwistStamped"): Process(
         "a velocity that follows the left stick of a gamepad",
         _TELEOP.format(target="msg.twist"),
-        "message.twist.linear.x == pytest.approx(0.5 * item.axes[1])",
+        """(
+            message.twist.linear.x == pytest.approx(0.5 * item.axes[1])
+            and message.twist.angular.z == pytest.approx(item.axes[0])
+        )""",
         "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
     ),
     ("sensor_msgs/JointState", "std_msgs/Float64MultiArray"): Process(
@@ -261,16 +317,18 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/BatteryState", "std_msgs/Bool"): Process(
         "whether the battery is low",
         "msg.data = received.percentage < LOW",
-        "message.data == item.percentage < 0.2",
+        "message.data == (item.percentage < 0.2)",
         "LOW = 0.2  # of 1.0, a full battery",
+        "msg.percentage = self.count % 20 / 20.0",
     ),
     ("sensor_msgs/Range", "std_msgs/Float32"): _value("the distance measured", "range"),
     ("sensor_msgs/Range", "std_msgs/Float64"): _value("the distance measured", "range"),
     ("sensor_msgs/Range", "std_msgs/Bool"): Process(
         "whether there is something near the sensor",
         "msg.data = received.range < STOP",
-        "message.data == item.range < 0.5",
+        "message.data == (item.range < 0.5)",
         "STOP = 0.5  # meters",
+        "msg.range = self.count % 20 / 20.0",
     ),
     ("sensor_msgs/Temperature", "std_msgs/Float32"): _value("the temperature", "temperature"),
     ("sensor_msgs/Temperature", "std_msgs/Float64"): _value("the temperature", "temperature"),
@@ -303,7 +361,14 @@ PROCESSES: dict[tuple[str, str], Process] = {
         msg.transform.translation.z = received.pose.pose.position.z
         msg.transform.rotation = received.pose.pose.orientation
         """,
-        "message.transform.rotation == item.pose.pose.orientation",
+        """(
+            message.child_frame_id == item.child_frame_id
+            and message.transform.translation.x == item.pose.pose.position.x
+            and message.transform.translation.y == item.pose.pose.position.y
+            and message.transform.translation.z == item.pose.pose.position.z
+            and message.transform.rotation == item.pose.pose.orientation
+        )""",
+        sent="msg.pose.pose.position.z = 0.5",
     ),
     ("nav_msgs/OccupancyGrid", "std_msgs/Float32"): Process(
         "the part of the map that is occupied",
@@ -335,14 +400,22 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("geometry_msgs/Twist", "geometry_msgs/Twist"): Process(
         "the velocity, with slower turns",
         _LIMIT.format(target="msg"),
-        "message.angular.z == max(-0.5, min(0.5, item.angular.z))",
+        """(
+            message.linear == item.linear
+            and message.angular.z == max(-0.5, min(0.5, item.angular.z))
+        )""",
         "MAX_TURN = 0.5  # radians per second",
+        "msg.angular.z = self.count % 5 - 2.0",
     ),
     ("geometry_msgs/TwistStamped", "geometry_msgs/TwistStamped"): Process(
         "the velocity, with slower turns",
         _LIMIT.format(target="msg.twist"),
-        "message.twist.angular.z == max(-0.5, min(0.5, item.twist.angular.z))",
+        """(
+            message.twist.linear == item.twist.linear
+            and message.twist.angular.z == max(-0.5, min(0.5, item.twist.angular.z))
+        )""",
         "MAX_TURN = 0.5  # radians per second",
+        "msg.twist.angular.z = self.count % 5 - 2.0",
     ),
 }
 """By the short names of input and output."""

@@ -9,7 +9,7 @@ from scaffold.generate.payload import enums, words
 from scaffold.generate.payload.code import COUNTER, Block
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import Types
-from scaffold.generate.payload.message import MAX_CHECK, MAX_LINES, MAX_LOG, enumerated, joined
+from scaffold.generate.payload.message import MAX_LINES, MAX_LOG, enumerated, is_short, joined
 from scaffold.generate.payload.payloads import SectionPayload
 from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interfaces.syntax import Field, Section
@@ -161,7 +161,7 @@ def _payload(
         statements=tuple(lines),
         log=log,
         says=enumerated(names, "", 60) if names else "",
-        checks=tuple(check for check in checks if len(check) <= MAX_CHECK),
+        checks=tuple(filter(is_short, checks)),
         imports=lines_of_imports,
         packages=packages,
         is_stamped=any("self.frame_id" in line for line in lines),

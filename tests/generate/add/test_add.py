@@ -347,6 +347,28 @@ def test_fixtures_of_the_package_stay_as_they_are(demo: Path) -> None:
         assert "test_talker test/nodes/test_talker.py" in (demo / "CMakeLists.txt").read_text()
 
 
+def test_tests_go_where_the_package_has_its_own(tmp_path: Path) -> None:
+    demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye"))
+    cmake = demo / "CMakeLists.txt"
+    text = cmake.read_text().replace(
+        "ament_package()",
+        "if(BUILD_TESTING)\n"
+        "  find_package(ament_cmake_pytest REQUIRED)\n"
+        "  ament_add_pytest_test(test_eye tests/test_eye.py)\n"
+        "endif()\n\nament_package()",
+    )
+    cmake.write_text(text)
+    write(demo, {"tests/test_eye.py": "def test_eye():\n    pass\n"})
+    assert add(demo, "publisher", "talker") == 0
+    assert add(demo, "launch_test") == 0
+    assert {file.name for file in (demo / "tests").iterdir()} >= {
+        "test_launch.py",
+        "test_talker.py",
+    }
+    assert not (demo / "test").exists()
+    assert "tests/test_launch.py" in cmake.read_text()
+
+
 def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = read(demo)
     assert add(demo, "publisher", "talker", "--diff") == 0
@@ -854,6 +876,21 @@ def test_a_launch_file_is_edited_only_when_it_is_named(
         assert add(demo, "publisher", "talker", "--launch", named) == 0
         assert launched(demo) == ["executable='first.py'", "executable='talker.py'"]
     assert path.read_text().count("namespace=LaunchConfiguration('namespace'),") == 2
+
+
+def test_several_launch_files_without_a_node_are_one_note(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye"))
+    assert add(demo, "launch") == 0
+    path = demo / "launch" / "demo.launch.py"
+    (demo / "launch" / "other.launch.py").write_text(path.read_text())
+    capsys.readouterr()
+    assert add(demo, "publisher", "talker") == 0
+    assert capsys.readouterr().err == (
+        "note: 2 launch files do not start talker.py, such as launch/demo.launch.py: "
+        "--launch FILE would add it\n"
+    )
 
 
 def test_launch_starts_programs_that_use_rclcpp(

@@ -135,7 +135,7 @@ def _wanted(publisher: Publisher) -> dict[str, object]:
     payload = publisher.payload
     return {
         "topic": publisher.topic,
-        "import": payload.import_line,
+        "import": "\n".join([payload.import_line, *payload.check_imports]),
         "name": payload.name,
         "checks": payload.checks,
         "messages": MESSAGES,

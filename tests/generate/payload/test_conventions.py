@@ -56,7 +56,7 @@ def test_each_process_can_be_compiled(received: str, published: str) -> None:
     process = payload.payload(received).processed(payload.payload(published))
     assert process is not None
     compile("\n".join([*process.constants, *process.lines]), received, "exec")
-    compile(process.check, received, "eval")
+    compile(process.expected, received, "eval")
     assert "item" in process.check
     assert "message" in process.check
 

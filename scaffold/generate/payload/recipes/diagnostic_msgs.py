@@ -24,6 +24,12 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "[status.name for status in message.status] == ['motor']",
             "message.status[0].message in ('ok', 'hot')",
+            (
+                "(message.status[0].level == DiagnosticStatus.WARN) == (\n"
+                "    message.status[0].message == 'hot')"
+            ),
+            "message.status[0].hardware_id == 'motor_1'",
+            "30.0 <= float(message.status[0].values[0].value) <= 50.0",
         ),
         frame="",
     ),

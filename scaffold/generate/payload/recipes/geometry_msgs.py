@@ -79,7 +79,11 @@ RECIPES: dict[str, Recipe] = {
         log="x {msg.position.x:.2f} m, y {msg.position.y:.2f} m",
         checks=(
             "message.position.x**2 + message.position.y**2 == pytest.approx(1.0)",
-            "message.orientation.z**2 + message.orientation.w**2 == pytest.approx(1.0)",
+            (
+                "message.position.x == pytest.approx(\n"
+                "    2.0 * message.orientation.z * message.orientation.w, abs=1e-6)"
+            ),
+            "message.position.y == pytest.approx(2.0 * message.orientation.z**2 - 1.0, abs=1e-6)",
         ),
         frame="map",
     ),
@@ -123,8 +127,15 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="x {msg.pose.position.x:.2f} m",
         checks=(
-            "-1.0 <= message.pose.position.x <= 1.0",
-            "message.covariance[35] > 0.0",
+            (
+                "message.pose.position.x == pytest.approx(\n"
+                "    2.0 * message.pose.orientation.z * message.pose.orientation.w, abs=1e-6)"
+            ),
+            (
+                "message.pose.position.y == pytest.approx(\n"
+                "    2.0 * message.pose.orientation.z**2 - 1.0, abs=1e-6)"
+            ),
+            "message.covariance[35] == 0.01",
         ),
         frame="map",
     ),

@@ -88,8 +88,16 @@ RECIPES: dict[str, Recipe] = {
         log="x {msg.pose.pose.position.x:.2f} m",
         checks=(
             "message.child_frame_id == 'base_link'",
-            "-1.0 <= message.pose.pose.position.x <= 1.0",
-            "message.pose.covariance[35] > 0.0",
+            (
+                "message.pose.pose.position.x == pytest.approx(\n"
+                "    2.0 * message.pose.pose.orientation.z * message.pose.pose.orientation.w,\n"
+                "    abs=1e-6)"
+            ),
+            (
+                "message.pose.pose.position.y == pytest.approx(\n"
+                "    2.0 * message.pose.pose.orientation.z**2, abs=1e-6)"
+            ),
+            "message.pose.covariance[35] == message.twist.covariance[0] == 0.01",
         ),
     ),
     "Path": Recipe(
@@ -99,6 +107,8 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "len(message.poses) == 5",
             "all(pose.header == message.header for pose in message.poses)",
+            "[pose.pose.position.x for pose in message.poses] == [0.0, 1.0, 2.0, 3.0, 4.0]",
+            "len({pose.pose.position.y for pose in message.poses}) == 5",
         ),
     ),
 }

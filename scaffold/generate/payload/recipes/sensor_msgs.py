@@ -32,7 +32,15 @@ RECIPES: dict[str, Recipe] = {
             msg.present = True
         """,
         log="{msg.percentage:.1%}, {msg.voltage:.2f} V",
-        checks=("0.0 < message.percentage <= 1.0", "9.9 <= message.voltage <= 12.7"),
+        checks=(
+            "0.0 < message.percentage <= 1.0",
+            "9.9 <= message.voltage <= 12.7",
+            "message.voltage == pytest.approx(sum(message.cell_voltage))",
+            "message.charge == pytest.approx(message.percentage * message.capacity)",
+            "message.power_supply_status == BatteryState.POWER_SUPPLY_STATUS_DISCHARGING",
+            "message.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_GOOD",
+            "message.power_supply_technology == BatteryState.POWER_SUPPLY_TECHNOLOGY_LION",
+        ),
     ),
     "CameraInfo": Recipe(
         says="the calibration of a camera without distortion",
@@ -163,6 +171,8 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "message.name == ['shoulder', 'elbow']",
             "len(message.position) == len(message.velocity) == len(message.effort) == 2",
+            "message.position[0] == -message.position[1]",
+            "math.hypot(message.position[0], 5.0 * message.velocity[0]) == pytest.approx(1.0)",
         ),
         frame="",
     ),
@@ -174,7 +184,12 @@ RECIPES: dict[str, Recipe] = {
             msg.buttons = [self.count % 2, 0, 0, 0]  # 1: pressed
         """,
         log="axes {msg.axes[0]:.2f} {msg.axes[1]:.2f}",
-        checks=("len(message.axes) == len(message.buttons) == 4", "message.buttons[0] in (0, 1)"),
+        checks=(
+            "len(message.axes) == len(message.buttons) == 4",
+            "message.axes[0] == -message.axes[1]",
+            "-1.0 <= message.axes[0] <= 1.0",
+            "message.buttons[0] in (0, 1)",
+        ),
         frame="",
     ),
     "JoyFeedback": Recipe(
@@ -219,7 +234,11 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "len(message.ranges) == len(message.intensities) == 360",
             "all(1.0 <= distance <= 3.0 for distance in message.ranges)",
-            "message.angle_max > message.angle_min",
+            "message.angle_min == pytest.approx(-math.pi)",
+            "message.angle_max == pytest.approx(math.pi - message.angle_increment, abs=1e-4)",
+            "message.angle_increment == pytest.approx(math.tau / 360)",
+            "message.time_increment == pytest.approx(message.scan_time / 360)",
+            "message.intensities[0] == 100.0",
         ),
     ),
     "MagneticField": Recipe(
@@ -232,7 +251,11 @@ RECIPES: dict[str, Recipe] = {
             msg.magnetic_field_covariance[::4] = 1e-12  # the diagonal
         """,
         log="x {msg.magnetic_field.x * 1e6:.1f} uT",
-        checks=("message.magnetic_field.z == -4e-5", "message.magnetic_field_covariance[0] > 0.0"),
+        checks=(
+            "math.hypot(message.magnetic_field.x, message.magnetic_field.y) == pytest.approx(2e-5)",
+            "message.magnetic_field.z == -4e-5",
+            "message.magnetic_field_covariance[0] > 0.0",
+        ),
     ),
     "MultiDOFJointState": Recipe(
         says="the state of a joint that floats and circles",
@@ -283,6 +306,9 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "message.latitude == pytest.approx(48.137, abs=1e-3)",
             "message.longitude == pytest.approx(11.575, abs=1e-3)",
+            "message.status.status == NavSatStatus.STATUS_FIX",
+            "message.status.service == NavSatStatus.SERVICE_GPS",
+            "list(message.position_covariance[::4]) == [4.0, 4.0, 4.0]",
             "message.position_covariance_type == NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN",
         ),
     ),
@@ -328,6 +354,7 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "[field.name for field in message.fields] == ['x', 'y', 'z']",
             "len(message.data) == message.height * message.row_step == 100 * 12",
+            "math.hypot(*struct.unpack('<ff', bytes(message.data[:8]))) == pytest.approx(1.0)",
         ),
     ),
     "PointField": Recipe(

@@ -21,6 +21,8 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "len(message.points) == 3",
             "all(len(point.positions) == len(message.joint_names) for point in message.points)",
+            "all(list(point.velocities) == [0.0, 0.0] for point in message.points)",
+            "[point.time_from_start.sec for point in message.points] == [0, 1, 2]",
         ),
     ),
     "JointTrajectoryPoint": Recipe(

@@ -155,6 +155,10 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "[marker.id for marker in message.markers] == [0, 1, 2]",
             "all(marker.header.stamp.sec > 0 for marker in message.markers)",
+            "{marker.type for marker in message.markers} == {Marker.SPHERE}",
+            "len({marker.pose.position.x for marker in message.markers}) == 3",
+            "len({marker.pose.position.y for marker in message.markers}) == 3",
+            "all(marker.scale.x == 0.2 and marker.color.r == 1.0 for marker in message.markers)",
         ),
     ),
     "MenuEntry": Recipe(

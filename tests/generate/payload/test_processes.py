@@ -1,0 +1,106 @@
+"""What nodes make of messages, and whether the tests of these nodes would see it done wrong."""
+
+# ruff: noqa: S102  messages of rclpy have no types, and the code is what is tested
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from textwrap import indent
+from typing import Any
+
+import pytest
+
+from scaffold.generate import payload
+from scaffold.generate.payload import Payload
+from scaffold.generate.payload.processing import PROCESSES, Process
+from tests.generate.payload.test_payload import Node, transported
+
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),  # of lark
+    pytest.mark.skipif(
+        find_spec("rclpy") is None, reason="no ROS 2: install the extra 'ros' of this project"
+    ),
+]
+COUNT = 60
+"""As many messages as a generated test looks at."""
+ERRORS = (
+    (r"\bmin\(", "max("),
+    (r"\bmax\(", "min("),
+    (r"\bsin\(", "cos("),
+    (r" \+ ", " - "),
+    (r" - ", " + "),
+    (r" -= ", " += "),
+    (r" < ", " > "),
+    (r" <= ", " >= "),
+    (r" / ", " * "),
+    (r"\bx\b", "y"),
+    (r"\by\b", "z"),
+    (r"^( *)(\w\S* = .*)", r"\1pass"),
+    (r"\b(?!0\.0\b)(\d+\.\d+)", r"2.0 * \1"),
+    (r"\bif (?!not )", "if not "),
+    (r"axes\[1\]", "axes[0]"),
+    (r"linear\b", "angular"),
+)
+"""What somebody who changes the code could get wrong, in one place."""
+
+
+def source(line: str, head: str, lines: Sequence[str], result: str) -> str:
+    """Return a function, after a line of its module."""
+    return f"{line}\ndef {head}:\n{indent(chr(10).join(lines), '    ')}\n    return {result}\n"
+
+
+def run(
+    received: Payload, published: Payload, process: Process, constant: str, lines: Sequence[str]
+) -> bool:
+    """Tell whether all that a node publishes passes the check of its test."""
+    names: dict[str, Any] = {"pytest": pytest}
+    imports = [*received.imports, *published.imports, "import math"]
+    exec("\n".join([*imports, *received.constants, *published.constants]), names)
+    sent = [f"msg = {received.name}()", *received.statements, *process.sent_lines]
+    exec(source("", "send(self)", sent, "msg"), names)
+    is_same = received.type == published.type
+    start = "msg = received" if is_same else f"msg = {published.name}()"
+    exec(source(constant, "process(self, received)", [start, *lines], "msg"), names)
+    exec(source("", "is_right(message, item)", [f"return {process.expected}"], "None"), names)
+    node, results = Node(), []
+    for node.count in range(COUNT):
+        item = transported(names["send"](node))
+        message = transported(names["process"](node, transported(item)))
+        results.append(names["is_right"](message, item))
+    return all(results)
+
+
+def mistakes(process: Process) -> Iterator[tuple[str, list[str]]]:
+    """Yield the constant and the code of a process with an error in one line."""
+    lines = [process.constant, *process.lines]
+    for at, line in enumerate(lines):
+        changed = {re.sub(old, new, line, count=1) for old, new in ERRORS} - {line}
+        for other in sorted(changed):
+            broken = [*lines[:at], other, *lines[at + 1 :]]
+            try:
+                unchanged = ast.dump(ast.parse("\n".join(broken))) == ast.dump(
+                    ast.parse("\n".join(lines))
+                )
+            except SyntaxError:
+                continue
+            if not unchanged:
+                yield broken[0], broken[1:]
+
+
+@pytest.mark.parametrize(("received", "published"), sorted(PROCESSES))
+def test_a_process_passes_its_check_and_what_is_broken_does_not(
+    received: str, published: str
+) -> None:
+    item, message = payload.payload(received), payload.payload(published)
+    process = item.processed(message)
+    assert process is not None
+    assert run(item, message, process, process.constant, process.lines)
+    for constant, lines in mistakes(process):
+        try:
+            is_accepted = run(item, message, process, constant, lines)
+        except Exception:  # noqa: BLE001, S112  a node that ends is seen by every test
+            continue
+        assert not is_accepted, [constant, *lines]
