@@ -16,6 +16,7 @@ from scaffold.model.cmake.parser import Argument, Command
 Edits = tuple[Edit, ...]
 
 _INDENT = "  "
+_LONG_LINE = 100
 
 
 def insert_find_package(lists: CMakeLists, name: str, *, testing: bool = False) -> Edits | None:
@@ -137,6 +138,10 @@ def append_arguments(
     else:
         text = "".join(f" {value}" for value in added)
         at = last.end
+        line = source.text[start:].partition("\n")[0].rstrip()
+        if len(line + text) > _LONG_LINE:
+            margin = f"{source.newline}{_indent_of(lists, command)}{_INDENT}"
+            text = "".join(f"{margin}{value}" for value in added)
     return (Edit(source.path, at, at, text),)
 
 

@@ -369,6 +369,19 @@ def test_tests_go_where_the_package_has_its_own(tmp_path: Path) -> None:
     assert "tests/test_launch.py" in cmake.read_text()
 
 
+def test_a_line_with_programs_does_not_grow_without_end(tmp_path: Path) -> None:
+    demo = write(tmp_path / "demo", with_nodes(CMAKE, "scripts", "first=eye"))
+    cmake = demo / "CMakeLists.txt"
+    for name in ("talker", "listener", "watcher", "speaker", "follower"):
+        assert add(demo, "timer", f"timer_of_the_{name}") == 0
+    lines = cmake.read_text().splitlines()
+    assert "scripts/timer_of_the_follower.py" in cmake.read_text()
+    assert max(map(len, lines)) <= 100
+    after = cmake.read_text()
+    assert add(demo, "timer", "timer_of_the_talker") == 0
+    assert cmake.read_text() == after
+
+
 def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = read(demo)
     assert add(demo, "publisher", "talker", "--diff") == 0
