@@ -17,6 +17,7 @@ from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.manifest import conditions
 from scaffold.model.rclpy.api import names_of
 from scaffold.types.stubs import library_stubs
+from scripts import bundle_distribution
 
 ROOT = Path(__file__).parent.parent
 DATA = ROOT / "scaffold" / "data"
@@ -273,6 +274,23 @@ def test_a_distribution_without_data_is_taken_for_the_next_one() -> None:
     found = {name: nearest(name).name for name in ("foxy", "iron", "kilted", "rolling", "mellow")}
     expected = {"foxy": "humble", "iron": "jazzy", "kilted": "kilted", "rolling": "rolling"}
     assert found == {**expected, "mellow": ORDER[-1]}
+
+
+def test_the_facts_of_a_new_distribution_are_those_of_the_one_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ORDER:
+        (tmp_path / name).mkdir()
+        for file in (DATA / name).glob("*.*"):
+            (tmp_path / name / file.name).write_bytes(file.read_bytes())
+    (tmp_path / "mellow").mkdir()
+    monkeypatch.setattr(bundle_distribution, "DATA", tmp_path)
+    copied = [*bundle_distribution.with_facts("mellow")]
+    assert copied == ["profile.toml", "standard_library.txt"]
+    for file_name in copied:
+        before = (DATA / ORDER[-1] / file_name).read_text()
+        assert (tmp_path / "mellow" / file_name).read_text() == before
+    assert [*bundle_distribution.with_facts("mellow")] == []
 
 
 def test_the_pages_are_current(tmp_path: Path) -> None:
