@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule, Report
 from scaffold.api.distributions import target
-from scaffold.api.rclpy import RclpyFile, Subscription
+from scaffold.api.python import PythonModule
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "from collections import deque\n\nfrom rclpy.node import Node\nfrom std_msgs.msg import String"
@@ -19,7 +20,7 @@ _NODE = (
 )
 
 
-class CallbackWithoutSignature(RclpyRule):
+class CallbackWithoutSignature(PythonRule):
     """A subscription calls a method of a deque or a set, whose signature Python does not know.
 
     **Why.** From Jazzy on, rclpy asks Python for the signature, to see whether the callback takes
@@ -52,6 +53,24 @@ class CallbackWithoutSignature(RclpyRule):
             distro="lyrical",
         ),
         Example(
+            "a node of a class",
+            {
+                "test_listener.py": "from collections import deque\nimport unittest\n\n"
+                "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+                "class TestListener(unittest.TestCase):\n"
+                "    @classmethod\n"
+                "    def setUpClass(cls):\n"
+                "        cls.node = Node('listener')\n"
+                "        cls.heard = deque(maxlen=4)\n"
+                "        cls.node.create_subscription(String, 'chatter', cls.heard.append, 10)\n"
+            },
+            Report(
+                "13:57",
+                "Python 3.12 knows no signature of 'collections.deque.append': "
+                "rclpy raises ValueError; pass lambda msg: cls.heard.append(msg)",
+            ),
+        ),
+        Example(
             "a deque",
             {"listener.py": _NODE.format("deque()", "self.heard.append")},
             Report(
@@ -62,21 +81,36 @@ class CallbackWithoutSignature(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         unknown = target().fact("callbacks.without_signature")
-        if not unknown or not file.module.mentions(*{name.rpartition(".")[2] for name in unknown}):
+        if not unknown or not module.mentions("create_subscription"):
             return
-        for entity, callback in file.callbacks:
-            if not isinstance(entity, Subscription):
-                continue
-            method = _method(file, callback.node)
+        if not module.mentions(*{name.rpartition(".")[2] for name in unknown}):
+            return
+        file = RclpyFile.of(module)
+        if not file.uses_rclpy:
+            return
+        for callback in _callbacks(file):
+            method = _method(file, callback)
             if method in unknown:
-                text = file.module.text(callback.node)
+                text = module.text(callback)
                 message = (
                     f"Python {target().python_version} knows no signature of '{method}': rclpy "
                     f"raises ValueError; pass lambda msg: {text}(msg)"
                 )
-                yield self.report(callback, message)
+                yield self.report(module.location(callback), message)
+
+
+def _callbacks(file: RclpyFile) -> Iterator[ast.expr]:
+    """Yield the callbacks of subscriptions, whatever the node is that makes them."""
+    for call in file.module.walk(ast.Call):
+        match call:
+            case ast.Call(
+                func=ast.Attribute(attr="create_subscription"), args=[_, _, callback, *_]
+            ):
+                yield callback
+            case ast.Call(func=ast.Attribute(attr="create_subscription"), keywords=keywords):
+                yield from (item.value for item in keywords if item.arg == "callback")
 
 
 def _method(file: RclpyFile, node: ast.expr) -> str:

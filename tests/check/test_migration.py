@@ -292,3 +292,26 @@ def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
     node = "from rclpy.node import Node\n"
     assert (package / "ordered.py").read_text() == handler + node
     assert (package / "unordered.py").read_text() == handler + "import rclpy\n"
+
+
+def test_a_message_is_printed_once_with_the_other_lines_below(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    node = workspace / "twenty" / "twenty" / "node.py"
+    capsys.readouterr()
+    main(["migrate", "--to", "lyrical"])
+    lines = capsys.readouterr().out.splitlines()
+    (at,) = (number for number, line in enumerate(lines) if "RcutilsLogger.warn was" in line)
+    numbers = [
+        number for number, line in enumerate(node.read_text().splitlines(), 1) if ".warn(" in line
+    ]
+    assert f"twenty/node.py:{numbers[0]}:" in lines[at]
+    also = ", ".join(map(str, numbers[1:]))
+    assert lines[at + 1].strip() == f"also twenty/twenty/node.py:{also}"
+
+
+def test_a_move_to_the_same_under_another_name_says_so(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["migrate", str(workspace), "--from", "lyrical", "--to", "rolling"]) == 2
+    assert "already, which is the same as Rolling for Python packages" in capsys.readouterr().err

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from scaffold.diagnostic import Diagnostic
     from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
+    from scaffold.model.package import Package
 
 HEADINGS = ("breaks", "changes silently", "deprecated")
 COUNTED = ("break", "change silently", "deprecated")
@@ -132,9 +133,11 @@ def _origin(
             candidates += default  # they have been moved before, which may be repeated
     others = [item for item in candidates if item.place != target.place]
     if not others:
-        raise InputError(
-            f"the packages are for {target.title} already: --from names where they come from"
-        )
+        last = candidates[-1]
+        message = f"the packages are for {last.title} already"
+        if last.name != target.name:
+            message += f", which is the same as {target.title} for Python packages"
+        raise InputError(f"{message}: --from names where they come from")
     return distributions.ordered(others)[0]
 
 
@@ -178,12 +181,12 @@ def _move(directories: Sequence[str], targets: Sequence[Distribution], settings:
                 "what its templates have for that"
             )
     named = distro.wanted(None, settings)
-    if named != [*targets] if named else has_others:
+    usual = named or [distributions.named(distributions.DEFAULT)]
+    if usual != [*targets] and (named or has_others):
         names = ",".join(target.name for target in targets)
-        usual = distributions.titles(named or [distributions.named(distributions.DEFAULT)])
         terminal.note(
-            f"`check` without --distro checks for {usual}: set {distro.KEY} of the configuration, "
-            f"or pass --distro {names}"
+            f"`check` without --distro checks for {distributions.titles(usual)}: set {distro.KEY} "
+            f"of the configuration, or pass --distro {names}"
         )
     return has_failed
 
@@ -215,7 +218,6 @@ def _lines(
     consequences: Sequence[Consequences], origin: Distribution, target: Distribution
 ) -> Iterator[str]:
     """Yield the report: packages with what happens to them, then the counts."""
-    from scaffold.reporters import text
     from scaffold.reporters.summary import count, fixable
 
     for item in consequences:
@@ -226,7 +228,7 @@ def _lines(
         for heading, diagnostics in groups:
             if diagnostics:
                 yield f"  {heading}:"
-                yield from (f"    {text.line(item.result.package, one)}" for one in diagnostics)
+                yield from (f"    {line}" for line in _folded(item.result.package, diagnostics))
     totals = [sum(len(item[at]) for item in consequences) for at in range(1, 4)]
     counts = zip(totals, COUNTED, strict=True)
     named = ", ".join(f"{number} {state}" for number, state in counts)
@@ -237,6 +239,24 @@ def _lines(
     ]
     fixes = fixable(every, unsafe=False)
     yield "; ".join([*parts, fixes] if fixes else parts)
+
+
+def _folded(package: Package, diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
+    """Yield each message once, and for each file the other lines that it is about."""
+    from scaffold.printable import printable
+    from scaffold.reporters import text
+    from scaffold.reporters.paths import shown
+
+    same: dict[tuple[str, str], list[Diagnostic]] = {}
+    for item in diagnostics:
+        same.setdefault((item.code, item.text), []).append(item)
+    for first, *others in same.values():
+        yield text.line(package, first)
+        lines: dict[str, list[str]] = {}
+        for item in others:
+            lines.setdefault(item.location.path, []).append(str(item.location.line))
+        for path, numbers in lines.items():
+            yield f"    also {printable(shown(package, path))}:{', '.join(numbers)}"
 
 
 def _as_data(
