@@ -24,6 +24,22 @@ _CODE = (
     "        self.count += 1\n"
     "        return Bool(data={}), String(data={})\n"
 )
+_SCAN = (
+    "import numpy as np\nfrom rclpy.node import Node\nfrom sensor_msgs.msg import LaserScan\n"
+    "from std_msgs.msg import Float64\n\n\n"
+    "class Watch(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('watch')\n"
+    "        self.publisher = self.create_publisher(Float64, 'nearest', 10)\n"
+    "        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)\n\n"
+    "    def on_scan(self, scan):\n"
+    "        near = np.array(scan.ranges)[10:20]\n"
+    "        self.publisher.publish(Float64(data={}))\n"
+    "        self.publisher.publish(Float64(data={}))\n"
+    "        message = Float64()\n"
+    "        message.data = {}\n"
+    "        return message, near\n"
+)
 _RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{self.count}'")
 
 
@@ -55,6 +71,40 @@ class FieldValueUnfit(MessageRule):
                 .format(*_RIGHT)
                 .replace("min(self.count, 255)", "self.count")
             },
+        ),
+        Example(
+            "numbers of numpy",
+            {
+                "watch.py": _SCAN.format(
+                    "float(np.min(scan.ranges))",
+                    "np.mean(np.array(scan.ranges, dtype=np.float64))",
+                    "min(scan.ranges)",
+                )
+            },
+        ),
+        Example(
+            "the smallest range as numpy has it",
+            {
+                "watch.py": _SCAN.format(
+                    "np.min(scan.ranges)", "np.array(scan.ranges).mean()", "np.max(near)"
+                )
+            },
+            Report(
+                "15:45",
+                "'data' of std_msgs/msg/Float64 is float64, but np.min(scan.ranges) "
+                "is a numpy.float32, not a float; write float(...)",
+            ),
+            Report(
+                "16:45",
+                "'data' of std_msgs/msg/Float64 is float64, but "
+                "np.array(scan.ranges).mean() is a numpy.float32, not a float; "
+                "write float(...)",
+            ),
+            Report(
+                "18:24",
+                "'data' of std_msgs/msg/Float64 is float64, but np.max(near) is a "
+                "numpy.float32, not a float; write float(...)",
+            ),
         ),
         Example(
             "a str for a float, 8 of 9 elements, an 8-bit counter, an int for a bool and a str",

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.messages.inference import Assigned, MessageTypes
+from scaffold.model.messages.numpy_values import numpy_class
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
 
@@ -63,18 +64,6 @@ _OF_TEXT = {
     "splitlines": "list",
 }
 """What methods of a text return."""
-_OF_NUMPY: Mapping[str, tuple[str, str]] = {
-    "numpy.float16": ("float", "numpy.float16"),
-    "numpy.float32": ("float", "numpy.float32"),
-    "numpy.bool_": ("bool", "numpy.bool_"),
-    "numpy.all": ("bool", "numpy.bool_"),
-    "numpy.any": ("bool", "numpy.bool_"),
-}
-"""Which class of numpy functions return, and the type of Python that it looks like.
-
-Humble refuses its objects with an AssertionError; later the C code of a message takes them for
-what they look like, and other values arrive. A ``numpy.float64`` is a float.
-"""
 _NUMBERS = frozenset({"int", "float"})
 _DEPTH = 8
 _SMALL = frozenset({"int8", "uint8", "byte", "char", "int16", "uint16"})
@@ -344,11 +333,7 @@ class TypeMismatches:
 
     def _object_of_numpy(self, type_: FieldType, node: ast.expr) -> str | None:
         """Report a number or truth value of numpy that is not one of Python."""
-        value = self._types.facts.evaluator.single_value(node)
-        if not isinstance(value, ast.Call) or value.keywords or len(value.args) != 1:
-            return None
-        name = self._types.module.qualified_name(value.func) or ""
-        python, class_ = _OF_NUMPY.get(name, ("", ""))
+        python, class_ = numpy_class(self._types, node) or ("", "")
         if python != ("float" if type_.name in FLOATS else type_.name):
             return None
         return f"{self._shown(node)} is a {class_}, not a {python}; write {python}(...)"

@@ -1,0 +1,69 @@
+"""Values of numpy that fields of messages do not take for numbers of Python."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.messages.inference import MessageTypes
+
+_SINGLE = ("float", "numpy.float32")
+_MADE: Mapping[str, tuple[str, str]] = {
+    "numpy.float16": ("float", "numpy.float16"),
+    "numpy.float32": _SINGLE,
+    "numpy.bool_": ("bool", "numpy.bool_"),
+    "numpy.all": ("bool", "numpy.bool_"),
+    "numpy.any": ("bool", "numpy.bool_"),
+}
+"""Which class of numpy functions return, and the type of Python that it looks like.
+
+Humble refuses its objects with an AssertionError; later the C code of a message takes them for
+what they look like, and other values arrive. A ``numpy.float64`` is a float.
+"""
+_REDUCING = frozenset(
+    {"amax", "amin", "max", "mean", "median", "min", "nanmax", "nanmean", "nanmin", "std", "sum"}
+)
+"""Functions, and methods of an array, that return one number of the type of its elements."""
+_ARRAYS = frozenset({"numpy.array", "numpy.asarray"})
+_DEEPEST = 6
+"""Names, slices and copies that one array comes from."""
+
+
+def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
+    """Return the type of Python that a value looks like, and the class of numpy that it has."""
+    value = types.facts.evaluator.single_value(node)
+    if not isinstance(value, ast.Call) or value.keywords:
+        return None
+    name = types.module.qualified_name(value.func) or ""
+    if len(value.args) == 1:
+        root, _, function = name.rpartition(".")
+        if root == "numpy" and function in _REDUCING:
+            return _SINGLE if _is_single_precision(types, value.args[0]) else None
+        return _MADE.get(name)
+    match value:
+        case ast.Call(func=ast.Attribute(attr=method, value=array), args=[]) if (
+            method in _REDUCING and _is_single_precision(types, array)
+        ):
+            return _SINGLE
+    return None
+
+
+def _is_single_precision(types: MessageTypes, node: ast.expr) -> bool:
+    """Tell whether numpy makes an array of 32-bit floats of a field, as those of its elements."""
+    for _ in range(_DEEPEST):
+        node = types.facts.evaluator.single_value(node)
+        field = types.field_type_of(node)
+        if field is not None:
+            return field.name == "float32" and field.is_array
+        match node:
+            case ast.Subscript(value=value):
+                node = value
+            case ast.Call(func=func, args=[value], keywords=[]) if (
+                types.module.qualified_name(func) in _ARRAYS
+            ):
+                node = value
+            case _:
+                return False
+    return False
