@@ -74,13 +74,13 @@ def _run(given: list[str]) -> int:
         terminal.show(f"ros2-scaffold {__version__}")
         sys.exit(CLEAN)
     verb = next((word for word in given if not word.startswith("-")), "")
-    slot = runs.CacheEntry.of(given) if verb == "check" else None
-    last = slot.last if slot is not None else None
-    if last is not None and last.is_current():
+    entry = runs.ReportEntry.of(given) if verb == "check" else None
+    last = entry.current() if entry is not None else None
+    if last is not None:
         # Before argparse: laying out the flags takes longer than looking at a small package.
         for warning in last.warnings:
             terminal.warn(warning)
-        terminal.write_report(last.output or "")
+        terminal.write_report(last.output)
         return last.code
     from importlib import import_module
 
@@ -88,7 +88,7 @@ def _run(given: list[str]) -> int:
 
     parser = build_parser(verb, comes_first=given[:1] == [verb], words=given)
     options = parser.parse_args(given)
-    options.slot = slot
+    options.entry = entry
     os.getcwd()  # if it was removed, each verb would report something else
     return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
 

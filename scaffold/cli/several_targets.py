@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Mapping, Sequence
 
-    from scaffold.check.cache.runs import CachedRun, CacheEntry
+    from scaffold.check.cache.runs import RunEntry
     from scaffold.check.result import Result
     from scaffold.check.several import AgreedSession
     from scaffold.configuration.config import Config
@@ -53,7 +53,7 @@ class SeveralTargets:
         self._by_record = by_record
         self._is_mixed = len({tuple(named) for named in by_record.values()}) > 1
         self._targets: Sequence[Target] = ()
-        self._runs: list[CachedRun | None] = []
+        self._runs: list[RunEntry] = []
 
     def run(self) -> int:
         """Check, or fix; return the exit code."""
@@ -164,16 +164,16 @@ class SeveralTargets:
                     change = Since(directory, options.since, self._targets)
                     self._targets = change.targets()
                 every += self._targets
-                slot = None if change else self._slot(distribution)
+                entry = None if change else self._entry(distribution)
                 memory = ResultCache(
-                    slot.last if slot else None, self._targets, is_saved=slot is not None
+                    entry.last if entry else None, self._targets, is_saved=entry is not None
                 )
                 results = list(progress.shown(memory.run(session), len(self._targets), "packages"))
                 if change is not None:
                     results, since_notes[distribution] = change.limit(results, session)
                 by_distribution[distribution] = results
-                if slot is not None and not session.types_failure:
-                    self._runs.append(memory.save(slot, self._disk, results, 0, None))
+                if entry and not session.types_failure and memory.save(entry, self._disk, results):
+                    self._runs.append(entry)
             options.notes += check.foreign_note(session, results)
             check.note_unchecked(session)
         options.notes += _since_notes(since_notes)
@@ -192,40 +192,21 @@ class SeveralTargets:
         reported = baselines.hide(options, results, self._targets, session)
         output = reports.write(options, reported, check.report_options(options))
         code = check.final_code(options, session, reported)
-        slot = getattr(options, "slot", None)
-        if is_saved and slot is not None:
-            self._save_whole(slot, code, output)
+        if is_saved and len(self._runs) == len(options.distributions):
+            check.save_report(options, self._runs, code, output, self._settings)
         return code
 
-    def _slot(self, distribution: Distribution) -> CacheEntry | None:
-        """Return where the results for one distribution are remembered."""
-        from scaffold.check.cache.runs import CacheEntry
+    def _entry(self, distribution: Distribution) -> RunEntry | None:
+        """Return where the findings for one distribution are remembered, if they are."""
         from scaffold.cli.verbs import check
 
         options = self._options
         is_unfinished = check.note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
-        if getattr(options, "slot", None) is None or options.cluster is not None:
+        if options.cluster is not None:
             return None
-        names = [item.name for item in options.distributions]
-        key = check.flags_key(options, self._targets)
-        return CacheEntry.of([distribution.name, *names, key])
-
-    def _save_whole(self, slot: CacheEntry, code: int, output: str | None) -> None:
-        """Remember the report, for a run after which nothing has changed."""
-        from scaffold.check.cache.runs import CachedRun
-
-        runs = [run for run in self._runs if run is not None]
-        if len(runs) < len(self._options.distributions):
-            return
-        trees = []
-        for of_package in zip(*(run.trees for run in runs), strict=True):
-            known = [tree for tree in of_package if tree is not None]
-            whole = len(known) == len(of_package)
-            trees.append({k: v for tree in known for k, v in tree.items()} if whole else None)
-        outside = {key: value for run in runs for key, value in run.outside.items()}
-        slot.save(CachedRun(outside, trees, (), code, output, (*self._settings.warnings,)))
+        return check.run_entry(options, self._targets, distribution)
 
 
 def _since_notes(by_distribution: Mapping[Distribution, str]) -> tuple[str, ...]:

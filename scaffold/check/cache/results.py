@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from scaffold.check.cache.runs import CachedRun, CacheEntry
+from scaffold.check.cache.runs import CachedRun, RunEntry
 from scaffold.check.cache.worker_reads import disk_of, uses
 from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Earlier, Part, Result, Verdict
@@ -146,24 +146,13 @@ class ResultCache:
                 diagnostics = [*map(_decode, stored)]
                 yield Result(target.package, record.files, diagnostics, None, record.foreign)
 
-    def save(
-        self,
-        slot: CacheEntry,
-        disk: Disk,
-        results: Sequence[Result],
-        code: int,
-        output: str | None,
-        warnings: Sequence[str] = (),
-    ) -> CachedRun | None:
-        """Remember a complete run, and return it; ``None`` if files changed meanwhile.
+    def save(self, entry: RunEntry, disk: Disk, results: Sequence[Result]) -> bool:
+        """Remember a complete run; tell whether it is: not if files changed meanwhile.
 
         Args:
-            slot: Where.
+            entry: Where.
             disk: What was accessed outside of the packages.
             results: Of all packages, in their order.
-            code: The exit code.
-            output: What standard output got; ``None`` if something was written elsewhere, too.
-            warnings: What of the configuration is ignored.
         """
         from scaffold.ament import ruff
 
@@ -171,7 +160,9 @@ class ResultCache:
             disk.stamp(ruff.executable())
         disk.note(self._outside)
         if not (disk.is_settled and holds(disk.seen)):
-            return None
+            return False
+        if entry.last is not None and self._is_same(entry.last, disk):
+            return True
         identities = [item.package.identity for item in self._targets]
         needs = Needs([item.package for item in self._targets], identities)
         trees: list[Seen | None] = []
@@ -181,9 +172,17 @@ class ResultCache:
             record = self._records.get(at) or _new(target, result, needed, self._results[at])
             trees.append(_seen(target.package, self._trees.get(at, {}), result))
             records.append(tuple(record))
-        run = CachedRun(dict(disk.seen), trees, records, code, output, (*warnings,))
-        slot.save(run)
-        return run
+        entry.save(dict(disk.seen), trees, records)
+        return True
+
+    def _is_same(self, last: CachedRun, disk: Disk) -> bool:
+        """Tell whether the last run has it all, what was accessed to report it included."""
+        if len(self._records) < len(self._targets) or disk.seen != last.outside:
+            return False
+        return all(
+            tree is not None and disk_of(target.package).seen.keys() <= tree.keys()
+            for target, tree in zip(self._targets, last.trees, strict=True)
+        )
 
 
 def _new(

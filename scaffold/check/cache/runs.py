@@ -1,8 +1,9 @@
-"""The results of earlier runs of `check`, and what they accessed (docs/adr/0006).
+"""What earlier runs of `check` found and reported, and what they accessed (docs/adr/0006).
 
-One small file per command line and directory, in the user's cache. A file that is damaged, of
-another version of the tool or of another Python is as good as none. This module is imported by
-every start and imports next to nothing; ``scaffold.check.cache.results`` knows what packages are.
+Two small files in the user's cache: one for what is found, by what findings depend on, and one for
+what was reported, which also depends on how it is shown. A file that is damaged, of another version
+of the tool or of another Python is as good as none. This module is imported by every start and
+imports next to nothing; ``scaffold.check.cache.results`` knows what packages are.
 """
 
 from __future__ import annotations
@@ -29,57 +30,45 @@ MAX_BYTES = 50_000_000
 """Of one run; 800 packages with 30,000 findings take 18 MB."""
 ENVIRONMENT = (
     "AMENT_PREFIX_PATH",
-    "COLORTERM",
-    "COLUMNS",
-    "FORCE_COLOR",
     "HOME",
-    "LINES",
-    "NO_COLOR",
     "PATH",
     "PYTHONPATH",
     "ROS_DISTRO",
     "ROS_HOME",
-    "TERM",
     "XDG_CONFIG_HOME",
 )
-"""The variables that a verdict, or how it is shown, depends on."""
+"""The variables that findings depend on."""
+SCREEN = ("COLORTERM", "COLUMNS", "FORCE_COLOR", "LINES", "NO_COLOR", "TERM")
+"""The variables that only decide how they are shown."""
 
-_MAGIC = b"scaffold-run-6\n"
+_MAGIC = b"scaffold-run-7\n"
 
 
 class CachedRun:
-    """A remembered run; it contains only what marshal can write.
+    """What a run found; it contains only what marshal can write.
 
     Args:
+        number: Tells it from other runs.
         outside: What was accessed outside of the packages.
         trees: What was accessed in each package; ``None`` for one that is never remembered.
         results: What ``scaffold.check.cache.results`` stores of each package.
-        code: The exit code.
-        output: What standard output got; ``None`` if something was written elsewhere, too.
-        warnings: What was written to standard error: what of the configuration is ignored.
     """
 
     def __init__(
         self,
+        number: bytes,
         outside: Seen,
         trees: Sequence[Seen | None],
         results: Sequence[tuple[Any, ...]],
-        code: int,
-        output: str | None,
-        warnings: Sequence[str],
     ) -> None:
+        self.number = number
         self.outside = outside
         self.trees = trees
         self.results = results
-        self.code = code
-        self.output = output
-        self.warnings = warnings
         self._changed: dict[int, list[Question] | None] = {}
 
     def is_current(self) -> bool:
-        """Tell whether nothing has changed since, and the output is all there is to repeat."""
-        if self.output is None:
-            return False
+        """Tell whether nothing has changed since."""
         return self.is_same_outside() and all(map(self.is_same, range(len(self.trees))))
 
     def is_same_outside(self) -> bool:
@@ -100,26 +89,68 @@ class CachedRun:
         return self._changed[at]
 
 
-class CacheEntry:
-    """Where a run is remembered: one place for each command line, directory and environment.
+class CachedReport:
+    """What a run reported.
 
-    Made before the run, because a rule that is edited meanwhile must not count as the one used.
+    Args:
+        shown: The runs whose findings it shows: the names of their files, and their numbers.
+        code: The exit code.
+        output: What standard output got.
+        warnings: What was written to standard error: what of the configuration is ignored.
+    """
+
+    def __init__(
+        self,
+        shown: Sequence[tuple[str, bytes]],
+        code: int,
+        output: str,
+        warnings: Sequence[str],
+    ) -> None:
+        self.shown = shown
+        self.code = code
+        self.output = output
+        self.warnings = warnings
+
+
+class RunEntry:
+    """Where the findings of a run are remembered.
 
     Attributes:
+        name: The name of the file.
         last: The last run, if this very tool remembered it and nothing damaged it.
     """
 
-    def __init__(self, kept: str, words: Sequence[str]) -> None:
-        where = os.getcwd()
-        variables = [os.environ.get(name) for name in ENVIRONMENT]
-        key = repr((list(words), where, variables, _screen()))
-        self._path = os.path.join(kept, digest(key.encode("utf-8", "surrogateescape")))
-        self._head = _MAGIC + tool().encode()
-        data = cache.read_sealed(self._path, self._head)
+    def __init__(self, kept: str, name: str, head: bytes) -> None:
+        self.name = name
+        self._path = os.path.join(kept, name)
+        self._head = head
+        data = cache.read_sealed(self._path, head)
         self.last = None if data is None else CachedRun(*marshal.loads(data))  # noqa: S302  own files
 
+    def save(
+        self, outside: Seen, trees: Sequence[Seen | None], results: Sequence[tuple[Any, ...]]
+    ) -> None:
+        """Store a run; see `CachedRun` for what belongs to it."""
+        number = os.urandom(8)
+        self.last = CachedRun(number, outside, trees, results)
+        _write(self._path, self._head, (number, outside, trees, results))
+
+
+class ReportEntry:
+    """Where a report is remembered: one place for each command line, directory and environment.
+
+    Made before the run, because a rule that is edited meanwhile must not count as the one used.
+    """
+
+    def __init__(self, kept: str, words: Sequence[str]) -> None:
+        self._kept = kept
+        self._head = _MAGIC + tool().encode()
+        shown = [os.environ.get(name) for name in SCREEN]
+        self._path = os.path.join(kept, _name(["report", *words, repr((shown, _screen()))]))
+        self._runs: dict[str, RunEntry] = {}
+
     @classmethod
-    def of(cls, words: Sequence[str]) -> CacheEntry | None:
+    def of(cls, words: Sequence[str]) -> ReportEntry | None:
         """Return the place for a command line, ``None`` if nothing is to be remembered."""
         kept = cache.directory("runs")
         try:
@@ -127,15 +158,48 @@ class CacheEntry:
         except (OSError, ValueError):
             return None
 
-    def save(self, run: CachedRun) -> None:
-        """Store a run."""
-        everything: Any = (
-            *(run.outside, run.trees, run.results),
-            *(run.code, run.output, run.warnings),
-        )
-        data = marshal.dumps(everything)
-        if len(data) <= MAX_BYTES and cache.write_sealed(self._path, self._head, data):
-            cache.trim(os.path.dirname(self._path), MAX_RUNS)
+    def current(self) -> CachedReport | None:
+        """Return the last report, if nothing that it depends on has changed since."""
+        data = cache.read_sealed(self._path, self._head)
+        if data is None:
+            return None
+        report = CachedReport(*marshal.loads(data))  # noqa: S302  own files
+        for name, number in report.shown:
+            run = self._run(name).last
+            if run is None or run.number != number or not run.is_current():
+                return None
+        return report
+
+    def run(self, words: Sequence[str]) -> RunEntry:
+        """Return the place for the findings of a run.
+
+        Args:
+            words: What they depend on, besides files, directory and environment.
+        """
+        return self._run(_name(["findings", *words]))
+
+    def save(
+        self, shown: Sequence[RunEntry], code: int, output: str, warnings: Sequence[str]
+    ) -> None:
+        """Store a report of the findings of some runs that have been saved."""
+        numbers = [(entry.name, entry.last.number) for entry in shown if entry.last is not None]
+        _write(self._path, self._head, (numbers, code, output, (*warnings,)))
+
+    def _run(self, name: str) -> RunEntry:
+        if name not in self._runs:
+            self._runs[name] = RunEntry(self._kept, name, self._head)
+        return self._runs[name]
+
+
+def _name(words: Sequence[str]) -> str:
+    variables = [os.environ.get(name) for name in ENVIRONMENT]
+    return digest(repr((words, os.getcwd(), variables)).encode("utf-8", "surrogateescape"))
+
+
+def _write(path: str, head: bytes, everything: Any) -> None:  # noqa: ANN401  for marshal
+    data = marshal.dumps(everything)
+    if len(data) <= MAX_BYTES and cache.write_sealed(path, head, data):
+        cache.trim(os.path.dirname(path), MAX_RUNS)
 
 
 def _screen() -> tuple[int, int] | None:

@@ -12,7 +12,7 @@ from scaffold.cli import baselines, distro, flags, since, terminal
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scaffold.check.cache.runs import CacheEntry
+    from scaffold.check.cache.runs import ReportEntry, RunEntry
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
     from scaffold.check.rule import Rule
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
     from scaffold.reporters import ReportOptions
 
     _Kind = TypeVar("_Kind", bound=Session)
+
+OF_REPORT = (
+    *("all", "exit_zero", "format", "output_file", "quiet", "severity", "show_source"),
+    *("statistics", "style", "unsafe_fixes"),
+)
+"""The flags that say how findings are shown, and not what is found."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -261,10 +267,10 @@ def _run(
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
     is_forgotten = is_forgotten or options.cluster is not None
-    slot = None if is_forgotten else _slot(options, targets)
+    entry = None if is_forgotten else run_entry(options, targets, options.distributions[0])
     change = since.Since(directory, options.since, targets) if options.since else None
     targets = change.targets() if change else targets
-    memory = ResultCache(slot.last if slot else None, targets, is_saved=slot is not None)
+    memory = ResultCache(entry.last if entry else None, targets, is_saved=entry is not None)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     options.notes += foreign_note(session, results)
     note_unchecked(session)
@@ -276,9 +282,21 @@ def _run(
     reported = baselines.hide(options, results, targets, session)
     output = reports.write(options, reported, report_options(options))
     code = final_code(options, session, reported)
-    if slot is not None and not session.types_failure:
-        memory.save(slot, disk, results, code, output, settings.warnings)
+    if entry and not session.types_failure and memory.save(entry, disk, results):
+        save_report(options, [entry], code, output, settings)
     return code
+
+
+def save_report(
+    options: argparse.Namespace,
+    runs: Sequence[RunEntry],
+    code: int,
+    output: str | None,
+    settings: Config,
+) -> None:
+    """Remember a report, unless it was written to a file or is for other files at each commit."""
+    if output is not None and not options.whole_packages:
+        options.entry.save(runs, code, output, settings.warnings)
 
 
 def note_unchecked(session: Session) -> None:
@@ -443,22 +461,19 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     return final_code(options, session, [result])
 
 
-def _slot(options: argparse.Namespace, targets: Sequence[Target]) -> CacheEntry | None:
-    """Return the cache slot of the run: that of its packages if single files are checked."""
-    from scaffold.check.cache.runs import CacheEntry
-
-    slot: CacheEntry | None = getattr(options, "slot", None)
-    if slot is None or not options.whole_packages:
-        return slot
-    return CacheEntry.of([options.distributions[0].name, flags_key(options, targets)])
-
-
-def flags_key(options: argparse.Namespace, targets: Sequence[Target]) -> str:
-    """Return what the findings in some packages depend on besides their files: the flags."""
-    kept_out = {"paths", "slot", "notes", "distributions", "distro"}
-    flags = {name: value for name, value in vars(options).items() if name not in kept_out}
-    directories = [target.package.directory for target in targets]
-    return repr((sorted(flags.items()), directories))
+def run_entry(
+    options: argparse.Namespace, targets: Sequence[Target], distribution: Distribution
+) -> RunEntry | None:
+    """Return where the findings for a distribution are remembered, if they are."""
+    entry: ReportEntry | None = options.entry
+    if entry is None:
+        return None
+    kept_out = {"command_line", "distributions", "distro", "entry", "notes", "paths"}
+    kept_out |= {"whole_packages", *OF_REPORT}
+    flags = sorted((name, value) for name, value in vars(options).items() if name not in kept_out)
+    asked = [(target.package.directory, sorted(target.only or ())) for target in targets]
+    names = [item.name for item in options.distributions]
+    return entry.run([distribution.name, *names, repr((flags, asked))])
 
 
 def report_options(options: argparse.Namespace) -> ReportOptions:

@@ -25,7 +25,7 @@ _VARIABLES = frozenset(
         *("programs", "share_directories", "subdirectory", "tests", "tutorial", "year"),
         *("class_name", "executable", "file", "has_parameters", "module", "parameter_file"),
         *("has", "imports", "kind", "name", "summary", "type", "version"),
-        *("h", "slot", "templates", "verb", "command_line"),  # of the command line
+        *("h", "entry", "templates", "verb", "command_line"),  # of the command line
     }
 )
 """What the files of templates use besides answers, and what a part has besides them."""

@@ -6,7 +6,7 @@ import ast
 import os
 import shutil
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -474,6 +474,56 @@ def test_interfaces_of_another_package_are_seen(runs: Runs, workspace: Path) -> 
     assert sorted(runs.checked) == ["alone", "robot_msgs"]
 
 
+# -- how it is shown
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["--statistics"], ["--style"], ["--all"], ["--severity", "error"], ["--quiet"]),
+        *(["--format", name] for name in ("json", "sarif", "github", "gitlab", "junit")),
+        ["--exit-zero"],
+        ["--output-file", "/dev/null"],
+    ],
+    ids=" ".join,
+)
+def test_another_way_to_show_findings_checks_nothing_again(
+    runs: Runs, package: Path, words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (package / "talker" / "talk.py").write_text(TALK.replace("'hello'", '"hello"'))
+    runs.settle(str(package))
+    shown = runs(str(package), *words)
+    assert runs.checked == []
+    monkeypatch.setenv(cache.SWITCH, "1")
+    assert runs(str(package), *words) == shown
+    assert runs.checked == ["talker"]
+
+
+@pytest.mark.usefixtures("package")
+def test_an_edit_counts_however_findings_are_shown(runs: Runs, package: Path) -> None:
+    for words in ([], ["--format", "json"]):
+        runs.settle(".", *words)
+    (package / "talker" / "talk.py").write_text(TALK.replace("'hello'", '"hello"'))
+    assert "Q000" in runs(".")
+    assert runs.checked == ["talker"]
+    assert "Q000" in runs(".", "--format", "json")
+    assert runs.checked == []
+
+
+@pytest.mark.usefixtures("package")
+def test_a_baseline_that_is_edited_counts(runs: Runs, package: Path, tmp_path: Path) -> None:
+    (package / "talker" / "talk.py").write_text(TALK.replace("'hello'", '"hello"'))
+    baseline = tmp_path / "baseline.json"
+    runs(".", "--write-baseline", str(baseline))
+    whole = baseline.read_text()
+    runs.settle(".")
+    assert "Q000" not in runs.settle(".", "--baseline", str(baseline))
+    runs(".", "--select", "PX", "--write-baseline", str(baseline))
+    assert baseline.read_text() != whole
+    assert "Q000" in runs(".", "--baseline", str(baseline))
+
+
 # -- fixes
 
 
@@ -492,9 +542,11 @@ def test_fixes_are_made_on_what_is_there(runs: Runs, package: Path) -> None:
 
 
 @pytest.fixture
-def kept(runs: Runs, package: Path, tmp_path: Path) -> Iterator[Path]:
+def kept(runs: Runs, package: Path, tmp_path: Path) -> Path:
+    """Return the file of what a run found; the other one has what it reported."""
     runs.settle(str(package))
-    yield from (tmp_path / "cache" / "ros2-scaffold" / "runs").iterdir()
+    files = (tmp_path / "cache" / "ros2-scaffold" / "runs").iterdir()
+    return max(files, key=lambda file: file.stat().st_size)
 
 
 @pytest.mark.parametrize("keep", [0, 10, 60, 200, -1])
@@ -515,9 +567,9 @@ def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
         damaged = bytearray(whole)
         damaged[at] ^= 0x41
         kept.write_bytes(damaged)
-        slot = memory.CacheEntry.of(["check", str(package)])
-        assert slot is not None
-        assert slot.last is None
+        entry = memory.ReportEntry.of(["check", str(package)])
+        assert entry is not None
+        assert entry.current() is None
 
 
 @pytest.mark.usefixtures("package")
@@ -540,7 +592,7 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MAX_BYTES", 5000)]
+    ("module", "limit", "value"), [(memory, "MAX_RUNS", 4), (cache, "MAX_BYTES", 12_000)]
 )
 @pytest.mark.usefixtures("package")
 def test_old_runs_are_dropped(
@@ -659,6 +711,7 @@ def test_nothing_looks_at_files_without_a_note(part: str) -> None:
     told = {"disk.py", "runs.py", "cache.py", RUNS_A_PROGRAM, "registry.py", "docs.py", *OWN_DATA}
     told |= {"overlay.py", "temporary.py"}  # what --fix and the cache write is not remembered
     told |= {"foreign.py"}  # it notes git's index, then asks git
+    told |= {"batch.py", "batch_process.py", "on_cluster.py"}  # on a cluster nothing is remembered
     paths = list(top.rglob("*.py")) if top.is_dir() else [top]
     assert {p.name: a for p in paths if p.name not in told and (a := _asks(p))} == {}
 
