@@ -53,7 +53,7 @@ class _Record(NamedTuple):
 
 
 class ResultCache:
-    """The results of packages from the last run of the same command line."""
+    """The results of packages from the last run with the same packages, rules and targets."""
 
     def __init__(
         self, run: CachedRun | None, targets: Sequence[Target], *, is_saved: bool = True
