@@ -26,6 +26,11 @@ _NAMED = (
     "set(DEPENDS rclcpp std_msgs)\nfind_package(rclcpp REQUIRED)\nfind_package(std_msgs REQUIRED)\n"
     "add_executable(talker talker.cpp)\n{}\n"
 )
+_MESSAGES = ("geometry", "nav", "sensor", "shape", "std", "trajectory", "visualization")
+_MANY = (
+    f"set(DEPENDS {' '.join(f'{name}_msgs' for name in _MESSAGES)})\n"
+    "add_executable(talker talker.cpp)\nif(TRUE)\n{}\nendif()\n"
+)
 _OLD = "ament_target_dependencies"
 _COMMENTED = f"{_OLD}(talker PUBLIC\n  rclcpp  # the node\n  std_msgs)"
 _KEYWORDS = frozenset({"PUBLIC", "INTERFACE"})
@@ -39,6 +44,8 @@ _EXPORTING = frozenset(
     | {"transmission_interface", "ros2_control_test_assets"}
 )
 """Packages that export targets on every distribution."""
+_WIDTH = 100
+"""The characters from which on the targets of a call get lines of their own."""
 _LATER = frozenset({"tf2_sensor_msgs"})
 """Packages that look like interfaces, and export no targets on Humble."""
 
@@ -105,6 +112,24 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
+            "a list of packages on one line",
+            {"CMakeLists.txt": _MANY.format(f"  {_OLD}(talker PUBLIC ${{DEPENDS}})")},
+            Report(
+                "4:3",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            fixed={
+                "CMakeLists.txt": _MANY.format(
+                    "  target_link_libraries(talker PUBLIC"
+                    + "".join(f"\n    ${{{name}_msgs_TARGETS}}" for name in _MESSAGES)
+                    + ")"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
             "a package of the workspace that exports no targets",
             {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker shapes)")},
             Report(
@@ -163,12 +188,21 @@ class CommandRemoved(Rule):
         if not items or not all(linked):
             return None
         text = package.cmake.source.text
-        edits = [
-            Edit("CMakeLists.txt", item.start, item.end, _separator(text, item.start).join(targets))
-            for item, names in zip(items, linked, strict=True)
-            for targets in [[f"${{{name}_TARGETS}}" for name in names]]
-        ]
         start = command.start
+        added = sum(len(f"${{{name}_TARGETS}}") for names in linked for name in names)
+        is_wide = text.find("\n", start) >= items[-1].end and added > _WIDTH - len(_OLD)
+        edits = []
+        for item, names in zip(items, linked, strict=True):
+            targets = [f"${{{name}_TARGETS}}" for name in names]
+            line = text[text.rfind("\n", 0, item.start) + 1 : item.start]
+            indent = line[: len(line) - len(line.lstrip())]
+            if is_wide:
+                begin = item.start - (len(line) - len(line.rstrip()))
+                written = "".join(f"\n{indent}  {target}" for target in targets)
+                edits.append(Edit("CMakeLists.txt", begin, item.end, written))
+                continue
+            between = " " if line.strip() else f"\n{line}"
+            edits.append(Edit("CMakeLists.txt", item.start, item.end, between.join(targets)))
         end = start + len(command.written_name)
         edits.append(Edit("CMakeLists.txt", start, end, "target_link_libraries"))
         is_sure = all(_exports(package, name) for names in linked for name in names)
@@ -181,12 +215,6 @@ def _packages(package: Package, command: Command, argument: Argument) -> list[st
     names = package.cmake.expand_list([argument], command) or []
     is_clear = all(name.replace("_", "").isalnum() and name != "SYSTEM" for name in names)
     return names if is_clear else []
-
-
-def _separator(text: str, at: int) -> str:
-    """Return what belongs between names: each gets a line where the place has one of its own."""
-    before = text[text.rfind("\n", 0, at) + 1 : at]
-    return " " if before.strip() else f"\n{before}"
 
 
 def _exports(package: Package, name: str) -> bool:

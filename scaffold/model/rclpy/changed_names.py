@@ -24,8 +24,7 @@ _VERSION = re.compile(
     r"|(?i:ros|rclpy|numpy|np|python)_?version"
 )
 """Matches conditions that ask for a version of Python, of ROS or of a package."""
-_FLAG = re.compile(r"[A-Z0-9_]*(?:_AVAILABLE|\bHAS_|\bHAVE_)[A-Z0-9_]*")
-"""Matches what modules call the flags that say whether an import went well."""
+_CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
 class ChangedUse(NamedTuple):
@@ -215,7 +214,7 @@ class _Asked(NamedTuple):
             return True
         if "hasattr" in text and self._is_word_asked_for(test):
             return True
-        return any(self._is_of_import(flag) for flag in _FLAG.findall(text))
+        return any(map(self._is_of_import, filter(_is_flag, _CONSTANT.findall(text))))
 
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
@@ -236,6 +235,11 @@ class _Asked(NamedTuple):
             for item in self.module.imports
             if node.lineno <= item.location.line <= (node.end_lineno or 0)
         )
+
+
+def _is_flag(name: str) -> bool:
+    """Tell whether a constant is called like those that say whether an import went well."""
+    return name.endswith("_AVAILABLE") or name.lstrip("_").startswith(("HAS_", "HAVE_"))
 
 
 def _assigned(node: ast.Try) -> set[str]:

@@ -1,0 +1,102 @@
+"""IM053: annotations are asked of classes, not of their objects."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, PythonRule, Report, Severity
+from scaffold.api.distributions import target
+from scaffold.api.python import PythonModule
+
+_FIRST = (3, 14)
+"""The Python whose classes do not keep their annotations where objects find them."""
+_NAME = "__annotations__"
+_CLASS = (
+    "{}from dataclasses import dataclass\n\n\n"
+    "@dataclass\nclass Arguments:\n    speed: float\n\n"
+    "    def names(self):\n        return list({})\n"
+)
+
+
+class InstanceAnnotations(PythonRule):
+    """Code asks an object for the annotations of its class.
+
+    **Why.** From Python 3.14 on, which Lyrical runs on, an object does not have them:
+    ``self.__annotations__`` raises ``AttributeError``, and ``getattr`` returns its default, as if
+    nothing were annotated.
+
+    **Fix.** Ask the class, ``type(self).__annotations__``, or use ``dataclasses.fields(self)``.
+
+    **Source.** PEP 649 and 749; launch_pal, commit ce86cbe.
+    """
+
+    code = "IM053"
+    name = "instance-annotations"
+    other_severities = {Severity.WARNING: "there is a default"}
+    since = "0.2"
+    examples = (
+        Example(
+            "the class",
+            {"arguments.py": _CLASS.format("", "type(self).__annotations__")},
+            distro="lyrical",
+        ),
+        Example(
+            "an older Python",
+            {"arguments.py": _CLASS.format("", "self.__annotations__")},
+        ),
+        Example(
+            "annotations that stay text",
+            {
+                "arguments.py": _CLASS.format(
+                    "from __future__ import annotations\n\n", "self.__annotations__"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "an object",
+            {"arguments.py": _CLASS.format("", "self.__annotations__")},
+            Report(
+                "9:21",
+                "objects of Python 3.14 have no '__annotations__': AttributeError; "
+                "ask type(self), or use dataclasses.fields(self)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "an object, with a default",
+            {"arguments.py": _CLASS.format("", "getattr(self, '__annotations__', {})")},
+            Report(
+                "9:21",
+                "objects of Python 3.14 have no '__annotations__': this is the "
+                "default, whatever is annotated; ask type(self), or use "
+                "dataclasses.fields(self)",
+                severity=Severity.WARNING,
+            ),
+            distro="lyrical",
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if target().python < _FIRST or not module.mentions(_NAME):
+            return
+        if any(item.module == "__future__" for item in module.imports):
+            return
+        python = f"objects of Python {target().python_version} have no {_NAME!r}"
+        advice = "ask type(self), or use dataclasses.fields(self)"
+        for node in module.walk(ast.Attribute):
+            match node:
+                case ast.Attribute(
+                    value=ast.Name(id="self"), attr="__annotations__", ctx=ast.Load()
+                ):
+                    message = f"{python}: AttributeError; {advice}"
+                    yield self.report(module.location(node), message)
+        for call in module.walk(ast.Call):
+            match call:
+                case ast.Call(
+                    func=ast.Name(id="getattr"),
+                    args=[ast.Name(id="self"), ast.Constant(value="__annotations__"), _],
+                ):
+                    message = f"{python}: this is the default, whatever is annotated; {advice}"
+                    yield self.report(module.location(call), message, severity=Severity.WARNING)
