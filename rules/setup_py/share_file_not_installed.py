@@ -74,6 +74,8 @@ class ShareFileNotInstalled(Rule):
                 "RVIZ = 'my_view.rviz'\nMAP = 'share/talker/maps/hall.pgm'\n" + _LAUNCH,
                 "config/talker.yaml": "",
                 "maps/hall.pgm": "",
+                "worlds/hall.yaml": "model: hall.dae\n",
+                "worlds/hall.dae": "",
                 "rviz/view.rviz": "",
             },
             Report(
@@ -87,6 +89,11 @@ class ShareFileNotInstalled(Rule):
             Report(
                 "setup.py:7:16",
                 "data_files installs nothing of rviz/, for instance rviz/view.rviz",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of worlds/, for instance worlds/hall.dae",
                 severity=Severity.WARNING,
             ),
         ),

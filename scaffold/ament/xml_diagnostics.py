@@ -71,12 +71,16 @@ def _is_for_linter_alone(package: Package) -> bool:
     return is_known and not linter_use(package, "xmllint").runs
 
 
-def _lists_plugins(package: Package, path: str) -> bool:
-    """Tell whether a file lists plugins; their reader takes several elements at the top."""
+def _is_fragment(package: Package, path: str, message: str) -> bool:
+    """Tell whether all that is wrong with a file is that it has several elements at the top.
+
+    It lists plugins, or is part of a larger document. The readers of launch files take one.
+    """
     try:
-        return package.bytes_of(path).lstrip().startswith(b"<library")
+        is_launch = package.bytes_of(path).lstrip().startswith((b"<launch", b"<?xml"))
     except OSError:
         return False
+    return message.endswith("the end of the root element") and not is_launch
 
 
 def _unreadable(package: Package) -> Iterator[_Problem]:
@@ -87,7 +91,7 @@ def _unreadable(package: Package) -> Iterator[_Problem]:
         if not use.runs and is_in_tests(path) and "launch" not in path:
             continue  # what a test reads may be broken on purpose
         problem = xmllint.mistake(package, path) if path != MANIFEST else None
-        if problem is not None and (use.runs or not _lists_plugins(package, path)):
+        if problem is not None and (use.runs or not _is_fragment(package, path, problem[1])):
             yield problem
 
 

@@ -334,6 +334,13 @@ XML = """\
   <text>&amp; &#65; <![CDATA[ <raw> ]]></text>
 </launch>
 """
+RUNS_XMLLINT = {
+    "package.xml": "<package>\n  <name>talker</name>\n"
+    "  <test_depend>ament_cmake_xmllint</test_depend>\n</package>\n",
+    "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
+    "  find_package(ament_cmake_xmllint REQUIRED)\n  ament_xmllint()\nendif()\n",
+}
+"""A package whose tests run the linter."""
 XML_PIECES = (
     *("<", ">", "&", "/", "'", '"', "<a>", "</a>", "<a/>", "&x;", "&#0;", "&lt;", "--", "]]>", " "),
     *("<?pi x?>", "<?xml version='1.0'?>", "\n", "x:y", "\x01", "\ufffe", "é", "\ufeff", "=", "b"),
@@ -350,6 +357,7 @@ def test_unreadable_xml_files_are_those_of_the_linter(seed: int, tmp_path: Path)
     files |= {"empty.xml": "", "deep.xml": "<a>" * 258 + "</a>" * 258, "v2.xml": XML_V2}
     files |= {"utf16.xml": "<a>é</a>".encode("utf-16")}
     files |= {"_x/not.xml": "<", "a/b.launch": "<", "a/c.urdf": "<", "a/.xml": "<"}
+    files |= RUNS_XMLLINT
     package = write(tmp_path, files)
     ours = {d.location.path for d in runner.check(package, [RULES["PX050"]])}
     assert ours == oracles.files_rejected_by_xmllint(tmp_path)

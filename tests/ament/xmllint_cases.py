@@ -82,9 +82,10 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             {"package.xml": "<package/>\n", "test/data/empty.xml": ""},
         ),
         Example(
-            "plugins in two elements at the top, where no linter runs",
+            "plugins in two elements at the top, and part of a document, where no linter runs",
             {
                 "package.xml": "<package/>\n",
+                "resource/topics.xml": "<topic/>\n<data_writer/>\n",
                 "plugins.xml": '<library path="a"/>\n<library path="b"/>\n',
             },
         ),

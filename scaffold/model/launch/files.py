@@ -43,7 +43,8 @@ def is_named(package: Package, directory: str) -> bool:
                 *(_names(data_files(other, item)) for item in DATA_DIRECTORIES)
             )
         for path in other.files if wanted else ():
-            if not path.endswith(_USERS):
+            is_own = other.name == package.name and path.startswith(f"{directory}/")
+            if is_own or not path.endswith(_USERS):
                 continue
             try:
                 text = other.source(path).text
