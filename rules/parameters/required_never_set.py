@@ -59,10 +59,14 @@ class RequiredNeverSet(RclpyRule):
             },
         ),
         Example(
-            "a type alone",
-            {"talker.py": _NODE.format("Parameter.Type.DOUBLE")},
+            "a type alone, and a value for another node",
+            {
+                "package.xml": "<package><name>demo</name></package>\n",
+                "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
+                "config/a.yaml": "listener:\n  ros__parameters:\n    rate: 3.0\n",
+            },
             Report(
-                "9:21",
+                "talker.py:9:21",
                 "parameter 'rate' has a type alone (line 8), and no file of the "
                 "package sets it: ParameterUninitializedException; give a default",
             ),
@@ -101,7 +105,11 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
                 return True
     if _mentions(package, name, _LAUNCH):
         return True
-    return any(_mentions(other, name, _ELSEWHERE) for other in package.workspace)
+    return any(
+        _mentions(other, name, _ELSEWHERE)
+        for other in package.workspace
+        if other.name != package.name
+    )
 
 
 def _mentions(package: Package, name: str, endings: tuple[str, ...]) -> bool:
