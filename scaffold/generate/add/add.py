@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +17,7 @@ from scaffold.generate.add import remarks as neighbours
 from scaffold.generate.add.rendered_part import LAUNCH, Piece, Target, Wanted
 from scaffold.generate.edit.addition import Addition, ByHand
 from scaffold.generate.edit.edit import edit
+from scaffold.generate.edit.launch import add_to_launch
 from scaffold.generate.templates.template import Role
 from scaffold.generate.update.provenance import Provenance
 from scaffold.model.launch.files import launch_files
@@ -213,13 +214,34 @@ def _others(
     """Return the other files that change: regenerated where possible, else edited."""
     whole = regenerate.as_new(target, old, made) if old else None
     if whole is not None:
-        return {path: text.encode() for path, text in whole.items()}, ()
+        regenerated = {path: text.encode() for path, text in whole.items()}
+        return regenerated | _launched(target.package, made.addition, regenerated), ()
     edited = edit(target.package, made.addition)
-    files = dict(edited.files)
+    files = {**edited.files, **_launched(target.package, made.addition, ())}
     if old is not None:
         piece = rendered_part.make(target, old, wanted, old.date)
         files |= regenerate.noted(target.package, old, piece)
     return files, edited.by_hand
+
+
+def _launched(package: Package, addition: Addition, done: Container[str]) -> dict[str, bytes]:
+    """Return the launch file that the user has named, with the new node in it.
+
+    Raises:
+        InputError: no edit of it is safe.
+    """
+    path = addition.launch
+    if not path or path in done:
+        return {}
+    source = package.editable(path)
+    outcome = add_to_launch(source, addition)
+    for item in outcome.by_hand:
+        raise InputError(
+            f"--launch: {path} cannot be edited: {item.reason}; write `{item.line}` there and "
+            "leave --launch out; nothing was changed"
+        )
+    text = outcome.source.text
+    return {path: text.encode(source.encoding)} if text != source.text else {}
 
 
 def _start(package: Package, made: Piece) -> str | None:

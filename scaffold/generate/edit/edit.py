@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from scaffold.files.tree import CMAKE_LISTS, MANIFEST, SETUP_CFG, SETUP_PY
 from scaffold.formats.ini import IniFile
-from scaffold.generate.edit import changelog, cmake, launch, manifest, readme, setup_cfg, setup_py
+from scaffold.generate.edit import changelog, cmake, manifest, readme, setup_cfg, setup_py
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome
 from scaffold.generate.edit.layout import layout_of
 from scaffold.model.package import Package
@@ -140,8 +140,6 @@ def _others(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor
         README: lambda source: readme.add_to_readme(source, addition),
         CHANGELOG: lambda source: changelog.add_to_changelog(source, addition),
     }
-    if addition.launch:
-        editors[addition.launch] = lambda source: launch.add_to_launch(source, addition)
     for path, make in editors.items():
         try:
             if package.has(path):

@@ -21,9 +21,14 @@ _MARKUP = {
     ".yml": "- node: {{pkg: {}, exec: {}}}",
 }
 
+_NOT_CLEAR = "it is not clear where its LaunchDescription gets its nodes"
+_NO_NODE = "it starts no node of {} that shows how"
+
 
 def add_to_launch(source: Source, addition: Addition) -> Outcome:
     """Start a node in a launch file that starts nodes of its package already.
+
+    It is left to the user where no edit is safe.
 
     Raises:
         ViewError: the file cannot be parsed.
@@ -36,22 +41,22 @@ def add_to_launch(source: Source, addition: Addition) -> Outcome:
         return _markup(source, _MARKUP[ending], addition.package, program)
     launch = LaunchFile(PythonModule.parse(source), addition.package)
     own = [call for call in launch.find("Node") if launch.text(call, "package") == addition.package]
-    if not own or any(launch.text(call, "executable") == program.name for call in own):
+    if any(launch.text(call, "executable") == program.name for call in own):
         return Outcome(source)
-    edits = _edits(launch, own, program)
+    edits = _edits(launch, own, program) if own else []
     if edits:
         changed = spliced(source, edits)
         if _starts(changed, addition.package, program):
             return Outcome(changed)
     line = f"Node(package='{addition.package}', executable='{program.name}'),"
-    reason = "it is not clear where its LaunchDescription gets its nodes"
+    reason = _NOT_CLEAR if own else _NO_NODE.format(addition.package)
     return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 
 def _markup(source: Source, form: str, package: str, program: Program) -> Outcome:
-    """Leave a launch file in XML or YAML to the user, if it starts nodes of the package."""
+    """Leave a launch file in XML or YAML to the user."""
     starts = re.search(rf"""\bpkg(=["']|: *["']?){re.escape(package)}\b""", source.text)
-    if starts is None or re.search(rf"\b{re.escape(program.name)}\b", source.text):
+    if starts and re.search(rf"\b{re.escape(program.name)}\b", source.text):
         return Outcome(source)
     line = form.format(package, program.name)
     reason = "only launch files in Python are edited"

@@ -891,6 +891,66 @@ def test_a_launch_file_is_edited_only_when_it_is_named(
     assert path.read_text().count("namespace=LaunchConfiguration('namespace'),") == 2
 
 
+COMPUTED = """\
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='demo', executable=name) for name in ('a', 'b')])
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason", "line"),
+    [
+        (
+            "made.launch.py",
+            "def generate_launch_description():\n    return make()\n",
+            "it starts no node of demo that shows how",
+            "Node(package='demo', executable='talker.py'),",
+        ),
+        (
+            "some.launch.py",
+            COMPUTED,
+            "it is not clear where its LaunchDescription gets its nodes",
+            "Node(package='demo', executable='talker.py'),",
+        ),
+        (
+            "some.launch.xml",
+            "<launch/>\n",
+            "only launch files in Python are edited",
+            '<node pkg="demo" exec="talker.py"/>',
+        ),
+    ],
+)
+@pytest.mark.parametrize("is_ours", [False, True])
+def test_a_named_launch_file_that_cannot_be_edited_is_refused(
+    name: str,
+    text: str,
+    reason: str,
+    line: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    *,
+    is_ours: bool,
+) -> None:
+    demo = tmp_path / "demo"
+    if is_ours:
+        maintainer = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+        main(["new", "demo", "--destination", str(tmp_path), "--extras", "launch", *maintainer])
+    else:
+        write(demo, with_nodes(CMAKE, "scripts", "first=eye"))
+    write(demo, {f"launch/{name}": text})
+    before = read(demo)
+    capsys.readouterr()
+    assert refused(demo, capsys, "publisher", "talker", "--launch", f"launch/{name}") == (
+        f"--launch: launch/{name} cannot be edited: {reason}; write `{line}` there and leave "
+        "--launch out; nothing was changed"
+    )
+    assert read(demo) == before
+
+
 def test_several_launch_files_without_a_node_are_one_note(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
