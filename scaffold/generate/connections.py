@@ -176,7 +176,8 @@ def agreed_types(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dic
     for (question, typed), use in zip(pairs(part.template.questions), part.uses, strict=False):
         types = [type_ for kind, name, type_ in theirs if (kind, name) == (use.kind, use.name)]
         is_open = question.name in part.explicit and typed.name not in part.explicit
-        if types and is_open and use.type not in types:
+        choices = typed.choices or types
+        if is_open and use.type not in types and types and types[0] in choices:
             result[typed.name] = Given(types[0], "default")
     return result
 

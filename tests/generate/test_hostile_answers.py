@@ -943,6 +943,11 @@ def test_what_would_break_is_refused(wanted: dict[str, Any], message: str) -> No
             "topic /a is published best effort by eye, but the subscription of ear is reliable: ",
         ),
         (
+            "publisher:eye topic=a message_type=LaserScan",
+            "image_pipeline:ear input_topic=a",
+            "topic /a is sensor_msgs/msg/LaserScan in eye, but sensor_msgs/msg/Image in ear: they",
+        ),
+        (
             "lifecycle:eye topic=a qos=10",
             "publisher_subscriber:ear input_topic=a topic=b input_qos=latched",
             "topic /a is published volatile by eye, but the subscription of ear is transient local",
