@@ -104,6 +104,26 @@ def test_what_a_manager_leads_does_not_start_by_itself() -> None:
     assert "node_names: [laser]" in files["config/robot.yaml"]
 
 
+def test_a_manager_leads_the_managed_nodes_of_its_package() -> None:
+    parts = ["lifecycle:laser", "lifecycle:camera"]
+    files = make(package="robot", extras="launch", add=[*parts, "lifecycle_manager:manager"])
+    assert "autostart=" not in files["launch/robot.launch.py"]
+    assert "node_names: [laser, camera]" in files["config/robot.yaml"]
+    only_one = "lifecycle_manager:manager managed_node=laser"
+    files = make(package="robot", extras="launch", add=[*parts, only_one])
+    _, laser, camera, _ = re.split(r"(?:Lifecycle)?Node\(\n", files["launch/robot.launch.py"])
+    assert ("autostart=" in laser, "autostart=" in camera) == (False, True)
+    assert "node_names: [laser]" in files["config/robot.yaml"]
+
+
+@pytest.mark.parametrize("kind", ["publisher", "timer", "service_client", "action_server"])
+@pytest.mark.parametrize("rate", ["10.0", "2.0"])
+def test_another_rate_in_the_readme_is_not_the_default(kind: str, rate: str) -> None:
+    readme = make(package="robot", add=[f"{kind}:worker rate={rate}"])["README.md"]
+    (other,) = re.findall(r"-p rate:=(\S+)", readme)
+    assert float(other) != float(rate)
+
+
 def test_long_names_fit_on_their_lines() -> None:
     for build_type in BUILD_TYPES:
         for comments in ("brief", "tutorial"):
