@@ -5,12 +5,13 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -364,12 +365,32 @@ def run(package: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
         started.kill()
 
 
+def domains_of(pids: Iterable[int]) -> set[int]:
+    """Return the ROS domains of processes."""
+    domains = set()
+    for pid in pids:
+        with suppress(OSError):
+            entries = Path("/proc", str(pid), "environ").read_bytes().split(b"\0")
+            named = (item.partition(b"=") for item in entries)
+            domains |= {int(value) for name, _, value in named if name == b"ROS_DOMAIN_ID"}
+    return domains
+
+
+def is_shared(segment: str, domains: set[int]) -> bool:
+    """Tell whether processes in other domains use it as well: the port of none of these."""
+    port = re.fullmatch(r"fastrtps_port(\d+)", segment)
+    return port is not None and (int(port[1]) - 7400) // 250 not in domains
+
+
 def segments_in_use(tmp: Path) -> set[str]:
-    """Wait until the node and its observer talk; return the shared memory that they use."""
+    """Wait until the node and its observer talk; return the shared memory that they alone use."""
     in_use: set[str] = set()
 
     def talk() -> bool:
-        in_use.update(shared_memory.used_by(pids_of(tmp)))
+        pids = pids_of(tmp)
+        domains = domains_of(pids)
+        used = shared_memory.used_by(pids)
+        in_use.update(segment for segment in used if not is_shared(segment, domains))
         is_running = any("lib/good_py/talker" in command for command in processes_of(tmp))
         return is_running and len(in_use) >= 4
 
