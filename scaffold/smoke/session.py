@@ -13,7 +13,7 @@ from functools import partial
 from scaffold import distributions
 from scaffold.distributions import Distribution
 from scaffold.errors import InputError
-from scaffold.files.tree import MANIFEST
+from scaffold.files.tree import CMAKE_LISTS, MANIFEST
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package as Source
 from scaffold.reporters.paths import in_repository
@@ -186,13 +186,13 @@ class _Session:
         self._together: dict[str, Executable] = {}
         self._launches: dict[str, list[Executable]] = {}
         self._tests: dict[str, Tests] = {}
+        self._left_out: set[str] = set()
 
     async def run(self, sources: Sequence[Source]) -> None:
         """Do all that is asked for; ``results`` says how far it came."""
         try:
             await self._provide_interfaces(sources)
-            for line in unavailable(self._environment, sources):
-                self._announce(line)
+            sources = self._without_hopeless(sources)
             if sources:
                 await self._build(sources)
             built = [
@@ -204,6 +204,27 @@ class _Session:
                 await self._run(built)
         finally:
             await self._stations.close()
+
+    def _without_hopeless(self, sources: Sequence[Source]) -> list[Source]:
+        """Name what the environment lacks; return the packages without those not worth a build.
+
+        What others need when they run does not keep them from being built and run.
+        """
+        users: set[str] = set()
+        for lack in unavailable(self._environment, sources):
+            self._announce(lack.message)
+            users |= lack.users
+        self._left_out = {
+            source.name
+            for source in sources
+            if source.name in users
+            and source.has(CMAKE_LISTS)
+            and not self._options.runs(source.name)
+        }
+        if self._left_out:
+            names = ", ".join(sorted(self._left_out))
+            self._announce(f"not built, as they cannot be and are not run: {names}")
+        return [source for source in sources if source.name not in self._left_out]
 
     def results(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
         """Return what is known of packages, also after an interruption."""
@@ -220,6 +241,7 @@ class _Session:
                 launches=tuple(self._launches.get(source.name, ())),
             )
             for source in sources
+            if source.name not in self._left_out
         )
 
     async def _provide_interfaces(self, sources: Sequence[Source]) -> None:

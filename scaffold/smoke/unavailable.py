@@ -9,6 +9,7 @@ from contextlib import suppress
 from scaffold import distributions
 from scaffold.model.catalog import ROS_PACKAGES
 from scaffold.model.package import Package, imports
+from scaffold.record import NamedTuple
 from scaffold.smoke.environment import Environment
 from scaffold.source import ViewError
 
@@ -16,8 +17,17 @@ _NOT_RUN = ("launch", "test")
 """Directories of Python files that no executable imports."""
 
 
-def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterator[str]:
-    """Yield a line for each ROS package that is not there, with who needs it and how to get it.
+class Lack(NamedTuple):
+    """A ROS package that is not there."""
+
+    message: str
+    """Who needs it and how to get it, in a line."""
+    users: frozenset[str]
+    """The names of the packages that need it."""
+
+
+def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterator[Lack]:
+    """Yield the ROS packages that are not there.
 
     Args:
         environment: The one to build and run with.
@@ -37,7 +47,10 @@ def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterat
         way = f"run: {apt}"
         if environment.kind == "wheels":
             way = f"there is no wheel; take a ROS 2 with it: {apt}, and --ros {distribution}"
-        yield f"{', '.join(sorted(users))} needs {name}, which {environment.prefix} lacks; {way}"
+        yield Lack(
+            f"{', '.join(sorted(users))} needs {name}, which {environment.prefix} lacks; {way}",
+            frozenset(users),
+        )
 
 
 def _needed(package: Package) -> set[str]:

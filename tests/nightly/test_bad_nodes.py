@@ -59,16 +59,45 @@ LARGE = talker(
 )
 NOTHING = talker("/nothing", tick="return")
 
+CRASHES = talker("/crashes", imports="import ctypes", tick="ctypes.string_at(0)")
+STOPS = talker(
+    "/stops", imports="import os\nimport signal", tick="os.kill(os.getpid(), signal.SIGSTOP)"
+)
+BINARY = talker(
+    "/binary",
+    imports="import os\nimport sys",
+    tick="os.write(1, bytes(range(256)) + b'\\x1b[2J\\x1b]0;title\\x07' * 10)",
+)
+LITTERS = talker(
+    "/litters",
+    imports="import pathlib\nimport tempfile",
+    begin="""\
+    pathlib.Path(tempfile.mkdtemp(), 'litter').write_bytes(bytes(1_000_000))
+    self.left = open(tempfile.mkstemp()[1], 'wb')
+    """,
+)
+CROWDS = talker(
+    "/crowds",
+    begin="""\
+    self.crowd = [self.create_publisher(String, f'/crowd_{n}', 1) for n in range(200)]
+    """,
+)
+
 NODES = {
+    "binary": BINARY,
+    "crashes": CRASHES,
+    "crowds": CROWDS,
     "dies": DIES_LATER,
     "exits": ONCE_ONLY,
     "fast": FAST,
     "forks": FORKS,
     "ignores": IGNORES_SIGINT,
     "large": LARGE,
+    "litters": LITTERS,
     "nothing": NOTHING,
     "renames": RENAMES,
     "spams": SPAMS,
+    "stops": STOPS,
 }
 
 
@@ -100,6 +129,7 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
+        ("crashes", "SIGSEGV"),
         ("dies", "RuntimeError: ten seconds are over"),
         ("exits", "exit code 3"),
         ("fast", "publishes std_msgs/msg/String at 10000 Hz"),

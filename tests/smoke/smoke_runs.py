@@ -31,12 +31,12 @@ def variables(tmp: Path, **more: str) -> dict[str, str]:
 
 
 def pids_of(tmp: Path) -> list[int]:
-    """Return all living processes whose TMPDIR this is."""
-    wanted = f"TMPDIR={tmp}".encode()
+    """Return all living processes whose TMPDIR this is, or is below it."""
+    wanted = (f"TMPDIR={tmp}\0".encode(), f"TMPDIR={tmp}/".encode())
     pids = []
     for directory in Path("/proc").glob("[0-9]*"):
         try:
-            if wanted in (directory / "environ").read_bytes().split(b"\0"):
+            if any(item in (directory / "environ").read_bytes() for item in wanted):
                 pids.append(int(directory.name))
         except OSError:
             continue

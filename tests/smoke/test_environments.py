@@ -58,14 +58,14 @@ def test_what_an_environment_lacks_is_named_with_the_way_to_get_it(tmp_path: Pat
     wheels = Environment(
         "wheels", "/wheels", "", "", "", {"AMENT_PREFIX_PATH": str(tmp_path / "ros")}
     )
-    (line,) = unavailable(wheels, [Package.at(str(package))])
+    ((line, _),) = unavailable(wheels, [Package.at(str(package))])
     assert line == (
         "viewer needs cv_bridge, which /wheels lacks; there is no wheel; take a ROS 2 with it: "
         "sudo apt install ros-jazzy-cv-bridge, and --ros jazzy"
     )
     installed = replace(wheels, kind="installed", prefix="/opt/ros/kilted")
     installed = replace(installed, distribution="kilted")
-    (line,) = unavailable(installed, [Package.at(str(package))])
+    ((line, _),) = unavailable(installed, [Package.at(str(package))])
     assert line == (
         "viewer needs cv_bridge, which /opt/ros/kilted lacks; "
         "run: sudo apt install ros-kilted-cv-bridge"

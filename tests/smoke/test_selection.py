@@ -15,7 +15,7 @@ from scaffold.model.discovery import targets
 from scaffold.model.package import Package
 from scaffold.smoke.selection import with_dependencies
 from scaffold.smoke.session import packages_of
-from tests.smoke.smoke_packages import ONCE, python_package
+from tests.smoke.smoke_packages import ONCE, cmake_package, python_package
 from tests.smoke.smoke_runs import NEEDS_ROS, command_line, variables
 
 
@@ -91,7 +91,16 @@ def test_package_that_is_not_there(
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_dependency_is_built_and_not_run(workspace: Path) -> None:
+def test_dependency_is_built_and_not_run_unless_the_environment_cannot(workspace: Path) -> None:
+    native = cmake_package(workspace / "src", "native", {})
+    add_dependency(native, "moveit_core")
+    lists = (native / "CMakeLists.txt").read_text()
+    (native / "CMakeLists.txt").write_text(f"{lists}find_package(moveit_core REQUIRED)\n")
+    manifest = (native / "package.xml").read_text()
+    needed = "<depend>moveit_core</depend>"
+    declared = "<exec_depend>moveit_core</exec_depend>"
+    (native / "package.xml").write_text(manifest.replace(declared, needed))
+    add_dependency(workspace / "src" / "middle", "native")
     done = subprocess.run(
         command_line(workspace / "src", "--packages-select", "middle", "--format", "json"),
         env=variables(workspace),
@@ -99,7 +108,10 @@ def test_dependency_is_built_and_not_run(workspace: Path) -> None:
         text=True,
         check=False,
     )
-    assert (done.returncode, done.stderr) == (0, "")
+    lack, left_out = done.stderr.splitlines()
+    assert lack.startswith("ros2-scaffold: native needs moveit_core, which ")
+    assert left_out == "ros2-scaffold: not built, as they cannot be and are not run: native"
+    assert done.returncode == 0
     packages = {item["name"]: item for item in json.loads(done.stdout)["packages"]}
     assert set(packages) == {"base", "middle"}
     assert (packages["base"]["dependency"], packages["base"]["executables"]) == (True, [])

@@ -52,10 +52,13 @@ def isolated(variables: Mapping[str, str], number: int, scratch: Path) -> dict[s
     profile = scratch / "fastdds.xml"
     if not profile.exists():
         profile.write_text(FAST_DISCOVERY, encoding="utf-8")
+    temporary = scratch / "tmp"
+    temporary.mkdir(exist_ok=True)
     return {
         **variables,
         "ROS_DOMAIN_ID": str(number),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "TMPDIR": str(temporary),  # what a process leaves there is removed with the run
         "ROS_LOG_DIR": str(scratch / "ros_log"),
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(profile),
         "FASTDDS_DEFAULT_PROFILES_FILE": str(profile),
