@@ -24,7 +24,7 @@ from tests.ament import style_cases
 from tests.ament.profile_cases import BY_FILE
 from tests.oracles import system_environment
 
-pytestmark = pytest.mark.nightly
+pytestmark = [pytest.mark.nightly, pytest.mark.timeout(0)]
 
 GROUPS = (
     "WHITESPACE_AND_STATEMENTS",
