@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections.abc import Iterator
+from itertools import product
 
 from scaffold.api import (
     Diagnostic,
@@ -15,7 +17,7 @@ from scaffold.api import (
     Safety,
     Severity,
 )
-from scaffold.api.cmake import Argument, Command
+from scaffold.api.cmake import Argument, CMakeLists, Command
 from scaffold.api.distributions import of_kind
 
 _LISTS = (
@@ -72,6 +74,22 @@ class CommandRemoved(Rule):
         Example(
             "still there",
             {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker rclcpp std_msgs)")},
+        ),
+        Example(
+            "in a directory of its own",
+            {
+                "CMakeLists.txt": "project(talker)\nadd_subdirectory(src)\n",
+                "src/CMakeLists.txt": f"{_OLD}(talker rclcpp)\n",
+                "example/CMakeLists.txt": f"{_OLD}(talker rclcpp)\n",
+            },
+            Report(
+                "src/CMakeLists.txt:1:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; "
+                "use target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            fixed={"src/CMakeLists.txt": "target_link_libraries(talker ${rclcpp_TARGETS})\n"},
+            distro="lyrical",
         ),
         Example(
             "a command of all distributions",
@@ -170,24 +188,24 @@ class CommandRemoved(Rule):
         changes = [one for one in of_kind("command") if one.is_removed or one.is_deprecated]
         if not changes:
             return
-        cmake = package.cmake
-        for change in changes:
+        lists = [package.cmake, *_nested(package)]
+        for change, cmake in product(changes, lists):
             for command in cmake.find(change.names[0]):
                 failure = "CMake stops" if change.is_removed else "CMake warns"
                 message = f"{change.names[0]} {change.state}: {failure}; {change.advice} "
                 message += f"({change.source})"
-                fix = self._fix(package, command) if command.name == _OLD else None
+                fix = self._fix(package, cmake, command) if command.name == _OLD else None
                 severity = None if change.is_removed else Severity.INFO
                 yield self.report(command.name_location, message, fix, severity=severity)
 
-    def _fix(self, package: Package, command: Command) -> Fix | None:
+    def _fix(self, package: Package, cmake: CMakeLists, command: Command) -> Fix | None:
         """Link the targets of the packages, in the place of each name."""
         _, *rest = command.arguments
         items = [item for item in rest if item.value not in _KEYWORDS]
-        linked = [_packages(package, command, item) for item in items]
+        linked = [_packages(cmake, command, item) for item in items]
         if not items or not all(linked):
             return None
-        text = package.cmake.source.text
+        text, path = cmake.source.text, cmake.source.path
         start = command.start
         added = sum(len(f"${{{name}_TARGETS}}") for names in linked for name in names)
         is_wide = text.find("\n", start) >= items[-1].end and added > _WIDTH - len(_OLD)
@@ -199,20 +217,36 @@ class CommandRemoved(Rule):
             if is_wide:
                 begin = item.start - (len(line) - len(line.rstrip()))
                 written = "".join(f"\n{indent}  {target}" for target in targets)
-                edits.append(Edit("CMakeLists.txt", begin, item.end, written))
+                edits.append(Edit(path, begin, item.end, written))
                 continue
             between = " " if line.strip() else f"\n{line}"
-            edits.append(Edit("CMakeLists.txt", item.start, item.end, between.join(targets)))
+            edits.append(Edit(path, item.start, item.end, between.join(targets)))
         end = start + len(command.written_name)
-        edits.append(Edit("CMakeLists.txt", start, end, "target_link_libraries"))
+        edits.append(Edit(path, start, end, "target_link_libraries"))
         is_sure = all(_exports(package, name) for names in linked for name in names)
         safety = Safety.SAFE if is_sure else Safety.UNSAFE
         return Fix("write target_link_libraries", tuple(edits), safety)
 
 
-def _packages(package: Package, command: Command, argument: Argument) -> list[str]:
+def _nested(package: Package) -> Iterator[CMakeLists]:
+    """Yield the files that ``add_subdirectory`` names, and those that they name."""
+    known = {""}
+    pending = [("", package.cmake)]
+    while pending:
+        directory, lists = pending.pop()
+        for command in lists.find("add_subdirectory"):
+            place = posixpath.normpath(posixpath.join(directory, *command.values[:1]))
+            path = f"{place}/CMakeLists.txt"
+            if place not in known and package.has(path):
+                known.add(place)
+                below = CMakeLists.parse(package.source(path))
+                pending.append((place, below))
+                yield below
+
+
+def _packages(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
     """Return the packages that an argument names, itself or as a list; none if that is unclear."""
-    names = package.cmake.expand_list([argument], command) or []
+    names = cmake.expand_list([argument], command) or []
     is_clear = all(name.replace("_", "").isalnum() and name != "SYSTEM" for name in names)
     return names if is_clear else []
 

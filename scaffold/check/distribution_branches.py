@@ -8,6 +8,7 @@ from contextlib import suppress
 from scaffold.diagnostic import Diagnostic
 from scaffold.distributions import VARIABLE
 from scaffold.model.cmake import distribution_branches as of_cmake
+from scaffold.model.cmake.lists import CMakeLists
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.model.python import distribution_branches as of_python
@@ -34,15 +35,15 @@ def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterat
 
 
 def _lines_not_run(package: Package, path: str) -> Sequence[Lines]:
-    if path == CMAKE_LISTS:
-        return package.remember("lines not run", lambda: _in_cmake(package))
+    if path.rpartition("/")[2] == CMAKE_LISTS:
+        return package.remember(("lines not run", path), lambda: _in_cmake(package, path))
     return _in_python(package, path) if path in package.python_files else ()
 
 
-def _in_cmake(package: Package) -> Sequence[Lines]:
+def _in_cmake(package: Package, path: str) -> Sequence[Lines]:
     with suppress(ViewError):  # which is reported
-        if VARIABLE in package.source(CMAKE_LISTS).text:
-            return tuple(of_cmake.lines_not_run(package.cmake))
+        if VARIABLE in package.source(path).text:
+            return tuple(of_cmake.lines_not_run(CMakeLists.parse(package.source(path))))
     return ()
 
 

@@ -124,5 +124,10 @@ def test_a_command_in_a_branch_for_older_distributions(
         "else()\n"
         "  ament_target_dependencies(talker std_msgs)\n"
         "endif()\n"
+        "add_subdirectory(src)\n"
     )
-    assert found(capsys, tmp_path, "lyrical") == [("CM110", 5, ["lyrical"])]
+    (tmp_path / "src").mkdir()
+    text = (tmp_path / "CMakeLists.txt").read_text()
+    (tmp_path / "src" / "CMakeLists.txt").write_text(f"# the same, a line below\n{text}")
+    removed = [("CM110", line, ["lyrical"]) for line in (5, 6)]
+    assert found(capsys, tmp_path, "lyrical") == removed

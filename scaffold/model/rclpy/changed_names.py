@@ -150,6 +150,8 @@ class _Search:
         match value:
             case ast.Call(func=ast.Attribute(attr="get_logger", value=of), args=[], keywords=[]):
                 return self._file.uses_rclpy or self._file.owner_of(of) is not None
+            case ast.Call(func=ast.Attribute(attr="get_child", value=of)):
+                return self._is_logger(of)
         return class_of(self._file, node) == _LOGGER
 
     def _use(
