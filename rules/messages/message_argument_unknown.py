@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.distributions import target
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import MessageClass, MessageTypes
 
@@ -15,8 +16,8 @@ _PREFIX = "from std_msgs.msg import String\n\nmessage = String({})\n"
 class MessageArgumentUnknown(MessageRule):
     """A message is constructed with a keyword that is not a field, or with positional arguments.
 
-    **Why.** An unknown keyword is silently ignored: an empty message is published. A
-    positional argument raises ``TypeError``.
+    **Why.** An unknown keyword is silently ignored: an empty message is published. Humble raises
+    an ``AssertionError``. A positional argument raises ``TypeError``.
 
     **Fix.** Write ``field=value``, with a field of the definition.
 
@@ -38,6 +39,16 @@ class MessageArgumentUnknown(MessageRule):
                 "dropped; did you mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 "
                 "Jazzy)",
             ),
+        ),
+        Example(
+            "misspelled, on Humble",
+            {"talker.py": _PREFIX.format("dta='hello'")},
+            Report(
+                "3:18",
+                "std_msgs/msg/String has no field 'dta': AssertionError; did you "
+                "mean 'data'? (definition: std_msgs 4.9.1 of ROS 2 Humble)",
+            ),
+            distro="humble",
         ),
         Example(
             "positional",
@@ -68,8 +79,10 @@ def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
     for word in call.keywords:
         if word.arg is not None and word.arg not in {*has, "check_fields"}:
             hint = closest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
+            is_checked = target().name == "humble"
+            effect = "AssertionError" if is_checked else "the value is silently dropped"
             message = (
-                f"{owner.name} has no field {word.arg!r}: the value is silently dropped{hint} "
+                f"{owner.name} has no field {word.arg!r}: {effect}{hint} "
                 f"(definition: {owner.origin})"
             )
             yield word, message
