@@ -315,3 +315,11 @@ def test_a_move_to_the_same_under_another_name_says_so(
 ) -> None:
     assert main(["migrate", str(workspace), "--from", "lyrical", "--to", "rolling"]) == 2
     assert "already, which is the same as Rolling for Python packages" in capsys.readouterr().err
+
+
+def test_a_file_that_never_parsed_is_not_reported_after_fixes(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "twenty" / "twenty" / "old.py").write_text("print 'hello'\n")
+    main(["migrate", "--to", "lyrical", "--fix"])
+    assert "old.py" not in capsys.readouterr().out

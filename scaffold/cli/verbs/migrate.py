@@ -11,8 +11,9 @@ from scaffold.cli import distro, fixing, terminal
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from scaffold.check.migration import Consequences, MigratingSession
+    from scaffold.check.migration import Consequences, MigratingSession, OrderSession
     from scaffold.check.result import Result
+    from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
     from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
@@ -59,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Report what a move changes, and fix what is safe; return the exit code."""
     from scaffold.check import registry
-    from scaffold.check.migration import ORDER, Consequences, identities
+    from scaffold.check.migration import Consequences, identities
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.cli.settings import warn
@@ -78,8 +79,8 @@ def run(options: argparse.Namespace) -> int:
     origin = _origin(options, target, settings, session)
     has_failed = False
     with distributions.targeting(origin):
-        before = _checked(options, _session(choices, ORDER) if options.fix else session)
-    session.known = identities(before)
+        session.known = identities(_checked(options, session))
+        ordering = _ordering(options, choices) if options.fix else None
     with distributions.targeting(target, origin, kept):
         targets = check.find_targets(options, session, None)
         if options.fix or options.diff:
@@ -91,8 +92,9 @@ def run(options: argparse.Namespace) -> int:
             terminal.say(f"{check.fix_count(count)} {verb}")
             if options.diff:
                 return FINDINGS if count else CLEAN
-            with distributions.targeting(origin):
-                has_failed |= _sort_imports(options, choices, before)
+            if ordering is not None:
+                with distributions.targeting(origin):
+                    has_failed |= _sort_imports(options, ordering)
             directories = [item.package.directory for item in written]
             has_failed |= _move(directories, distributions.ordered([*kept, target]), settings)
         results = _checked(options, session)
@@ -141,17 +143,23 @@ def _origin(
     return distributions.ordered(others)[0]
 
 
-def _sort_imports(options: argparse.Namespace, choices: Choices, before: Sequence[Result]) -> bool:
+def _ordering(options: argparse.Namespace, choices: Choices) -> OrderSession:
+    """Return what sorts imports; files whose imports are not in order now are left alone."""
+    from scaffold.check.migration import ORDER, OrderSession, unordered
+
+    selection = choices.selection([",".join(ORDER)])
+    session = OrderSession(choices.rules, selection, choices.adjustments())
+    session.unordered = unordered(_checked(options, session))
+    return session
+
+
+def _sort_imports(options: argparse.Namespace, session: OrderSession) -> bool:
     """Sort imports that are not in order any more, by their new names; return whether that failed.
 
     That is judged for where the packages come from: nothing but the fixes has changed there.
     """
-    from scaffold.check.migration import ORDER, OrderSession, unordered
     from scaffold.cli.verbs import check
 
-    selection = choices.selection([",".join(ORDER)])
-    session = OrderSession(choices.rules, selection, choices.adjustments())
-    session.unordered = unordered(before)
     targets = check.find_targets(options, session, None)
     _, has_failed = fixing.write(
         options, session, targets, lambda: check.find_targets(options, session, None)
@@ -199,14 +207,14 @@ def _complete(options: argparse.Namespace, choices: Choices) -> None:
     options.notes = ()
 
 
-def _session(choices: Choices, more: Sequence[str] = ()) -> MigratingSession:
+def _session(choices: Choices) -> MigratingSession:
     from scaffold.check.migration import AREAS, MigratingSession
 
-    selection = choices.selection([",".join([*AREAS, *more])])
+    selection = choices.selection([",".join(AREAS)])
     return MigratingSession(choices.rules, selection, choices.adjustments(), has_types=True)
 
 
-def _checked(options: argparse.Namespace, session: MigratingSession) -> list[Result]:
+def _checked(options: argparse.Namespace, session: Session) -> list[Result]:
     from scaffold.cli.interactive import progress
     from scaffold.cli.verbs import check
 
