@@ -105,6 +105,16 @@ def test_several_distributions_report_each_finding_once(
     assert summary.startswith("1 package, 3 files for Jazzy and Lyrical: ")
 
 
+def test_an_import_for_older_distributions_is_no_error_on_newer_ones(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    older = "from ros2param.api import get_parameter_value\n"
+    assert len(check(capsys, write(tmp_path / "a", older), "jazzy", "IM050")) == 1
+    newer = "    from rclpy.parameter import get_parameter_value\n"
+    code = f"try:\n{newer}except ImportError:\n    {older}"
+    assert check(capsys, write(tmp_path / "b", code), "jazzy", "IM050") == []
+
+
 def test_a_name_that_is_not_there_yet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     package = write(
         tmp_path, "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"

@@ -10,7 +10,7 @@ from scaffold.changes import Change, of_kind
 from scaffold.edits import Edit
 from scaffold.model.python.distribution_branches import holds
 from scaffold.model.python.guards import is_handled
-from scaffold.model.python.module import PythonModule
+from scaffold.model.python.module import PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
 from scaffold.record import NamedTuple
@@ -154,6 +154,15 @@ class _Search:
                 return self._is_logger(of)
         return class_of(self._file, node) == _LOGGER
 
+    def _is_fallback(self, node: ast.Import | ast.ImportFrom) -> bool:
+        """Tell whether an import is for where another one fails."""
+        return any(
+            isinstance(parent, ast.ExceptHandler)
+            and parent.type is not None
+            and bool(last_names(parent.type) & {"ImportError", "ModuleNotFoundError"})
+            for parent in self._module.parents(node)
+        )
+
     def _use(
         self,
         node: ast.AST,
@@ -171,6 +180,8 @@ class _Search:
         if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
             return
         if is_asked_for(self._module, node, name, written):
+            return
+        if isinstance(node, ast.Import | ast.ImportFrom) and self._is_fallback(node):
             return
         old = self._module.source.text[slice(*place)]
         # Before Python 3.12 nobody knows where in an f-string something is.
