@@ -8,6 +8,7 @@ by every start and imports next to nothing.
 from __future__ import annotations
 
 import os
+import shutil
 
 from scaffold.files import home
 from scaffold.files.disk import digest
@@ -18,6 +19,8 @@ MAX_BYTES = 100_000_000
 """Of all files of a kind."""
 KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types", "pages")
 """What the names of the directories in the cache begin with; locks are not to be removed."""
+TREES = ("content", "interfaces")
+"""Directories whose entries are directories, each complete or not there at all."""
 _ABANDONED_AFTER = 3600
 """Seconds after which a temporary file is no longer being written."""
 
@@ -159,6 +162,8 @@ def clean(top: str) -> None:
     Raises:
         OSError: the system refuses.
     """
+    for tree in TREES:  # as a whole: of half of one, nobody would know
+        shutil.rmtree(os.path.join(top, tree), ignore_errors=True)
     for path in _files(top):
         try:
             os.unlink(path)
@@ -170,7 +175,7 @@ def _files(top: str) -> list[str]:
     """Return the files in the directories of the cache; links to directories are not followed."""
     result: list[str] = []
     try:
-        kinds = [name for name in os.listdir(top) if name.startswith(KINDS)]
+        kinds = [name for name in os.listdir(top) if name.startswith((*KINDS, *TREES))]
     except OSError:
         return result
     for kind in sorted(kinds):

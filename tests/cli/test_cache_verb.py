@@ -44,6 +44,16 @@ def test_clean_removes_every_file(place: Path, capsys: pytest.CaptureFixture[str
     assert main(["check", "talker"]) == 0
 
 
+def test_clean_removes_whole_directories(place: Path) -> None:
+    for tree in cache.TREES:
+        (place / tree / "abc" / "package").mkdir(parents=True)
+        (place / tree / "abc" / "package" / "file").write_text("text")
+    before = cache.size(str(place))
+    assert before == (len(files(place)), sum(path.stat().st_size for path in files(place)))
+    assert main(["cache", "clean"]) == 0
+    assert not any((place / tree).exists() for tree in cache.TREES)
+
+
 def test_clean_leaves_what_is_not_of_the_cache(place: Path) -> None:
     held = place / "locks" / "held"
     held.parent.mkdir()
