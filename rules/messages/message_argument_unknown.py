@@ -79,7 +79,7 @@ def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
     for word in call.keywords:
         if word.arg is not None and word.arg not in {*has, "check_fields"}:
             hint = closest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
-            is_checked = target().name == "humble"
+            is_checked = target().fact("messages.checks_fields")
             effect = "AssertionError" if is_checked else "the value is silently dropped"
             message = (
                 f"{owner.name} has no field {word.arg!r}: {effect}{hint} "

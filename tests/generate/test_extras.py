@@ -101,19 +101,19 @@ def test_what_a_manager_leads_does_not_start_by_itself() -> None:
     )
     assert "LifecycleNode(" in files["launch/robot.launch.py"]
     assert "autostart=" not in files["launch/robot.launch.py"]
-    assert "node_names: [laser]" in files["config/robot.yaml"]
+    assert "node_names: ['laser']" in files["config/robot.yaml"]
 
 
 def test_a_manager_leads_the_managed_nodes_of_its_package() -> None:
     parts = ["lifecycle:laser", "lifecycle:camera"]
     files = make(package="robot", extras="launch", add=[*parts, "lifecycle_manager:manager"])
     assert "autostart=" not in files["launch/robot.launch.py"]
-    assert "node_names: [laser, camera]" in files["config/robot.yaml"]
+    assert "node_names: ['laser', 'camera']" in files["config/robot.yaml"]
     only_one = "lifecycle_manager:manager managed_node=laser"
     files = make(package="robot", extras="launch", add=[*parts, only_one])
     _, laser, camera, _ = re.split(r"(?:Lifecycle)?Node\(\n", files["launch/robot.launch.py"])
     assert ("autostart=" in laser, "autostart=" in camera) == (False, True)
-    assert "node_names: [laser]" in files["config/robot.yaml"]
+    assert "node_names: ['laser']" in files["config/robot.yaml"]
 
 
 @pytest.mark.parametrize("kind", ["publisher", "timer", "service_client", "action_server"])
