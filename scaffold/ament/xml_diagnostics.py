@@ -71,15 +71,19 @@ def _is_for_linter_alone(package: Package) -> bool:
     return is_known and not linter_use(package, "xmllint").runs
 
 
-def _is_fragment(package: Package, path: str, message: str) -> bool:
-    """Tell whether all that is wrong with a file is that it has several elements at the top.
+def _is_read_anyway(package: Package, path: str, message: str) -> bool:
+    """Tell whether what is wrong with a file does not bother those who read it.
 
-    It lists plugins, or is part of a larger document. The readers of launch files take one.
+    The reader of plugin descriptions (tinyxml2) takes several elements at the top, and ``<`` in a
+    value. Parts of larger documents have several elements; the readers of launch files take one.
     """
     try:
-        is_launch = package.bytes_of(path).lstrip().startswith((b"<launch", b"<?xml"))
+        start = package.bytes_of(path).lstrip()
     except OSError:
         return False
+    if start.startswith(b"<library"):
+        return True
+    is_launch = start.startswith((b"<launch", b"<?xml"))
     return message.endswith("the end of the root element") and not is_launch
 
 
@@ -91,7 +95,7 @@ def _unreadable(package: Package) -> Iterator[_Problem]:
         if not use.runs and is_in_tests(path) and "launch" not in path:
             continue  # what a test reads may be broken on purpose
         problem = xmllint.mistake(package, path) if path != MANIFEST else None
-        if problem is not None and (use.runs or not _is_fragment(package, path, problem[1])):
+        if problem is not None and (use.runs or not _is_read_anyway(package, path, problem[1])):
             yield problem
 
 

@@ -90,6 +90,13 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
         ),
         Example(
+            "a template in a description of plugins, where no linter runs",
+            {
+                "package.xml": "<package/>\n",
+                "plugins.xml": '<library path="a">\n  <class type="Solver<Chain>"/>\n</library>\n',
+            },
+        ),
+        Example(
             "a file, and a linter, that the package excludes",
             {
                 "package.xml": "<package>\n"

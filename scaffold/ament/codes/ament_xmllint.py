@@ -18,7 +18,7 @@ ROWS = (
 **Why.** Whoever loads it (launch, a plugin loader, robot_state_publisher) stops there, and
 ``ament_xmllint`` fails under ``colcon test``. For package.xml itself SC001 says so.
 
-**Fix.** Mend the markup at the place shown; a reader stops at the first mistake.
+**Fix.** Correct the markup at the place shown; a reader stops at the first mistake.
 
 **Source.** ``ament_xmllint/main.py``; libxml2's limits on depth and length of text.
 """,
