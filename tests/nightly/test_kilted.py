@@ -21,8 +21,8 @@ from scaffold.programs import wheels
 
 DISTRO = "kilted"
 TEMPLATES = template.load(content.roots("templates"))
-LACKING = ("message_filters", "tf2_ros")
-"""What no wheel has, of Jazzy neither; nodes that need it are built, not run."""
+LACKING = ("cv_bridge", "diagnostic_updater", "message_filters", "nav2_simple_commander", "tf2_ros")
+"""What no wheel has, of Jazzy neither; the kinds of nodes that need it are left out."""
 KINDS = [
     kind
     for kind in template.of_role(TEMPLATES, Role.NODE)
