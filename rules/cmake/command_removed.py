@@ -92,6 +92,17 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
+            "asked for",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    f"if(COMMAND {_OLD})\n  {_OLD}(talker rclcpp)\n"
+                    "elseif(rclcpp_VERSION VERSION_LESS 29)\n"
+                    f"  {_OLD}(talker rclcpp)\nendif()"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
             "a command of all distributions",
             {"CMakeLists.txt": _LISTS.format("target_link_libraries(talker ${rclcpp_TARGETS})")},
             distro="lyrical",
@@ -191,6 +202,8 @@ class CommandRemoved(Rule):
         lists = [package.cmake, *_nested(package)]
         for change, cmake in product(changes, lists):
             for command in cmake.find(change.names[0]):
+                if _is_asked_for(cmake, command):
+                    continue
                 failure = "CMake stops" if change.is_removed else "CMake warns"
                 message = f"{change.names[0]} {change.state}: {failure}; {change.advice} "
                 message += f"({change.source})"
@@ -226,6 +239,14 @@ class CommandRemoved(Rule):
         is_sure = all(_exports(package, name) for names in linked for name in names)
         safety = Safety.SAFE if is_sure else Safety.UNSAFE
         return Fix("write target_link_libraries", tuple(edits), safety)
+
+
+def _is_asked_for(cmake: CMakeLists, command: Command) -> bool:
+    """Tell whether a condition around a call asks for the command, or for the version of one."""
+    return any(
+        "COMMAND" in words or any(word.startswith("VERSION_") for word in words)
+        for words in cmake.conditions(command)
+    )
 
 
 def _nested(package: Package) -> Iterator[CMakeLists]:

@@ -74,12 +74,42 @@ class TestsNotRun(Rule):
             fixed={"setup.py": _SETUP.format(_EXTRA)},
             distro="lyrical",
         ),
+        Example(
+            "tests_require of more than pytest",
+            {"setup.py": _SETUP.format("    tests_require=['pytest', 'numpy>=1.2'],\n")},
+            Report(
+                "5:19",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; write "
+                "extras_require={'test': ['pytest', 'numpy>=1.2']}",
+                fix="write extras_require={'test': ['pytest', 'numpy>=1.2']}",
+            ),
+            fixed={
+                "setup.py": _SETUP.format(
+                    "    extras_require={'test': ['pytest', 'numpy>=1.2']},\n"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "tests_require next to other extras",
+            {
+                "setup.py": _SETUP.format(
+                    "    tests_require='pytest',\n    extras_require={'dev': ['black']},\n"
+                )
+            },
+            Report(
+                "5:19",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; add 'test': "
+                "['pytest'] to extras_require",
+            ),
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
         if setup.keyword("tests_require") is not None:
-            yield from self._check_tests_require(setup)
+            yield from self._check_tests_require(package, setup)
             return
         if package.build_type != "ament_python" or setup.call is None:
             return
@@ -91,12 +121,21 @@ class TestsNotRun(Rule):
         message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {_NEW}"
         yield self.report(setup, message, Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None)
 
-    def _check_tests_require(self, setup: SetupPy) -> Iterator[Diagnostic]:
+    def _check_tests_require(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:
         old = setup.keyword("tests_require")
-        if old is None or setup.keyword("extras_require") is not None:
+        if old is None or self._has_extra(package):
             return
+        requirements = setup.module.text(old.node)
+        if isinstance(old.value, str):
+            requirements = f"[{requirements}]"
+        written = f"extras_require={{'test': {requirements}}}"
+        shown = " ".join(written.split())
         span = setup_edit.span(setup, "tests_require")
-        fix = Fix(f"write {_NEW}", (Edit("setup.py", *span, _NEW),)) if span else None
+        fix, advice = None, f"write {shown}"
+        if setup.keyword("extras_require") is not None:
+            advice = f"add 'test': {' '.join(requirements.split())} to extras_require"
+        elif span is not None:
+            fix = Fix(advice, (Edit("setup.py", *span, written),))
         has_new = int(target().fact("setuptools").partition(".")[0]) >= _IGNORING
         ignored = (
             f"setuptools of {target().title} ignores tests_require: colcon runs 0 tests"
@@ -105,7 +144,7 @@ class TestsNotRun(Rule):
             "tests_require: colcon will run 0 tests"
         )
         severity = None if has_new else Severity.INFO
-        yield self.report(old, f"{ignored}; write {_NEW}", fix, severity=severity)
+        yield self.report(old, f"{ignored}; {advice}", fix, severity=severity)
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")

@@ -236,6 +236,14 @@ class CMakeLists:
             at = at.parent
         return False
 
+    def conditions(self, command: Command) -> Iterator[Sequence[str]]:
+        """Yield the conditions around a command; for ``else``, that of its ``if``."""
+        at = command if command.depth <= _DEEPEST else None
+        while at is not None and at.parent is not None and at.branch is not None:
+            if at.parent.name == "if":
+                yield (at.parent if at.branch.name == "else" else at.branch).values
+            at = at.parent
+
     def is_for_ros1(self, command: Command) -> bool:
         """Tell whether a command runs with ROS 1 only: ``if($ENV{ROS_VERSION} EQUAL 1)``."""
         at = command if command.depth <= _DEEPEST else None
