@@ -50,6 +50,17 @@ class NameRemoved(PythonRule):
         Example("still there", {"talker.py": _NODE.format("", "warn")}),
         Example("the new name", {"talker.py": _NODE.format("", "warning")}, distro="lyrical"),
         Example(
+            "for where its successor fails",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
+                "    def talk(self):\n        try:\n"
+                "            self.get_logger().warning('hello')\n"
+                "        except AttributeError:\n"
+                "            self.get_logger().warn('hello')\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
             "asked for",
             {
                 "talker.py": "try:\n    from rclpy.qos_event import QoSEventHandler\n"

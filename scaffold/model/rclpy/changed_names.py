@@ -154,14 +154,19 @@ class _Search:
                 return self._is_logger(of)
         return class_of(self._file, node) == _LOGGER
 
-    def _is_fallback(self, node: ast.Import | ast.ImportFrom) -> bool:
-        """Tell whether an import is for where another one fails."""
-        return any(
-            isinstance(parent, ast.ExceptHandler)
-            and parent.type is not None
-            and bool(last_names(parent.type) & {"ImportError", "ModuleNotFoundError"})
-            for parent in self._module.parents(node)
-        )
+    def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
+        """Tell whether an import, or a name, is for where another import or its successor fails."""
+        is_import = isinstance(node, ast.Import | ast.ImportFrom)
+        expected = {"ImportError", "ModuleNotFoundError"} if is_import else {"AttributeError"}
+        child = node
+        for parent in self._module.parents(node):
+            match parent, child:
+                case ast.Try(body=body), ast.ExceptHandler(type=ast.expr() as caught):
+                    is_tried = is_import or _mentions(body, replacement.rpartition(".")[2])
+                    if is_tried and last_names(caught) & expected:
+                        return True
+            child = parent
+        return False
 
     def _use(
         self,
@@ -181,7 +186,7 @@ class _Search:
             return
         if is_asked_for(self._module, node, name, written):
             return
-        if isinstance(node, ast.Import | ast.ImportFrom) and self._is_fallback(node):
+        if self._is_fallback(node, written):
             return
         old = self._module.source.text[slice(*place)]
         # Before Python 3.12 nobody knows where in an f-string something is.
@@ -190,6 +195,14 @@ class _Search:
         edits = (Edit(self._path, *place, written),) if can_write else ()
         replacement = written.partition(" as ")[0]
         yield ChangedUse(change, at, name, error, replacement, edits)
+
+
+def _mentions(body: Sequence[ast.stmt], attribute: str) -> bool:
+    return any(
+        isinstance(node, ast.Attribute) and node.attr == attribute
+        for statement in body
+        for node in ast.walk(statement)
+    )
 
 
 def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: str = "") -> bool:
