@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
+from scaffold.check.engine_rules import UnusedSuppression
 from scaffold.check.session import Session
 
 if TYPE_CHECKING:
@@ -90,5 +91,10 @@ def _merged(by_distribution: Mapping[Distribution, Sequence[Diagnostic]]) -> lis
             names = holding.setdefault(key, [])
             if distribution.name not in names:
                 names.append(distribution.name)
-    result = [item._replace(distributions=tuple(holding[key])) for key, item in by_key.items()]
+    # A suppression that one of them needs is not unused.
+    result = [
+        item._replace(distributions=tuple(holding[key]))
+        for key, item in by_key.items()
+        if item.code != UnusedSuppression.code or len(holding[key]) == len(by_distribution)
+    ]
     return sorted(result, key=lambda item: item.sort_key)
