@@ -8,7 +8,6 @@ by every start and imports next to nothing.
 from __future__ import annotations
 
 import os
-import shutil
 
 from scaffold.files import home
 from scaffold.files.disk import digest
@@ -162,6 +161,8 @@ def clean(top: str) -> None:
     Raises:
         OSError: the system refuses.
     """
+    import shutil  # every start of the program imports this module
+
     for tree in TREES:  # as a whole: of half of one, nobody would know
         shutil.rmtree(os.path.join(top, tree), ignore_errors=True)
     for path in _files(top):
