@@ -91,6 +91,18 @@ class TestsNotRun(Rule):
             distro="lyrical",
         ),
         Example(
+            "tests_require with the other quotes",
+            {"setup.py": _SETUP.format('    tests_require=["pytest"],\n')},
+            Report(
+                "5:19",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; write "
+                'extras_require={"test": ["pytest"]}',
+                fix='write extras_require={"test": ["pytest"]}',
+            ),
+            fixed={"setup.py": _SETUP.format('    extras_require={"test": ["pytest"]},\n')},
+            distro="lyrical",
+        ),
+        Example(
             "tests_require next to other extras",
             {
                 "setup.py": _SETUP.format(
@@ -128,12 +140,14 @@ class TestsNotRun(Rule):
         requirements = setup.module.text(old.node)
         if isinstance(old.value, str):
             requirements = f"[{requirements}]"
-        written = f"extras_require={{'test': {requirements}}}"
+        quote = '"' if '"' in requirements and "'" not in requirements else "'"
+        extra = f"{quote}test{quote}: {requirements}"
+        written = f"extras_require={{{extra}}}"
         shown = " ".join(written.split())
         span = setup_edit.span(setup, "tests_require")
         fix, advice = None, f"write {shown}"
         if setup.keyword("extras_require") is not None:
-            advice = f"add 'test': {' '.join(requirements.split())} to extras_require"
+            advice = f"add {' '.join(extra.split())} to extras_require"
         elif span is not None:
             fix = Fix(advice, (Edit("setup.py", *span, written),))
         has_new = int(target().fact("setuptools").partition(".")[0]) >= _IGNORING
