@@ -81,7 +81,10 @@ class InstanceAnnotations(PythonRule):
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         if target().python < _FIRST or not module.mentions(_NAME):
             return
-        if any(item.module == "__future__" for item in module.imports):
+        if any(
+            item.module == "__future__" and any(name.name == "annotations" for name in item.names)
+            for item in module.imports
+        ):
             return
         python = f"objects of Python {target().python_version} have no {_NAME!r}"
         advice = "ask type(self), or use dataclasses.fields(self)"
