@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections import Counter
 from collections.abc import Hashable, Iterable
@@ -9,6 +10,7 @@ from typing import TypeVar
 
 from scaffold.ament import copyright as notices
 from scaffold.ament.copyright import Header
+from scaffold.generate import repository
 from scaffold.model.launch.files import ENDINGS
 from scaffold.model.package import Package
 from scaffold.model.workspace.gitignore import is_untracked
@@ -35,6 +37,16 @@ def own_headers(package: Package) -> list[Header]:
         and not header.path.startswith(foreign)
         and not is_untracked(package, header.path)
     ]
+
+
+def license_texts(package: Package) -> list[bytes]:
+    """Return the texts of the license: those of the package, else those of its repository."""
+    own = [path for path in package.files if _LICENSES.fullmatch(path)]
+    top = repository.place_of(package.place).top
+    if own or not top:
+        return [package.tree.read(path) for path in own]
+    names = [name for name in package.outside.names(top)[0] if _LICENSES.fullmatch(name)]
+    return [package.outside.read(os.path.join(top, name)) for name in names]
 
 
 def majority(values: Iterable[_T], total: int) -> _T | None:

@@ -49,9 +49,9 @@ def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_those_of_a_team(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "list", str(team)]) == 0
-    assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
+    assert capsys.readouterr().out == "extras:\n    citation  A citation file\n"
     assert main(["templates", "--content", str(team)]) == 0
-    assert capsys.readouterr().out == "extra:\n    citation  A citation file\n"
+    assert capsys.readouterr().out == "extras:\n    citation  A citation file\n"
 
 
 def test_good_ones(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -155,6 +155,7 @@ def test_what_overrides_nothing_is_refused(
         ("topic", "the question of composed_nodes"),
         ("header", "a variable"),
         ("verb", "a variable"),
+        ("target", "a variable"),
     ],
 )
 def test_a_question_that_shadows_one_of_ours_is_named(

@@ -112,6 +112,32 @@ def test_ci_runs_on_all_distributions() -> None:
     assert job["container"] == "ros:${{ matrix.distro }}"
 
 
+def test_containers_are_for_the_oldest_distribution_and_can_be_for_each() -> None:
+    assert new("--distro", "humble,lyrical", "--extras", "dockerfile", "devcontainer") == 0
+    dockerfile = Path("robot/Dockerfile").read_text()
+    assert (
+        "# For another distribution: docker build --build-arg ROS_DISTRO=lyrical .\n" in dockerfile
+    )
+    assert "\nARG ROS_DISTRO=humble\n" in dockerfile
+    assert dockerfile.count("FROM ros:${ROS_DISTRO} AS ") == 2
+    container = json.loads(Path("robot/.devcontainer/devcontainer.json").read_text())
+    assert container["image"] == "ros:${localEnv:ROS_DISTRO:humble}"
+    readme = Path("robot/README.md").read_text()
+    assert "`docker build --build-arg ROS_DISTRO=lyrical` builds it for Lyrical" in readme
+    assert "`ROS_DISTRO=lyrical code .` opens it with Lyrical" in readme
+    for text in (dockerfile, container["postCreateCommand"]):
+        assert "humble" not in text.replace("ARG ROS_DISTRO=humble", "")
+
+
+def test_the_readme_of_one_distribution_names_no_other() -> None:
+    assert new("--extras", "dockerfile", "devcontainer") == 0
+    readme = Path("robot/README.md").read_text()
+    assert "ROS_DISTRO" not in readme
+    assert "\n\n\n" not in readme
+    container = json.loads(Path("robot/.devcontainer/devcontainer.json").read_text())
+    assert container["image"] == "ros:jazzy"
+
+
 @pytest.mark.parametrize(
     ("variables", "configuration", "flags", "expected"),
     [
@@ -121,6 +147,12 @@ def test_ci_runs_on_all_distributions() -> None:
         ({"ROS_DISTRO": "humble"}, '[check]\ndistribution = "kilted"\n', [], ["kilted"]),
         ({}, '[check]\ndistribution = "kilted"\n', ["--distro", "lyrical"], ["lyrical"]),
         ({}, '[new]\ndistro = ["kilted", "jazzy"]\n', [], ["jazzy", "kilted"]),
+        (
+            {},
+            "",
+            ["--distro", "lyrical,kilted", "--distro", "jazzy"],
+            ["jazzy", "kilted", "lyrical"],
+        ),
     ],
 )
 def test_flag_configuration_and_shell_say_what_a_package_is_for(
@@ -135,6 +167,37 @@ def test_flag_configuration_and_shell_say_what_a_package_is_for(
     Path("ros2-scaffold.toml").write_text(configuration)
     assert new(*flags) == 0
     assert targets() == expected
+
+
+@pytest.mark.parametrize(
+    ("shell", "flags", "expected"),
+    [
+        ("jazzy", [], ""),
+        ("humble", ["--distro", "jazzy"], ""),
+        (
+            "humble",
+            [],
+            "note: made for Humble, as ROS_DISTRO is 'humble'; --distro NAMES makes it ",
+        ),
+        (
+            "iron",
+            [],
+            "note: made for Jazzy, although ROS_DISTRO is 'iron', which has reached its end of ",
+        ),
+    ],
+)
+def test_a_shell_that_says_what_a_package_is_for_is_named(
+    shell: str,
+    flags: list[str],
+    expected: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("ROS_DISTRO", shell)
+    assert new(*flags) == 0
+    written = capsys.readouterr().err
+    assert expected in written
+    assert ("made for" in written) == bool(expected)
 
 
 def test_an_unknown_distribution_is_refused_with_the_nearest_name(

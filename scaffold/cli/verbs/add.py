@@ -97,10 +97,10 @@ def _targets(options: argparse.Namespace, directory: str, settings: Config) -> l
     if recorded is None:
         return distro.chosen(flag, settings)
     if flag is not None and distro.wanted(flag, settings) != recorded:
+        command = f"ros2-scaffold update {distro.FLAG} {','.join(flag)} {directory}"
         raise InputError(
             f"{distro.FLAG}: the package is for {distributions.titles(recorded)}; "
-            f"`ros2-scaffold update {distro.FLAG} {flag} {directory}` makes it one for others; "
-            "nothing was changed"
+            f"`{command}` makes it one for others; nothing was changed"
         )
     return recorded
 

@@ -77,6 +77,7 @@ def _run(
 ) -> int:
     """Write a package for the target, asking on a terminal what is not given."""
     from scaffold.check import registry
+    from scaffold.cli import distro
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.configuration import content
     from scaffold.errors import ScaffoldError
@@ -108,7 +109,7 @@ def _run(
         return INTERNAL_ERROR
     if not options.dry_run and not options.diff:
         plan = _write(options, made, plan, above, left)
-    for remark in (*made.remarks, *doubts):
+    for remark in (*made.remarks, *doubts, *distro.note_of_new(given)):
         terminal.note(remark)
     if options.diff:
         terminal.show_patch(_diff(plan, above))

@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import terminal
+from scaffold.cli import flags, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -30,15 +30,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "packages with every rule, or copy one to start from: copy NAME DIR, or one file of it: "
         "copy NAME/FILE DIR",
     )
-    parser.add_argument(
+    words = parser.add_argument(
         "words",
         nargs="*",
         metavar="DIR",
         help="a directory with templates/ of your own: those in it (default: all)",
     )
+    words.completer = _offer  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--name", metavar="NAME", default="", help="what the copy is called")
-    parser.add_argument("--content", metavar="DIR", help="another way to name the directory")
+    place = parser.add_argument(
+        "--content", metavar="DIR", help="another way to name the directory"
+    )
+    place.completer = flags.offer_directories  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
+
+
+def _offer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
+    """Offer the templates to copy, and directories, to who presses tab."""
+    from scaffold.configuration import content
+    from scaffold.generate.templates import template
+
+    if parsed_args.action == "copy" and not parsed_args.words:
+        return [*template.load(content.roots("templates"))]
+    return flags.offer_directories(prefix)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -101,15 +115,20 @@ def _own(directory: str | None) -> tuple[str, ...]:
 
 
 def _listed(templates: Mapping[str, Template], names: Sequence[str]) -> str:
+    from scaffold.generate import parts
     from scaffold.generate.templates.template import Role
 
     width = max(map(len, names), default=0)
+    chosen = {name: templates[name] for name in names}
+    groups = [
+        (role.value.replace("_", " "), [name for name in names if templates[name].role is role])
+        for role in (Role.PACKAGE, Role.BUILD_TYPE)
+    ]
     lines: list[str] = []
-    for role in Role:
-        of_role = [templates[name] for name in names if templates[name].role is role]
-        if of_role:
-            lines += ["", f"{role.value.replace('_', ' ')}:"]
-            lines += [f"    {item.name:{width}}  {item.summary}" for item in of_role]
+    for heading, group in (*groups, *parts.sections(chosen).items()):
+        if group:
+            lines += ["", f"{heading}:"]
+            lines += [f"    {name:{width}}  {templates[name].summary}" for name in group]
     return "\n".join(lines[1:])
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
+from itertools import dropwhile
 
 from scaffold.ament import copyright as notices
 from scaffold.errors import InputError
 from scaffold.files.tree import MANIFEST
-from scaffold.generate.own_sources import majority, own_headers
+from scaffold.generate.own_sources import license_texts, majority, own_headers
 from scaffold.generate.questions import answer_types
 from scaffold.generate.questions.questions import Given
 from scaffold.model.manifest.manifest import Manifest
@@ -17,7 +18,16 @@ from scaffold.model.manifest.placeholders import is_placeholder
 from scaffold.model.manifest.spdx import spdx_of
 from scaffold.model.package import Package
 
-LICENSE_FILE = "LICENSE"
+_BSD = "Redistribution and use in source and binary forms"
+_THIRD_CLAUSE = "either the name of"
+_NOTICE = re.compile(r"(?im)^[ \t]*copyright\b(.*)$")
+_YEAR = re.compile(r"(?i)(?:\(c\)|©)?[\d,-]*")
+"""A word between "copyright" and the holder."""
+_ENDED = re.compile(r"(?<!\bInc)(?<!\bLtd)(?<!\bCo)(?<!\bCorp)(?<!\be\.V)\.$")
+"""The period of a sentence, and not that of a company."""
+_AUTHOR = re.compile(r"(?i)#[\s*]*[@\\]?(authors?|written by)\b")
+_OF_TEXTS = ("free software foundation",)
+"""Holders of the text of a license, and not of what is under it."""
 _ACCOUNTS = frozenset({"root", "user", "ubuntu", "ros", "admin", "vscode", "none", "unknown"})
 """Accounts of containers and images, which `ros2 pkg create` takes for the maintainer's name."""
 _OF_EXAMPLES = ("open source robotics foundation", "open robotics", "willow garage")
@@ -35,7 +45,7 @@ def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
     maintainer, address = _maintainer(package.manifest)
     decided = {
         "license": license_of(package, licenses),
-        "copyright_holder": _holder(package) or maintainer,
+        "copyright_holder": _holder(package) or _holder_in_text(package) or maintainer,
         "maintainer_name": maintainer,
         "maintainer_email": address,
     }
@@ -46,7 +56,8 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
     """Return the license of a package that there is a template for.
 
     The manifest decides; where it says too little (``BSD``) or nothing, the headers of the
-    package's own sources do, then the file LICENSE. Where it says TODO nothing is decided.
+    package's own sources do, then the text of the license, in the package or at the top of its
+    repository. Where it says TODO, or all of them leave a choice, nothing is decided.
     """
     if not is_decided(package):
         return None
@@ -64,11 +75,18 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
     for licence, _ in written.most_common():
         if licence in choices or not choices:
             return licence
-    if package.has(LICENSE_FILE):
-        licence = notices.identify_file(LICENSE_FILE, package.tree.read(LICENSE_FILE))
-        if licence in templates:
-            return licence
-    return min(choices, default=None)
+    named = {identify_text(data) for data in license_texts(package)}
+    named &= choices or {*templates}
+    return named.pop() if len(named) == 1 else None
+
+
+def identify_text(data: bytes) -> str | None:
+    """Return the license that a text is of; a BSD license by its clauses, however it is set."""
+    known = notices.identify_file("LICENSE", data)
+    text = " ".join(data.decode("utf-8", "replace").split())
+    if known is not None or _BSD not in text:
+        return known
+    return "BSD-3-Clause" if _THIRD_CLAUSE in text else "BSD-2-Clause"
 
 
 def is_decided(package: Package) -> bool:
@@ -91,13 +109,13 @@ def own_header(package: Package) -> str:
 
 
 def _comment(lines: Sequence[str], number: int) -> str:
-    """Return the comment lines around a line."""
+    """Return the comment lines around a line, without the author: that is whoever adds code."""
     start = end = number
     while start and lines[start - 1].startswith("#") and not lines[start - 1].startswith("#!"):
         start -= 1
     while end < len(lines) and lines[end].startswith("#"):
         end += 1
-    return "\n".join(lines[start:end])
+    return "\n".join(line for line in lines[start:end] if not _AUTHOR.match(line))
 
 
 def _holder(package: Package) -> str | None:
@@ -108,6 +126,24 @@ def _holder(package: Package) -> str | None:
     if holder is None or not _is_usable(holder) or not _may_hold(package, holder):
         return None
     return holder
+
+
+def _holder_in_text(package: Package) -> str | None:
+    """Return the only copyright holder that the text of the license names."""
+    texts = [data.decode("utf-8", "replace") for data in license_texts(package)]
+    lines = [line for text in texts for line in _NOTICE.findall(text)]
+    names = {_ENDED.sub("", _without_remark(name)) for name in map(_named, lines) if name}
+    names = {name for name in names if not name.lower().startswith(_OF_TEXTS)}
+    holder = names.pop() if len(names) == 1 else ""
+    return holder if _is_usable(holder) and _may_hold(package, holder) else None
+
+
+def _named(notice: str) -> str:
+    """Return the holder in what follows the word copyright; empty without a year before it."""
+    words = notice.split()
+    holder = [*dropwhile(_YEAR.fullmatch, words)]
+    has_year = any(character.isdigit() for word in words[: -len(holder)] for character in word)
+    return " ".join(holder) if has_year else ""
 
 
 def _may_hold(package: Package, name: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,7 +13,10 @@ from scaffold.model.package import Package
 from scaffold.model.parameters.files import parameter_file, parameter_paths
 from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.python.values import Unknown
+from scaffold.source import ViewError
 
+LIBRARY_NODES = frozenset({"nav2_simple_commander.robot_navigator.BasicNavigator"})
+"""Classes of nodes that other packages have, and programs derive from or create."""
 CONFIG = "config"
 """Where generated launch files look for parameter files."""
 
@@ -51,11 +55,22 @@ def find(
         if program in known_programs or is_library:
             continue
         names = {owner.node_name for owner in nodes_of(package, program)}
-        if names or in_cpp.get(program):
+        if names or in_cpp.get(program) or _makes_library_node(package, source):
             result.append(_node(package, program, names))
         else:
             others.append(program)
     return FoundNodes(list(_renamed(result)), others)
+
+
+def _makes_library_node(package: Package, path: str) -> bool:
+    """Tell whether a file derives from a class of nodes of another package, or creates one."""
+    try:
+        module = package.module(path)
+    except ViewError:
+        return False
+    bases = [base for node in module.walk(ast.ClassDef) for base in node.bases]
+    used = bases + [node.func for node in module.walk(ast.Call)]
+    return any(not LIBRARY_NODES.isdisjoint(module.qualified_names(item)) for item in used)
 
 
 def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str, Any]:

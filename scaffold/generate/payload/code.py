@@ -22,6 +22,11 @@ _CLOCK = "self.get_clock().now().to_msg()"
 _SINE = "math.sin({} / 10.0)"
 
 
+def is_now(stamp: str) -> str:
+    """Return an expression of a test that is true of a stamp of the last minute."""
+    return f"abs(time.time() - {stamp}.sec) < 60"
+
+
 class Block:
     """Statements on one level, with the loops in it."""
 

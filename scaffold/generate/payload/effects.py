@@ -10,6 +10,8 @@ from scaffold.record import NamedTuple
 _CHANGING = frozenset({"count", "get_clock", "uuid4"})
 """What gives another value each time: attributes of the node, and a function."""
 _FRAME = "frame_id"
+_FILLED_BY = {"create_cloud_xyz32": ("data",)}
+"""What functions of libraries make of their arguments in a message that they return."""
 
 
 class Effects(NamedTuple):
@@ -82,6 +84,9 @@ class _Walk:
     def _assign(self, target: ast.expr, value: ast.expr, *, inside: bool) -> None:
         is_changing = self._is_changing(value)
         path = self._path(target)
+        if isinstance(target, ast.Name) and target.id == self._target:
+            self._replace(value)
+            return
         if not path:
             if is_changing:
                 self._changing_names |= set(_names(target))
@@ -99,6 +104,14 @@ class _Walk:
             self.constant.pop(path, None)
             if _differs(value):
                 self.filled.add(path)
+
+    def _replace(self, value: ast.expr) -> None:
+        """Note what a function of a library fills in the message that it returns."""
+        match value:
+            case ast.Call(func=ast.Name(id=name)):
+                fields = _FILLED_BY.get(name, ())
+                self.order.extend(fields)
+                (self.changing if self._is_changing(value) else self.filled).update(fields)
 
     def _path(self, node: ast.expr) -> str:
         """Return the path of the field in the target; empty if it is something else."""

@@ -11,11 +11,14 @@ from scaffold.generate.templates.filters import MAX_COLUMNS
 MODULES = ("math", "struct", "uuid", "zlib")
 """Modules of the standard library that statements may use."""
 
+FUNCTIONS = {"create_cloud_xyz32": "sensor_msgs_py.point_cloud2"}
+"""Functions of other packages that statements may use, with their modules."""
+
 
 def imports(
     types: Types, code: Sequence[str], used: Iterable[str] = ()
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the interface packages that code needs, and its imports, both sorted.
+    """Return the ROS packages that code needs, and its imports, both sorted.
 
     Args:
         types: Say which messages names in the code mean.
@@ -35,6 +38,8 @@ def imports(
     modules = [item for item in MODULES if item in names]
     packages = sorted({name.partition("/")[0] for name in messages})
     lines = [f"import {module}" for module in modules]
+    functions = {name: module for name, module in FUNCTIONS.items() if name in names}
+    lines.extend(f"from {module} import {name}" for name, module in functions.items())
     for package in packages:
         classes = sorted(
             f"{name.rpartition('/')[2]} as {aliases[name]}"
@@ -44,7 +49,8 @@ def imports(
             if name.startswith(f"{package}/")
         )
         lines.extend(_from(f"{package}.msg", classes))
-    return tuple(packages), tuple(lines)
+    libraries = {module.partition(".")[0] for module in functions.values()}
+    return tuple(sorted({*packages, *libraries})), tuple(lines)
 
 
 def _names(code: str) -> set[str]:

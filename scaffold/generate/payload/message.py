@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from scaffold.generate.payload import conventions, lookup, recipe, words
-from scaffold.generate.payload.code import Block
+from scaffold.generate.payload.code import Block, is_now
 from scaffold.generate.payload.imports import imports
 from scaffold.generate.payload.lookup import HEADER, Types
 from scaffold.generate.payload.payloads import Payload
@@ -93,7 +93,7 @@ def _words(types: Types, walk: Walk) -> Recipe:
     if result is None:
         result = _words_of_part(types) or _words_of_fields(types, walk)
     if is_stamped:
-        result = result._replace(checks=("message.header.stamp.sec > 0", *result.checks))
+        result = result._replace(checks=(is_now("message.header.stamp"), *result.checks))
     return result
 
 

@@ -43,7 +43,7 @@ class Payload(NamedTuple):
     is_counted: bool
     """Whether the statements use ``self.count``."""
     packages: tuple[str, ...]
-    """The interface packages that the imports need, in alphabetical order."""
+    """The packages that the imports need, in alphabetical order."""
     frame: str = "base_link"
     """The default of the parameter ``frame_id``."""
     constants: tuple[str, ...] = ()
@@ -320,6 +320,7 @@ def _import(module: str, interface: str, name: str) -> str:
 
 def _needed(imports: Iterable[str], checks: Iterable[str]) -> tuple[str, ...]:
     """Return imports of the names that expressions use, one name each."""
+    imports = [*imports, "import struct", "import time"]
     used = set(re.findall(r"(?<![.\w'])[A-Za-z]\w*", " ".join(checks)))
     parts = (line.partition("import ") for line in imports)
     return tuple(

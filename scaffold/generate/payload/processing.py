@@ -133,7 +133,11 @@ _APPROACH = """
     # Slow down in front of an obstacle, and stop at the distance STOP
     {target}.linear.x = min(MAX_SPEED, max(0.0, 0.5 * (nearest - STOP)))  # meters per second
 """
-_APPROACH_CHECK = "{}.linear.x == pytest.approx(max(0.0, min(0.5, 0.5 * item.ranges[1] - 0.5)))"
+_APPROACH_CHECK = """(
+    {0}.linear.x == pytest.approx(max(0.0, min(0.5, 0.5 * item.ranges[1] - 0.5)))
+    and ({0}.linear.y, {0}.linear.z) == (0.0, 0.0)
+    and {0}.angular == {1}.angular
+)"""
 _SPEED = Process(
     "the speed over ground",
     """
@@ -239,14 +243,14 @@ PROCESSES: dict[tuple[str, str], Process] = {
     ("sensor_msgs/LaserScan", "geometry_msgs/Twist"): Process(
         "a velocity that stops in front of obstacles",
         _NEAREST + _APPROACH.format(target="msg"),
-        _APPROACH_CHECK.format("message"),
+        _APPROACH_CHECK.format("message", "Twist()"),
         "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
         _OBSTACLE,
     ),
     ("sensor_msgs/LaserScan", "geometry_msgs/TwistStamped"): Process(
         "a velocity that stops in front of obstacles",
         _NEAREST + _APPROACH.format(target="msg.twist"),
-        _APPROACH_CHECK.format("message.twist"),
+        _APPROACH_CHECK.format("message.twist", "TwistStamped().twist"),
         "MAX_SPEED, STOP = 0.5, 1.0  # meters per second, meters",
         _OBSTACLE,
     ),
@@ -291,6 +295,8 @@ PROCESSES: dict[tuple[str, str], Process] = {
         """(
             message.linear.x == pytest.approx(0.5 * item.axes[1])
             and message.angular.z == pytest.approx(item.axes[0])
+            and (message.linear.y, message.linear.z) == (0.0, 0.0)
+            and (message.angular.x, message.angular.y) == (0.0, 0.0)
         )""",
         "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
     ),
@@ -300,6 +306,8 @@ PROCESSES: dict[tuple[str, str], Process] = {
         """(
             message.twist.linear.x == pytest.approx(0.5 * item.axes[1])
             and message.twist.angular.z == pytest.approx(item.axes[0])
+            and (message.twist.linear.y, message.twist.linear.z) == (0.0, 0.0)
+            and (message.twist.angular.x, message.twist.angular.y) == (0.0, 0.0)
         )""",
         "MAX_SPEED, MAX_TURN = 0.5, 1.0  # meters per second, radians per second",
     ),

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from textwrap import dedent
 
 from scaffold.generate.payload import elements, enums, recipe, words
-from scaffold.generate.payload.code import COUNT, NOW, WIDTH, Block
+from scaffold.generate.payload.code import COUNT, NOW, WIDTH, Block, is_now
 from scaffold.generate.payload.lookup import DURATION, HEADER, TIME, VECTOR, Types
 from scaffold.generate.payload.recipe import FRAME, Recipe
 from scaffold.model.interfaces.syntax import Constant, Field, Section
@@ -145,7 +145,7 @@ class Walk:
             return
         if self._is_root(target) and has_frame:
             self._stamped.append(target)
-            self.checks.append(f"{target}.stamp.sec > 0")
+            self.checks.append(is_now(f"{target}.stamp"))
         block.add(f"{target}.stamp = {NOW}")
         if has_frame:
             block.add(f"{target}.frame_id = self.frame_id")

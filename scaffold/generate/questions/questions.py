@@ -75,7 +75,7 @@ def add_flags(
         options: dict[str, Any] = {"help": _help(question), "metavar": _metavar(question)}
         if question.type in {"dependencies", "fields", SEVERAL}:
             options |= {"nargs": "+", "action": "extend"}
-        elif question.type == "parts":
+        elif question.type in {"parts", "distributions"}:
             options |= {"action": "append"}
         if question.is_positional:
             parser.add_argument(question.name, nargs="?", **options)

@@ -22,9 +22,9 @@ _VARIABLES = frozenset(
     {
         *("contents", "contributing_text", "date", "depends", "groups", "has_license", "header"),
         *("interface", "interfaces", "is_added", "license_text", "node", "nodes", "program"),
-        *("programs", "share_directories", "subdirectory", "tests", "tutorial", "year"),
+        *("programs", "share_directories", "subdirectory", "target", "tests", "tutorial"),
         *("class_name", "executable", "file", "has_parameters", "module", "parameter_file"),
-        *("has", "imports", "kind", "name", "summary", "type", "version"),
+        *("has", "imports", "kind", "name", "summary", "type", "version", "year"),
         *("h", "entry", "templates", "verb", "command_line"),  # of the command line
     }
 )

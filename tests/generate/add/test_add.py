@@ -458,6 +458,17 @@ def test_an_unknown_licence_gives_the_header_of_the_other_files(tmp_path: Path) 
     ]
 
 
+def test_the_author_of_other_files_is_not_the_one_of_new_ones(tmp_path: Path) -> None:
+    manifest = CMAKE["package.xml"].replace("BSD-3-Clause", "Ours")
+    hello = CMAKE["scripts/hello.py"].replace(
+        "# Copyright", "# @author  Grace <grace@example.org>\n        # Copyright", 1
+    )
+    demo = write(tmp_path / "demo", {**CMAKE, "package.xml": manifest, "scripts/hello.py": hello})
+    assert add(demo, "publisher", "talker") == 0
+    lines = (demo / "scripts" / "talker.py").read_text().splitlines()
+    assert lines[1] == "# Copyright 2020 The Hello Company. All rights reserved."
+
+
 LINTER_TEST = """\
     # Copyright 2015 Open Source Robotics Foundation, Inc.
     #
@@ -577,6 +588,36 @@ def test_without_any_licence_there_is_no_header(
     assert "the license of demo is 'TODO'; --license gives them one" in said
     assert add(demo, "publisher", "other", "--license", "MIT") == 0
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
+
+
+@pytest.mark.parametrize(
+    ("clause", "place", "expected"),
+    [
+        ("3. Neither the name of Acme nor those of others may be used.", ".", "BSD-3-Clause"),
+        ("", "demo", "BSD-2-Clause"),
+        (None, "", ""),
+    ],
+)
+def test_what_the_manifest_leaves_open_is_in_the_text_of_the_license(
+    clause: str | None,
+    place: str,
+    expected: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    files = {**CMAKE, "scripts/hello.py": "#!/usr/bin/env python3\nprint('hello')\n"}
+    files["package.xml"] = CMAKE["package.xml"].replace("BSD-3-Clause", "BSD")
+    demo = write(tmp_path / "demo", files)
+    write(tmp_path, {".git/HEAD": "ref: refs/heads/main\n"})
+    text = "Copyright (c) 2019-2021, Acme Robotics Inc.\n\nRedistribution and use in source\n"
+    text += "and binary forms, with or without modification, are permitted provided that:\n"
+    if clause is not None:
+        (tmp_path / place / "LICENSE.txt").write_text(f"{text}{clause}\n")
+    assert add(demo, "publisher", "talker") == 0
+    said, written = capsys.readouterr().err, (demo / "scripts" / "talker.py").read_text()
+    assert ("the license of demo is 'BSD'" in said) is (clause is None)
+    assert ("Acme Robotics Inc.\n" in written) is bool(expected)
+    assert ("Neither the name of" in written) is (expected == "BSD-3-Clause")
 
 
 def test_answers_come_from_flags_a_file_and_the_configuration(
@@ -995,6 +1036,26 @@ def test_launch_starts_the_nodes_that_setup_cfg_declares(tmp_path: Path) -> None
     demo = write(tmp_path / "demo", made)
     assert add(demo, "launch") == 0
     assert launched(demo) == ["executable='one'"]
+
+
+def test_launch_starts_a_node_of_a_module_that_the_program_imports(tmp_path: Path) -> None:
+    node = "from rclpy.node import Node\n\n\nclass Eye(Node):\n    def __init__(self):\n"
+    files = {
+        "demo/parts/__init__.py": "",
+        "demo/parts/eye.py": f"{node}        super().__init__('eye')\n",
+        "demo/hello.py": "import rclpy\nfrom demo.parts import eye as organ\n\n\n"
+        "def main():\n    rclpy.init()\n    rclpy.spin(organ.Eye())\n",
+    }
+    demo = write(tmp_path / "demo", {**PYTHON, **files})
+    assert add(demo, "launch") == 0
+    assert launched(demo) == ["executable='hello'"]
+
+
+def test_launch_starts_a_node_of_a_class_that_another_package_has(tmp_path: Path) -> None:
+    demo = write(tmp_path / "demo", CMAKE)
+    assert add(demo, "nav2_client", "patrol") == 0
+    assert add(demo, "launch") == 0
+    assert "executable='patrol.py'" in launched(demo)
 
 
 def test_nodes_of_one_name_are_started_under_those_of_their_programs(tmp_path: Path) -> None:

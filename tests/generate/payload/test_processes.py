@@ -16,7 +16,7 @@ import pytest
 from scaffold.generate import payload
 from scaffold.generate.payload import Payload
 from scaffold.generate.payload.processing import PROCESSES, Process
-from tests.generate.payload.test_payload import Node, transported
+from tests.generate.payload.test_payload import Node, need_installed, transported
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),  # of lark
@@ -95,6 +95,7 @@ def test_a_process_passes_its_check_and_what_is_broken_does_not(
     received: str, published: str
 ) -> None:
     item, message = payload.payload(received), payload.payload(published)
+    need_installed({*item.packages, *message.packages})
     process = item.processed(message)
     assert process is not None
     assert run(item, message, process, process.constant, process.lines)

@@ -12,7 +12,7 @@ RECIPES: dict[str, Recipe] = {
             msg.stamp = self.get_clock().now().to_msg()
         """,
         log="{uuid.UUID(bytes=bytes(msg.goal_id.uuid))}",
-        checks=("any(message.goal_id.uuid)", "message.stamp.sec > 0"),
+        checks=("any(message.goal_id.uuid)", "abs(time.time() - message.stamp.sec) < 60"),
     ),
     "GoalStatus": Recipe(
         says="a goal that is worked on",
@@ -22,7 +22,10 @@ RECIPES: dict[str, Recipe] = {
             msg.status = GoalStatus.STATUS_EXECUTING
         """,
         log="status {msg.status}",
-        checks=("message.status == GoalStatus.STATUS_EXECUTING", "message.goal_info.stamp.sec > 0"),
+        checks=(
+            "message.status == GoalStatus.STATUS_EXECUTING",
+            "abs(time.time() - message.goal_info.stamp.sec) < 60",
+        ),
     ),
     "GoalStatusArray": Recipe(
         says="one goal that is done and another one that is worked on",
@@ -36,7 +39,7 @@ RECIPES: dict[str, Recipe] = {
         log="{len(msg.status_list)} goals",
         checks=(
             "len(message.status_list) == 2",
-            "all(goal.goal_info.stamp.sec > 0 for goal in message.status_list)",
+            "all(abs(time.time() - goal.goal_info.stamp.sec) < 60 for goal in message.status_list)",
         ),
     ),
 }

@@ -12,7 +12,7 @@ RECIPES: dict[str, Recipe] = {
             msg.id = f'goal_{self.count}'
         """,
         log="{msg.id}",
-        checks=("message.stamp.sec > 0", "message.id.startswith('goal_')"),
+        checks=("abs(time.time() - message.stamp.sec) < 60", "message.id.startswith('goal_')"),
     ),
     "GoalStatus": Recipe(
         says="a goal that is worked on",

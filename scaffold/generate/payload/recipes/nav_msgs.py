@@ -97,6 +97,12 @@ RECIPES: dict[str, Recipe] = {
                 "message.pose.pose.position.y == pytest.approx(\n"
                 "    2.0 * message.pose.pose.orientation.z**2, abs=1e-6)"
             ),
+            (
+                "message.pose.pose.orientation.w == pytest.approx(\n"
+                "    math.cos(0.1 * ("
+                "message.header.stamp.sec + message.header.stamp.nanosec / 1e9)),\n"
+                "    abs=1e-6)"
+            ),
             "message.pose.covariance[35] == message.twist.covariance[0] == 0.01",
         ),
     ),

@@ -92,7 +92,10 @@ RECIPES: dict[str, Recipe] = {
             msg.changed_parameters = [Parameter(name='speed', value=speed)]
         """,
         log="{msg.changed_parameters[0].name} of {msg.node}",
-        checks=("message.stamp.sec > 0", "message.changed_parameters[0].name == 'speed'"),
+        checks=(
+            "abs(time.time() - message.stamp.sec) < 60",
+            "message.changed_parameters[0].name == 'speed'",
+        ),
     ),
     "ParameterEventDescriptors": Recipe(
         says="the description of a parameter that changed",

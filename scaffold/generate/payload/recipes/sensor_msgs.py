@@ -151,6 +151,12 @@ RECIPES: dict[str, Recipe] = {
         """,
         log="z {msg.orientation.z:.2f}, w {msg.orientation.w:.2f}",
         checks=(
+            (
+                "message.orientation.w == pytest.approx(\n"
+                "    math.cos(0.1 * ("
+                "message.header.stamp.sec + message.header.stamp.nanosec / 1e9)),\n"
+                "    abs=1e-6)"
+            ),
             "message.orientation.z**2 + message.orientation.w**2 == pytest.approx(1.0)",
             "message.linear_acceleration.z == 9.81",
             "message.orientation_covariance[0] > 0.0",
@@ -171,6 +177,12 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "message.name == ['shoulder', 'elbow']",
             "len(message.position) == len(message.velocity) == len(message.effort) == 2",
+            (
+                "message.position[0] == pytest.approx(\n"
+                "    math.sin(0.2 * ("
+                "message.header.stamp.sec + message.header.stamp.nanosec / 1e9)),\n"
+                "    abs=1e-6)"
+            ),
             "message.position[0] == -message.position[1]",
             "math.hypot(message.position[0], 5.0 * message.velocity[0]) == pytest.approx(1.0)",
         ),
@@ -277,6 +289,12 @@ RECIPES: dict[str, Recipe] = {
         checks=(
             "message.joint_names == ['base']",
             "len(message.transforms) == len(message.twist) == len(message.wrench) == 1",
+            (
+                "message.transforms[0].translation.x == pytest.approx(\n"
+                "    math.cos(0.2 * ("
+                "message.header.stamp.sec + message.header.stamp.nanosec / 1e9)),\n"
+                "    abs=1e-6)"
+            ),
         ),
     ),
     "MultiEchoLaserScan": Recipe(
@@ -339,21 +357,13 @@ RECIPES: dict[str, Recipe] = {
             height = math.sin(self.count / 10.0)  # meters
             angles = [2.0 * math.pi * index / POINTS for index in range(POINTS)]
             points = [(math.cos(angle), math.sin(angle), height) for angle in angles]
-            msg.height = 1  # the points have no order
-            msg.width = POINTS
-            msg.fields = [
-                PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1)
-                for index, name in enumerate('xyz')
-            ]
-            msg.point_step = 12  # bytes of a point
-            msg.row_step = msg.point_step * msg.width
-            msg.data = b''.join(struct.pack('<fff', *point) for point in points)
-            msg.is_dense = True  # no point is invalid
+            msg = create_cloud_xyz32(msg.header, points)
         """,
         log="{msg.width} points, {len(msg.data)} bytes",
         checks=(
             "[field.name for field in message.fields] == ['x', 'y', 'z']",
-            "len(message.data) == message.height * message.row_step == 100 * 12",
+            "(message.height, message.width) == (1, 100)",
+            "len(message.data) == message.row_step == 100 * 12",
             "math.hypot(*struct.unpack('<ff', bytes(message.data[:8]))) == pytest.approx(1.0)",
         ),
     ),

@@ -16,7 +16,7 @@ RECIPES: dict[str, Recipe] = {
         log="request {msg.sequence_number}",
         checks=(
             "message.event_type == ServiceEventInfo.REQUEST_SENT",
-            "message.stamp.sec > 0",
+            "abs(time.time() - message.stamp.sec) < 60",
             "list(message.client_gid) == list(range(16))",
         ),
     ),

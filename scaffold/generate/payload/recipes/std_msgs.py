@@ -87,7 +87,7 @@ RECIPES: dict[str, Recipe] = {
             msg.frame_id = self.frame_id
         """,
         log="{msg.stamp.sec} s in {msg.frame_id}",
-        checks=("message.stamp.sec > 0", "message.frame_id"),
+        checks=("abs(time.time() - message.stamp.sec) < 60", "message.frame_id"),
     ),
     **{f"Int{bits}": _counter(bits - 1) for bits in (8, 16, 32)},
     **{f"UInt{bits}": _counter(bits) for bits in (8, 16, 32)},

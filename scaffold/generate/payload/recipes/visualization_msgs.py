@@ -154,7 +154,7 @@ RECIPES: dict[str, Recipe] = {
         log="{len(msg.markers)} balls",
         checks=(
             "[marker.id for marker in message.markers] == [0, 1, 2]",
-            "all(marker.header.stamp.sec > 0 for marker in message.markers)",
+            "all(abs(time.time() - marker.header.stamp.sec) < 60 for marker in message.markers)",
             "{marker.type for marker in message.markers} == {Marker.SPHERE}",
             "len({marker.pose.position.x for marker in message.markers}) == 3",
             "len({marker.pose.position.y for marker in message.markers}) == 3",
