@@ -28,7 +28,26 @@ class Running:
 
     address: str
     scheduler: Member
-    workers: Sequence[Member]
+    workers: list[Member]
+
+    @contextmanager
+    def worker(
+        self, address: str, given: Mapping[str, str], flags: Sequence[str] = ()
+    ) -> Iterator[Member]:
+        """Run one more worker for the length of the block.
+
+        Args:
+            address: Where it finds the scheduler.
+            given: Variables of its environment.
+            flags: Of its program.
+        """
+        directory, number = self.scheduler.tmp.parent, len(self.workers)
+        words = ["dask_worker", address, "--nthreads", "1", "--no-nanny", *flags]
+        scratch = str(directory / f"dask-{number}")
+        command = [*words, "--local-directory", scratch]
+        with _member(directory / f"worker-{number}", command, given) as member:
+            self.workers.append(member)
+            yield member
 
 
 @contextmanager
@@ -61,22 +80,13 @@ def cluster(
         wait_until(lambda: "Scheduler at" in scheduler.log.read_text())
         address = re.search(r"(?:tcp|tls)://[\d.]+:\d+", scheduler.log.read_text())
         assert address is not None
-        members = []
-        for number in range(workers):
-            scratch = str(directory / f"dask-{number}")
-            words = ["dask_worker", address[0], "--nthreads", "1", "--no-nanny", *flags]
-            members.append(
-                stack.enter_context(
-                    _member(
-                        directory / f"worker-{number}",
-                        [*words, "--local-directory", scratch],
-                        {**given, **(of_workers or {})},
-                    )
-                )
-            )
-        for member in members:
+        of_one = {**given, **(of_workers or {})}
+        running = Running(address[0], scheduler, [])
+        for _ in range(workers):
+            stack.enter_context(running.worker(address[0], of_one, flags))
+        for member in running.workers:
             wait_until(lambda log=member.log: "Registered to" in log.read_text())  # type: ignore[misc]
-        yield Running(address[0], scheduler, members)
+        yield running
 
 
 @contextmanager

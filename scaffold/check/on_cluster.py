@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from scaffold import distributions
 from scaffold.check import batch_process
@@ -28,6 +28,8 @@ class ClusterSession(AgreedSession):
 
     address = ""
     """Of the scheduler."""
+    tell: Callable[[str], None]
+    """Called with what the user should know."""
     settings: Settings
     """What the workers make their sessions of."""
 
@@ -45,7 +47,7 @@ class ClusterSession(AgreedSession):
             return
         checked: dict[Key, Checked | None] = {}
         left = [*targets]
-        with connected(self.address) as cluster:
+        with connected(self.address, self.tell) as cluster:
             batches = self._batches(targets, cluster.threads * BATCHES)
             files = _mirror(targets, self.settings.paths)
             for done in cluster.map(batch_process.check, batches, files):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 import uuid
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib import import_module
@@ -14,11 +15,14 @@ from typing import Any, Generic, TypeVar
 
 from scaffold import __version__
 from scaffold.cluster import worker
+from scaffold.cluster.silence import PATIENCE, Silence
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import installation
 
 TIMEOUT = 10.0
 """Seconds in which a scheduler has to answer, and to have a worker."""
+
+_PERIOD = 0.05
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -45,10 +49,12 @@ class Cluster:
 
     Args:
         client: Dask's.
+        tell: Called with what the user should know.
     """
 
-    def __init__(self, client: Dask) -> None:
+    def __init__(self, client: Dask, tell: Callable[[str], None]) -> None:
         self._client = client
+        self._tell = tell
 
     @property
     def threads(self) -> int:
@@ -88,13 +94,27 @@ class Cluster:
                 )
             )
         try:
-            for future in _dask().as_completed(futures, loop=self._client.loop):
+            for future in self._ended(futures):
                 if future.key in waiting:
                     yield _done(waiting.pop(future.key), future)
                 future.release()
+            for name in waiting.values():
+                yield Done(name, error=f"the scheduler has not answered for {PATIENCE:g} s")
         finally:
             with suppress(Exception):  # the scheduler may be gone
                 self._client.cancel([*futures, *given], force=True)
+
+    def _ended(self, futures: Sequence[Dask]) -> Iterator[Dask]:
+        """Yield what has ended; not the rest, once the scheduler does not answer any more."""
+        ended = _dask().as_completed(futures, loop=self._client.loop)
+        silence = Silence(self._client, self._tell)
+        while not ended.is_empty():
+            batch = ended.next_batch(block=False)
+            yield from batch
+            if not batch:
+                if silence.has_come():
+                    return
+                time.sleep(_PERIOD)
 
 
 def _dask() -> Dask:
@@ -118,11 +138,12 @@ def _reason(error: BaseException) -> str:
 
 
 @contextmanager
-def connected(address: str) -> Iterator[Cluster]:
+def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
     """Connect to a scheduler for the length of the block.
 
     Args:
         address: Such as ``tcp://host:8786``; Dask's own configuration says how TLS is done.
+        tell: Called with what the user should know.
 
     Raises:
         EnvironmentMissingError: Dask is not installed, there is no scheduler, it has no workers,
@@ -141,7 +162,7 @@ def connected(address: str) -> Iterator[Cluster]:
         raise EnvironmentMissingError(_refused(address, error)) from error
     try:
         _validate(client, address)
-        yield Cluster(client)
+        yield Cluster(client, tell)
     finally:
         with suppress(Exception):
             client.close(timeout=TIMEOUT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
@@ -38,7 +39,7 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
         run = run_of(package, start.path, start.function)
     except ViewError:
         return None
-    owners = [owner for _, owner in run.nodes()]
+    owners = [] if _has_own_arguments(run.facts) else [owner for _, owner in run.nodes()]
     return Expectation(
         publications=_merged(_publications(run.facts, owners, run.functions)),
         offers=tuple(dict.fromkeys(_offers(owners, run.functions))),
@@ -46,6 +47,12 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
         runs_nothing=start.function is None and not run.calls and bool(run.facts.nodes),
         source=start.path,
     )
+
+
+def _has_own_arguments(file: RclpyFile) -> bool:
+    """Tell whether a program gives itself ROS arguments, which may change all names and rates."""
+    texts = (node.value for node in file.module.walk(ast.Constant) if isinstance(node.value, str))
+    return any(text.split()[:1] == ["--ros-args"] for text in texts)
 
 
 def _is_node(package: Package, file: RclpyFile) -> bool | None:

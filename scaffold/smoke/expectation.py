@@ -23,6 +23,9 @@ PATIENCE = 2
 """Periods that have to pass before silence means something."""
 
 
+_SIM_TIME = "use_sim_time"
+
+
 @dataclass(frozen=True)
 class Publication:
     """A topic that the source publishes."""
@@ -97,7 +100,10 @@ def compare(
         ),
         *(Problem(f"{t.name} cannot be read: {t.error}") for t in observation.topics if t.error),
     ]
-    notes: list[str] = []
+    notes = [
+        f"several nodes have the name {name}: a call of its services or parameters reaches any one"
+        for name in observation.doubled
+    ]
     if finished:
         return [*_finished_early(expectation, observation, seconds), *problems], notes
     for publication in expectation.publications:
@@ -108,7 +114,7 @@ def compare(
         elif publication.type and publication.type not in topic.types:
             problems.append(Problem(f"{topic.name} has the type {', '.join(topic.types)}: {said}"))
         elif not topic.count:
-            problem, note = _silent(publication, topic, seconds, said)
+            problem, note = _silent(publication, topic, seconds, said + _stands_still(observation))
             problems += problem
             notes += note
         elif publication.rate_hz:
@@ -179,6 +185,19 @@ def _silent(
     if not publication.certain:
         return [], [f"no message on {topic.name}: something has to happen first"]
     return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {text}")], []
+
+
+def _stands_still(observation: Observation) -> str:
+    """Return why timers do not run, if that is seen."""
+    clock = observation.topic("/clock")
+    if clock is not None and clock.publishers:
+        return ""
+    waiting = [
+        node for node, values in observation.parameters.items() if (values or {}).get(_SIM_TIME)
+    ]
+    return (
+        f"; {', '.join(waiting)} has {_SIM_TIME}, and nothing publishes /clock" if waiting else ""
+    )
 
 
 def _wrong_rate(publication: Publication, topic: Topic, text: str) -> list[Problem]:

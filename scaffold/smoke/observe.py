@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import time
+from collections import Counter
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -120,6 +121,7 @@ class Observer:
         self.is_ready = False
         self._ended = False
         self._nodes: set[str] = set()
+        self._doubled: set[str] = set()
         self._topics: dict[str, dict[str, Any]] = {}
         self._services: dict[str, str] = {}
         self._counts: dict[str, int] = {}
@@ -300,6 +302,7 @@ class Observer:
         """Keep the most that was ever seen: an executable that has ended takes all away."""
         self._graph_changed = time.monotonic()
         self._nodes.update(graph["nodes"])
+        self._doubled = {name for name, count in Counter(graph["nodes"]).items() if count > 1}
         self._services.update(graph["services"])
         for topic in graph["topics"]:
             known = self._topics.setdefault(topic["name"], topic)
@@ -337,6 +340,7 @@ class Observer:
                 for name, fields in report["fields"].items()
             },
             refused=tuple(self._refused),
+            doubled=tuple(sorted(self._doubled)),
         )
 
 

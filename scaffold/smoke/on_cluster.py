@@ -99,7 +99,7 @@ def smoke_on_cluster(
     }
     done: dict[str, Done[Outcome]] = {}
     ended_early = ""
-    with connected(address) as cluster:
+    with connected(address, announce) as cluster:
         progress(f"running {len(tasks)} packages on {address}")
         try:
             with interruption.at_once():

@@ -184,6 +184,8 @@ class Observation:
     """Topics that could not be published, and why."""
     transitions: tuple[Transition, ...] = ()
     """Of managed nodes."""
+    doubled: tuple[str, ...] = ()
+    """Names that several nodes have at the end."""
 
     @property
     def alive(self) -> bool:

@@ -12,10 +12,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from scaffold.smoke.expectation import Expectation
+from scaffold.smoke.isolation import domain
 from scaffold.smoke.isolation.station import Isolation, Stations
 from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.observe import ANSWER_TIMEOUT, LAST_ANSWER_TIMEOUT, ObserverError
-from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes import output, process, table
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.processes.usage import Meter, measuring
 from scaffold.smoke.result import Answer, Observation, Problem, Stop
@@ -26,6 +27,8 @@ SETTLING = 1.0
 """Seconds between the last change of the graph and the signal."""
 ENDING = 2.0
 """Seconds that a program may take to end because of an exception."""
+
+_GIVING = f"if it needs arguments, name them in {FILE}: `arguments` of the executable"
 
 _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 """rclpy ends the context at once on a signal, also in the middle of a callback."""
@@ -190,6 +193,8 @@ class _Run:
                 self._ended_by_itself(running)
             for child in await running.finish():
                 self._report(f"leaves a process running: {child}")
+            for path in running.leaked:
+                self._report(f"leaves shared memory behind: {path}")
             if running.lost_supervisor:
                 self._report("killed the process that started it")
         finally:
@@ -210,7 +215,7 @@ class _Run:
         observer, plan = self._observer, self._plan
         if not await observer.wait_for(observer.has_seen_anything, plan.timeout, running):
             if running.exit_code is None:
-                self._never_joined()
+                self._never_joined(running)
             return
         meter.begin()
         if not self._brief:
@@ -244,7 +249,16 @@ class _Run:
             and all(map(self._observer.offers, offers))
         )
 
-    def _never_joined(self) -> None:
+    def _never_joined(self, running: process.Running) -> None:
+        members = [running.group, *(item.pid for item in table.descendants(running.group))]
+        others = domain.domains_of(members) - {self._station.number}
+        if others:
+            where = ", ".join(map(str, sorted(others)))
+            self._report(
+                f"is in the ROS domain {where}, not in that of ROS_DOMAIN_ID "
+                f"({self._station.number}): nothing of it was seen"
+            )
+            return
         if self._expectation.is_node is False:
             self._trial.notes.append("runs without a node")
             return
@@ -262,6 +276,11 @@ class _Run:
             return
         if self._expectation.exit_code is not None and trace is None:
             self._report(f"finished by itself, {self._unexpected(code)}", _said(running))
+            return
+        lack = None if self._scenario.arguments else _missing_arguments(running)
+        if code and lack is not None:
+            lines = tuple(output.short(trace)) if trace else _said(running)
+            self._report(f"ended, {ending(code)}: {lack}; {_GIVING}", lines)
             return
         when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
         reason = output.exception(trace) if trace else output.named_error(said)
@@ -347,6 +366,10 @@ def ending(code: int | None) -> str:
         except ValueError:
             return f"killed by signal {-code}"
     return f"exit code {code}"
+
+
+def _missing_arguments(running: process.Running) -> str | None:
+    return output.missing_arguments(output.read(running.out) + output.read(running.err))
 
 
 def _said(running: process.Running) -> tuple[str, ...]:

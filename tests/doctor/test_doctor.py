@@ -263,6 +263,17 @@ def test_package_that_hides_another(root: Path) -> None:
     assert (severity, message) == ("info", f"'std_msgs' of {overlay} hides that of {prefix}")
 
 
+def test_installation_that_is_gone(root: Path) -> None:
+    gone = root / "ros" / "iron"
+    severity, message, fix = found(machine(root, AMENT_PREFIX_PATH=str(gone)))["prefix-gone"]
+    assert (severity, fix.startswith(f"grep -n {gone} ~/.bashrc")) == ("error", True)
+    assert message == f"AMENT_PREFIX_PATH names {gone}, which is not there: no package is found"
+    variables = sourced(installation(root))
+    both = {**variables, "AMENT_PREFIX_PATH": f"{variables['AMENT_PREFIX_PATH']}:{gone}"}
+    severity, message, _ = found(machine(root, **both))["prefix-gone"]
+    assert (severity, message.endswith(": nothing of it is found")) == ("warning", True)
+
+
 @pytest.mark.parametrize(("isolated", "is_found"), [("false", True), ("true", False)])
 def test_virtual_environment_without_the_packages_of_the_system(
     root: Path, isolated: str, *, is_found: bool

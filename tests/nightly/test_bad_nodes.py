@@ -82,22 +82,60 @@ CROWDS = talker(
     self.crowd = [self.create_publisher(String, f'/crowd_{n}', 1) for n in range(200)]
     """,
 )
+ABORTS = talker(
+    "/aborts",
+    imports="import os\nimport threading",
+    tick="if self.count == 3:\n    threading.Thread(target=os.abort).start()",
+)
+ARGUMENTS = talker("/arguments", imports="import sys", begin="self.port = sys.argv[1]")
+DAEMON = talker("/daemon").replace(
+    "    try:\n        rclpy.init",
+    """\
+    import os
+    if os.fork():
+        os._exit(0)
+    os.setsid()
+    if os.fork():
+        os._exit(0)
+    try:
+        rclpy.init""",
+)
+KEEPS = talker(
+    "/keeps",
+    imports="from multiprocessing import resource_tracker, shared_memory",
+    begin="""\
+    self.block = shared_memory.SharedMemory(create=True, size=1_000_000)
+    resource_tracker.unregister(self.block._name, 'shared_memory')
+    """,
+)
+MOVES = talker("moves").replace(
+    "rclpy.init(args=args)", "rclpy.init(args=['--ros-args', '-r', '__ns:=/moved'])"
+)
+STRAYS = talker("/strays").replace("rclpy.init(args=args)", "rclpy.init(args=args, domain_id=77)")
+TWINS = talker("/twins", begin="self.twin = rclpy.create_node('talker')")
 
 NODES = {
+    "aborts": ABORTS,
+    "arguments": ARGUMENTS,
     "binary": BINARY,
     "crashes": CRASHES,
     "crowds": CROWDS,
+    "daemon": DAEMON,
     "dies": DIES_LATER,
     "exits": ONCE_ONLY,
     "fast": FAST,
     "forks": FORKS,
     "ignores": IGNORES_SIGINT,
+    "keeps": KEEPS,
     "large": LARGE,
     "litters": LITTERS,
+    "moves": MOVES,
     "nothing": NOTHING,
     "renames": RENAMES,
     "spams": SPAMS,
     "stops": STOPS,
+    "strays": STRAYS,
+    "twins": TWINS,
 }
 
 
@@ -129,18 +167,28 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
+        ("aborts", "SIGABRT"),
+        ("arguments", "name them in smoke.yaml"),
         ("crashes", "SIGSEGV"),
+        ("daemon", "leaves a process running: "),
         ("dies", "RuntimeError: ten seconds are over"),
         ("exits", "exit code 3"),
         ("fast", "publishes std_msgs/msg/String at 10000 Hz"),
         ("forks", "leaves a process running: "),
         ("ignores", "ignored SIGINT"),
+        ("keeps", "leaves shared memory behind: /dev/shm/psm_"),
         ("nothing", "no message on /nothing"),
         ("renames", "leaves a process running: [kworker/0:2]"),
+        ("strays", "is in the ROS domain 77, not in that of ROS_DOMAIN_ID"),
     ],
 )
 def test_what_is_wrong_is_named(problems: dict[str, str], name: str, said: str) -> None:
     assert said in problems[name]
+
+
+@pytest.mark.parametrize("name", ["moves", "twins"])
+def test_what_is_unusual_is_no_problem(problems: dict[str, str], name: str) -> None:
+    assert problems[name] == ""
 
 
 @pytest.mark.parametrize("name", ["large", "spams"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from textwrap import dedent, indent
 
 import pytest
@@ -151,6 +152,16 @@ def test_full_name(name: str, arguments: str, topic: str) -> None:
 def test_name_that_cannot_be_told(arguments: str) -> None:
     source = talker("words").replace("('talker')", f"('talker'{arguments})")
     assert expectations(python(source))["run"].publications == ()
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["['--ros-args', '-r', '__ns:=/moved']", "'--ros-args -r words:=/others'.split()"],
+)
+def test_program_that_gives_itself_arguments_may_have_any_names(words: str) -> None:
+    source = talker("words").replace("rclpy.init(args=args)", f"rclpy.init(args={words})")
+    found = expectations(python(source))["run"]
+    assert (found.publications, found.is_node) == ((), True)
 
 
 def test_only_nodes_that_are_made_count() -> None:
@@ -344,6 +355,21 @@ def test_silence() -> None:
         [],
         ["no message on /words yet: its period is 5 s"],
     )
+
+
+def test_timers_that_stand_still_without_a_clock() -> None:
+    parameters = {"/talker": {"use_sim_time": True}, "/other": None}
+    silent = replace(seen(0, None, 0.0), parameters=parameters)
+    (problem,), _ = compare(expecting(10.0), silent, 9.0)
+    assert problem.message.endswith("; /talker has use_sim_time, and nothing publishes /clock")
+    clock = Topic("/clock", "rosgraph_msgs/msg/Clock", 1)
+    (problem,), _ = compare(expecting(10.0), replace(silent, topics=(*silent.topics, clock)), 9.0)
+    assert "clock" not in problem.message
+
+
+def test_nodes_of_the_same_name() -> None:
+    _, (note,) = compare(Expectation(), Observation(nodes=("/one",), doubled=("/one",)), 5.0)
+    assert note.startswith("several nodes have the name /one: ")
 
 
 def test_missing_topic_and_wrong_type() -> None:

@@ -56,13 +56,13 @@ def needing(*names: str) -> Package:
 
 
 def provided(
-    environment: Environment, package: Package, scratch: Path
+    environment: Environment, package: Package, scratch: Path, *more: Package
 ) -> tuple[Environment, list[str]]:
     announced: list[str] = []
     result = asyncio.run(
         interfaces.provide(
             environment,
-            [package],
+            [package, *more],
             scratch,
             origin=Origin("test"),
             timeout=1.0,
@@ -116,6 +116,26 @@ def test_what_was_built_before_is_used(tmp_path: Path, monkeypatch: pytest.Monke
     assert result.variables["AMENT_PREFIX_PATH"] == f"{place}/ackermann_msgs:{tmp_path}"
     assert result.variables["LD_LIBRARY_PATH"] == f"{place}/ackermann_msgs/lib"
     assert result.variables["PYTHONPATH"] == str(modules)
+
+
+def test_only_what_interfaces_are_made_from_has_the_part_of_c_plus_plus(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    index = tmp_path / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    for name in (*COMMON, "service_msgs"):
+        (index / name).touch()
+    for name, complete in (("ackermann_msgs", True), ("std_srvs", False)):
+        place = interfaces._place(wheels(tmp_path), Bundle(), complete=complete)  # noqa: SLF001
+        assert place is not None
+        (place / name).mkdir(parents=True)
+    manifest = "<package><name>made</name><depend>ackermann_msgs</depend></package>"
+    made = Package.of({"package.xml": manifest, "msg/Made.msg": "bool it\n"})
+    result, announced = provided(wheels(tmp_path), needing("std_srvs"), tmp_path, made)
+    assert announced == []
+    found = result.variables["AMENT_PREFIX_PATH"].split(os.pathsep)
+    assert [os.path.basename(prefix) for prefix in found[:2]] == ["std_srvs", "ackermann_msgs"]
 
 
 # -- CMake

@@ -8,7 +8,7 @@ import os
 import signal
 import socket
 import sys
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import ExitStack
 from importlib.util import find_spec
 from io import StringIO
@@ -152,6 +152,18 @@ def test_domain_whose_ports_are_taken_is_busy() -> None:
         assert (port - 7400) // 250 in domain.domains_in_use()
 
 
+def test_domain_that_a_process_is_in() -> None:
+    """What tells are the two ports of a participant."""
+    with domain.reserved() as number, ExitStack() as stack:
+        first = 7400 + 250 * number + 12
+        for port in (0, first, first + 1):
+            assert number not in domain.domains_of([os.getpid()])
+            one = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            one.bind(("127.0.0.1", port))
+        assert number in domain.domains_of([os.getpid()])
+        assert number not in domain.domains_of([1, 2**30])
+
+
 def test_all_domains_are_in_use(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(domain, "domains_in_use", lambda: set(range(1, 102)))
     with pytest.raises(EnvironmentMissingError, match="all ROS domains"), domain.reserved():
@@ -225,6 +237,46 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
 
     ending = asynchronously(run)
     assert (ending.sent, ending.was_missed) == (("SIGTERM", "SIGTERM"), True)
+
+
+def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
+    """What was there before is left alone, whoever used it, as is what LTTng makes for all."""
+    code = (
+        "import mmap, os, sys\n"
+        "def map(path):\n"
+        "    file = os.open(path, os.O_RDWR | os.O_CREAT)\n"
+        "    os.truncate(file, 4096)\n"
+        "    return mmap.mmap(file, 4096)\n"
+        "maps = [map(path) for path in {paths}]\n"
+        "print(1, flush=True)\n"
+        "import time\n"
+        "while True: time.sleep(60)\n"
+    )
+    there, new = (
+        Path(shared_memory.DIRECTORY, f"scaffold-{os.getpid()}-{name}") for name in ("there", "new")
+    )
+    of_all = Path(shared_memory.DIRECTORY, f"lttng-ust-scaffold-{os.getpid()}")
+
+    async def run() -> Sequence[str]:
+        paths = [str(there), str(new), str(of_all)]
+        running = await started(code.replace("{paths}", repr(paths)), tmp_path, "a")
+        try:
+            await asyncio.sleep(1.0)  # the second look at what has changed
+            await process.end(running, signal.SIGTERM)
+            await running.finish()
+            return running.leaked
+        finally:
+            await running.close()
+
+    there.touch()
+    try:
+        assert asynchronously(run) == [str(new)]
+        assert there.exists()
+        assert of_all.exists()
+        assert not new.exists()
+    finally:
+        for path in (there, new, of_all):
+            path.unlink(missing_ok=True)
 
 
 def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
@@ -394,6 +446,56 @@ def test_error_without_a_traceback() -> None:
     text = '  File "talker.py", line 3\n    print x\n    ^^^^^^^\nSyntaxError: invalid\n'
     assert output.named_error(text) == "SyntaxError: invalid"
     assert output.named_error("usage: talker\ntalker: error: no argument\n") is None
+
+
+INDEXED = """\
+Traceback (most recent call last):
+  File "/ws/install/demo/lib/demo/serial", line 33, in <module>
+    sys.exit(load_entry_point('demo', 'console_scripts', 'serial')())
+  File "/ws/demo/serial.py", line 7, in main
+    {line}
+        ~~~~~~~~^^^
+{exception}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        (
+            "usage: serial [-h] port\nserial: error: the following arguments are required: port\n",
+            "the following arguments are required: port",
+        ),
+        (
+            "Usage: serial [OPTIONS] PORT\nTry --help.\n\nError: Missing argument 'PORT'.\n",
+            "Missing argument 'PORT'.",
+        ),
+        ("Usage: serial PORT\n", "Usage: serial PORT"),
+        (
+            INDEXED.format(
+                line="port = sys.argv[1]", exception="IndexError: list index out of range"
+            ),
+            "IndexError: list index out of range",
+        ),
+        (
+            INDEXED.format(
+                line="name, port = sys.argv",
+                exception="ValueError: not enough values to unpack (expected 2, got 1)",
+            ),
+            "ValueError: not enough values to unpack (expected 2, got 1)",
+        ),
+        (
+            INDEXED.format(
+                line="first = self.ports[0]", exception="IndexError: list index out of range"
+            ),
+            None,
+        ),
+        ("usage: serial [-h]\nserial: error: unrecognized arguments: --ros-args\n", None),
+        ("terminate called after throwing an instance of 'std::bad_alloc'\n", None),
+    ],
+)
+def test_missing_arguments(text: str, reason: str | None) -> None:
+    assert output.missing_arguments(text) == reason
 
 
 def test_long_output_is_cut(tmp_path: Path) -> None:

@@ -73,6 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--distro",
+        action="append",
         metavar="NAMES",
         help="the distributions of ROS 2 to observe on, separated by commas: with others nothing "
         "is run (default: check.distribution of the configuration, else what `new --distro` made "
@@ -172,6 +173,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from signal import Signals
 
     from scaffold import distributions
+    from scaffold.cli import distro
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.model.discovery import targets
     from scaffold.smoke.options import Options
@@ -221,6 +223,8 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     except OSError:
         interruption.check()  # the terminal may be gone
         raise
+    for note in distro.note_of_smoke(result.environment["distribution"]) if packages else ():
+        _announce(note)
     others = [item for item in wanted if item.name != result.environment["distribution"]]
     if others and packages:
         _announce(f"not observed: {distributions.titles(others)}, which the packages are for, too")

@@ -6,7 +6,7 @@ import hashlib
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from glob import glob
@@ -56,16 +56,19 @@ async def provide(
         return environment
     bundle = Bundle()
     own = {package.name for package in packages}
-    needed = {name for package in packages for name in needed_by(package)} - own
-    missing = bundle.closure(needed, [*own, *_packages_in(environment.prefix)])
+    there = [*own, *_packages_in(environment.prefix)]
+    missing = bundle.closure(_needed(packages) - own, there)
     if not missing:
         return environment
-    complete = any(path.endswith(_INTERFACES) for package in packages for path in package.files)
-    place = _place(environment, bundle, complete=complete)
-    remembered = [] if place is None else [name for name in missing if (place / name).is_dir()]
-    begun = place or scratch / PLACE
-    ready = with_prefixes(environment, [begun / name for name in remembered])
-    new = [name for name in missing if name not in remembered]
+    # What interface packages are made from has to have the C++ part as well.
+    complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, there)}
+    places = {name: _place(environment, bundle, complete=name in complete) for name in missing}
+    remembered = [
+        place / name for name, place in places.items() if place and (place / name).is_dir()
+    ]
+    ready = with_prefixes(environment, remembered)
+    known = {path.name for path in remembered}
+    new = [name for name in missing if name not in known]
     if not new:
         return ready
     reason = _obstacle(environment)
@@ -77,14 +80,22 @@ async def provide(
     sources = []
     for name in new:
         directory = scratch / PLACE / "src" / name
-        bundle.write(name, directory, complete=complete)
+        bundle.write(name, directory, complete=name in complete)
         sources.append(Package.at(str(directory)))
     builds = await build(ready, sources, layout, scratch, origin=origin, timeout=timeout)
     for line in _failures(builds):
         announce(line)
     built = [name for name in new if builds[name].ok]
-    prefixes = [_kept(layout.install / name, place) for name in built]
+    prefixes = [_kept(layout.install / name, places[name]) for name in built]
     return with_prefixes(ready, prefixes)
+
+
+def _needed(packages: Iterable[Package]) -> set[str]:
+    return {name for package in packages for name in needed_by(package)}
+
+
+def _has_interfaces(package: Package) -> bool:
+    return any(path.endswith(_INTERFACES) for path in package.files)
 
 
 def with_prefixes(environment: Environment, prefixes: Sequence[Path]) -> Environment:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import random
 import socket
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 
 from scaffold.errors import EnvironmentMissingError
 
@@ -17,6 +17,8 @@ LAST = 101
 _FIRST_PORT = 7400
 _PORTS = 250
 """DDS: domain ``d`` uses the UDP ports from 7400 + 250 d to before those of the next."""
+
+_FIRST_OF_PARTICIPANTS = 10
 
 _FIRST_LOCK = 32768
 """``domain_coordinator/impl.py``: who holds the TCP port 32768 + d has domain ``d``."""
@@ -55,13 +57,43 @@ def _take(lock: socket.socket) -> int:
 
 def domains_in_use() -> set[int]:
     """Return the domains in whose range of ports somebody listens."""
+    return {(port - _FIRST_PORT) // _PORTS for port, _ in _udp_sockets()}
+
+
+def domains_of(pids: Iterable[int]) -> set[int]:
+    """Return the domains that processes are in, as far as this user may see that."""
+    own = {socket for pid in pids for socket in _sockets_of(pid)}
+    ports = {port for port, inode in _udp_sockets() if inode in own and port >= _FIRST_PORT}
     result: set[int] = set()
+    for port in ports:
+        number, place = divmod(port - _FIRST_PORT, _PORTS)
+        # A participant has two ports, one after the other: by chance, that does not happen.
+        if place >= _FIRST_OF_PARTICIPANTS and not place % 2 and port + 1 in ports:
+            result.add(number)
+    return result
+
+
+def _udp_sockets() -> Iterator[tuple[int, str]]:
+    """Yield the local port and the inode of each UDP socket."""
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         if not os.path.exists(table):
             continue
         with open(table, encoding="ascii") as lines:
             next(lines, None)
             for line in lines:
-                port = int(line.split()[1].rpartition(":")[2], 16)
-                result.add((port - _FIRST_PORT) // _PORTS)
-    return result
+                values = line.split()
+                yield int(values[1].rpartition(":")[2], 16), values[9]
+
+
+def _sockets_of(pid: int) -> Iterator[str]:
+    """Yield the inodes of the sockets of a process."""
+    directory = f"/proc/{pid}/fd"
+    try:
+        names = os.listdir(directory)
+    except OSError:
+        return
+    for name in names:
+        with suppress(OSError):
+            kind, _, inode = os.readlink(f"{directory}/{name}").partition(":")
+            if kind == "socket":
+                yield inode.strip("[]")

@@ -1,4 +1,4 @@
-"""The shared memory that Fast DDS leaves behind when a process is killed."""
+"""The shared memory that processes leave behind: Fast DDS when it is killed, others by mistake."""
 
 from __future__ import annotations
 
@@ -15,15 +15,21 @@ DIRECTORY = "/dev/shm"  # noqa: S108  not our temporary file: where Linux keeps 
 _NAME = re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)_[\w.-]+)")
 _SUFFIXES = ("_mutex", "_el", "_sl")
 _LOCKS = ("_el", "_sl")
+_OF_ALL = "lttng-ust-"
+"""liblttng-ust, which tracetools brings, makes segments once, for all processes and for good."""
 
 
 def segments() -> set[str]:
     """Return the names of all segments that exist."""
     try:
-        names = os.listdir(DIRECTORY)
+        return {_segment(name) for name in os.listdir(DIRECTORY)}
     except OSError:
         return set()
-    return {segment for name in names if (segment := _segment(name))}
+
+
+def is_of_middleware(name: str) -> bool:
+    """Tell whether a segment is one of Fast DDS, several of which processes share."""
+    return _NAME.fullmatch(name) is not None
 
 
 def last_change() -> int:
@@ -39,7 +45,7 @@ def used_by(pids: Iterable[int]) -> set[str]:
     used: set[str] = set()
     for pid in pids:
         paths = [*_mapped(pid), *_open_files(pid)]
-        used.update(segment for path in paths if (segment := _segment(os.path.basename(path))))
+        used.update(_segment(os.path.basename(path)) for path in paths if _is_segment(path))
     return used
 
 
@@ -109,11 +115,16 @@ def _is_own_file(path: str) -> bool:
     return stat.S_ISREG(status.st_mode) and status.st_uid == os.geteuid()
 
 
-def _segment(name: str) -> str | None:
-    """Return the segment that a file belongs to; ``None`` if it is none of Fast DDS."""
+def _is_segment(path: str) -> bool:
+    directory, name = os.path.split(path)
+    return directory == DIRECTORY and not name.startswith(_OF_ALL)
+
+
+def _segment(name: str) -> str:
+    """Return the segment that a file belongs to: of Fast DDS, several belong to one."""
     match = _NAME.fullmatch(name)
     if match is None:
-        return None
+        return name
     segment = match["segment"]
     for suffix in _SUFFIXES:
         segment = segment.removesuffix(suffix)

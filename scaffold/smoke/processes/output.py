@@ -34,6 +34,13 @@ _COMPLAINT = re.compile(
 )
 """What colcon itself reports."""
 _NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
+_USAGE = re.compile(r"^[ \t]*usage:.*", re.IGNORECASE | re.MULTILINE)
+_REFUSAL = re.compile(r"^(?:.*: )?error: (?P<reason>.*)", re.IGNORECASE | re.MULTILINE)
+"""What argparse, click and their like print, and what they then say."""
+_IS_LACK = re.compile(r"\brequired\b|\bmissing\b|\btoo few\b|\bexpect", re.IGNORECASE)
+_TOO_SHORT = re.compile(r"IndexError: |ValueError: not enough values to unpack")
+_ARGUMENTS = re.compile(r"\bargv\b|\barg\w*\[")
+"""In the line of a program that reads its arguments by their number."""
 _OWN_DOING = "byte-compiling is disabled"
 """A message of setuptools, because the build must not write into the sources."""
 _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -143,6 +150,27 @@ def named_error(text: str) -> str | None:
     """Return the exception in the last line, as a syntax error has it without a traceback."""
     last = "".join(tail(text, 1))
     return last if _NAMED_ERROR.match(last) else None
+
+
+def missing_arguments(text: str) -> str | None:
+    """Return how a program that has failed says that it was started without its arguments.
+
+    Returns:
+        ``None`` if that is not why.
+    """
+    trace = traceback(text)
+    if trace is not None:
+        code = [line for line in trace.splitlines() if line.startswith("    ")]
+        last = [line for line in code if line.strip(" ^~")][-1:]
+        is_lack = _TOO_SHORT.match(exception(trace)) and _ARGUMENTS.search("".join(last))
+        return exception(trace) if is_lack else None
+    usage = _USAGE.search(text)
+    if usage is None:
+        return None
+    refusals = [match["reason"] for match in _REFUSAL.finditer(text, usage.end())]
+    if not refusals:
+        return usage[0].strip()
+    return refusals[-1] if _IS_LACK.search(refusals[-1]) else None
 
 
 def _cmake_blocks(text: str, start: re.Pattern[str]) -> Iterator[list[str]]:

@@ -81,6 +81,8 @@ class Running:
         self._supervisor = supervisor
         self._events, self._requests = control
         self._left: list[str] = []
+        self.leaked: Sequence[str] = ()
+        """Shared memory that it has made and left, known once it is finished."""
         self._is_closing = False
         self._is_started = asyncio.Event()
         self._is_ended = asyncio.Event()
@@ -196,7 +198,7 @@ class Running:
             self.exit_code = event["ended"]
             self._is_ended.set()
         else:
-            self._left = event["left"]
+            self._left, self.leaked = event["left"], event["leaked"]
 
 
 async def start(

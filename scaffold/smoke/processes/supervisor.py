@@ -10,7 +10,8 @@ Lines of JSON come in: first ``{"command": [...], "variables": {...}, "ledger": 
 then ``{"signal": number}`` for the process group of the command, and ``{"finish": seconds}`` once
 the command has ended: so long its children may live on. With ``finish`` in the first of them, the
 end of the command is the end. Lines of JSON go out: ``{"started": pid}``
-or ``{"errno": number}``, ``{"ended": status}``, and last ``{"left": [command lines]}``.
+or ``{"errno": number}``, ``{"ended": status}``, and last ``{"left": [command lines], "leaked":
+[paths]}``.
 """
 
 from __future__ import annotations
@@ -87,6 +88,10 @@ class Supervisor:
         self._finish_after_command: float | None = None
         self._ledger: str | None = None
         self._segments: set[str] = set()
+        self._existing = {
+            name for name in shared_memory.segments() if not shared_memory.is_of_middleware(name)
+        }
+        """What others have made, who may want it back."""
         self._processes: set[tuple[int, int]] = set()
         self._next_listing = 0.0
         self._last_change = shared_memory.last_change()
@@ -111,8 +116,11 @@ class Supervisor:
             self._bound_output()
         self._await_children(self._finish or 0.0)
         left = self._end_all()
-        shared_memory.remove_unused(self._segments)
-        self._tell({"left": left, "segments": sorted(self._segments)})
+        removed = shared_memory.remove_unused(self._segments)
+        leaked = [
+            path for path in removed if not shared_memory.is_of_middleware(os.path.basename(path))
+        ]
+        self._tell({"left": left, "leaked": sorted(leaked)})
 
     # -- what smoke asks for
 
@@ -202,7 +210,7 @@ class Supervisor:
     def _note_segments(self) -> None:
         """Write down which segments the processes use: kept, should we be killed ourselves."""
         pids = [process.pid for process in table.descendants(os.getpid())]
-        new = sorted(shared_memory.used_by(pids) - self._segments)
+        new = sorted(shared_memory.used_by(pids) - self._segments - self._existing)
         if not new:
             return
         self._segments.update(new)

@@ -1,0 +1,163 @@
+"""A cluster whose network is cut in the middle of a run: no connection closes, nothing comes."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import threading
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from scaffold.cluster.silence import PATIENCE as SILENCE
+from tests import PATIENCE
+from tests.dask_cluster import Running, cluster
+from tests.smoke.smoke_packages import python_package, talker
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variables, wait_until
+
+pytest.importorskip("distributed", reason="install the extra 'cluster' of this project")
+pytestmark = [pytest.mark.nightly, NEEDS_ROS, pytest.mark.timeout(0)]
+
+PACKAGES = 5
+TTL = f"{SILENCE + 20:g}s"
+"""After which the scheduler gives up a worker: Dask's own default is five minutes."""
+
+
+class Proxy:
+    """Passes on what comes to a port of the loopback network, until it is told to stop.
+
+    Args:
+        port: Where the real server listens.
+    """
+
+    def __init__(self, port: int) -> None:
+        self._target = ("127.0.0.1", port)
+        self._server = socket.create_server(("127.0.0.1", 0))
+        self.port = self._server.getsockname()[1]
+        self._flows = threading.Event()
+        self._flows.set()
+        self._open: list[socket.socket] = []
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def cut(self) -> None:
+        """Keep all connections, and pass on nothing more."""
+        self._flows.clear()
+
+    def close(self) -> None:
+        self._server.close()
+        for one in self._open:
+            one.close()
+
+    def _accept(self) -> None:
+        while True:
+            try:
+                near, _ = self._server.accept()
+                far = socket.create_connection(self._target)
+            except OSError:
+                return
+            self._open += [near, far]
+            for pair in ((near, far), (far, near)):
+                threading.Thread(target=self._pass_on, args=pair, daemon=True).start()
+
+    def _pass_on(self, source: socket.socket, target: socket.socket) -> None:
+        try:
+            while data := source.recv(2**16):
+                self._flows.wait()
+                target.sendall(data)
+            target.shutdown(socket.SHUT_WR)
+        except OSError:
+            return
+
+
+@contextmanager
+def run_of(tmp_path: Path, address: str) -> Iterator[subprocess.Popen[str]]:
+    """Run some packages on a cluster."""
+    for number in range(PACKAGES):
+        name = f"cut_{number}"
+        python_package(tmp_path / "src", name, {"talker": talker(f"/{name}")})
+    (tmp_path / "tmp").mkdir()
+    flags = ["--cluster", address, "--duration", "1", "--format", "json"]
+    with subprocess.Popen(
+        command_line(tmp_path / "src", *flags),
+        env=variables(tmp_path / "tmp"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as run:
+        yield run
+
+
+def is_busy(running: Running, number: int) -> Callable[[], bool]:
+    return lambda: "talker" in " ".join(processes_of(running.workers[number].tmp))
+
+
+def port_of(address: str) -> int:
+    return int(address.rpartition(":")[2])
+
+
+def test_packages_of_a_worker_that_is_not_heard_run_elsewhere(tmp_path: Path) -> None:
+    slow = {"DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL": TTL}
+    with (
+        cluster(tmp_path, 2, of_all=slow) as running,
+        run_of(tmp_path, running.address) as run,
+    ):
+        victim = running.workers[1]
+        wait_until(is_busy(running, 1))
+        victim.process.send_signal(signal.SIGSTOP)
+        out, said = run.communicate(timeout=PATIENCE)
+    assert run.returncode == 0, said
+    packages = json.loads(out)["packages"]
+    assert Counter(item["name"] for item in packages) == Counter(
+        f"cut_{number}" for number in range(PACKAGES)
+    )
+    address = re.search(r"worker at: +'?(tcp://[\d.:]+)", victim.log.read_text())
+    assert address is not None
+    assert f"{address[1]} has not been heard for " in said
+    assert said.count("has not been heard") == 1
+    wait_until(lambda: processes_of(victim.tmp) == [])
+
+
+def test_packages_whose_worker_is_cut_off_run_elsewhere(tmp_path: Path) -> None:
+    """The worker itself goes on: what it does then is not counted twice."""
+    slow = {"DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL": TTL}
+    with cluster(tmp_path, 1, of_all=slow) as running:
+        proxy = Proxy(port_of(running.address))
+        far = f"tcp://127.0.0.1:{proxy.port}"
+        with running.worker(far, slow) as worker:
+            wait_until(lambda: "Registered to" in worker.log.read_text())
+            with run_of(tmp_path, running.address) as run:
+                wait_until(is_busy(running, 1))
+                proxy.cut()
+                out, said = run.communicate(timeout=PATIENCE)
+        proxy.close()
+    assert run.returncode == 0, said
+    names = Counter(item["name"] for item in json.loads(out)["packages"])
+    assert names == Counter(f"cut_{number}" for number in range(PACKAGES))
+    assert "has not been heard for " in said
+
+
+def test_scheduler_that_is_not_heard_ends_the_run(tmp_path: Path) -> None:
+    with cluster(tmp_path, 1) as running:
+        proxy = Proxy(port_of(running.address))
+        with run_of(tmp_path, f"tcp://127.0.0.1:{proxy.port}") as run:
+            wait_until(is_busy(running, 0))
+            proxy.cut()
+            out, said = run.communicate(timeout=PATIENCE)
+        proxy.close()
+    assert run.returncode == 1, said
+    assert "Traceback" not in said
+    packages = json.loads(out)["packages"]
+    assert len(packages) == PACKAGES
+    for package in packages:
+        if not package["build"]["ok"]:
+            (error,) = package["build"]["errors"]
+            assert error == f"the scheduler has not answered for {SILENCE:g} s"
+    assert not all(package["build"]["ok"] for package in packages)
+    assert os.listdir(tmp_path / "tmp") == []
