@@ -7,7 +7,7 @@ fact, never for its name.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
@@ -24,10 +24,11 @@ ORDER = tuple(
 ALIASES: Mapping[str, str] = {"rolling": ORDER[-1]}
 """Those that are the same as another for Python packages, until they move on."""
 NAMES = (*ORDER, *ALIASES)
-ENDED = frozenset(
+OF_ROS1 = frozenset({"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"})
+ENDED_ROS2 = frozenset(
     {"ardent", "bouncy", "crystal", "dashing", "eloquent", "foxy", "galactic", "iron"}
-    | {"groovy", "hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"}
 )
+ENDED = OF_ROS1 | ENDED_ROS2
 """Those that are supported no more, the ones of ROS 1 included; they are still met."""
 DEFAULT = "jazzy"
 VARIABLE = "ROS_DISTRO"
@@ -94,18 +95,20 @@ def read_toml(path: str) -> dict[str, Any]:
 _KNOWN: dict[str, Distribution] = {}
 
 
-def named(name: str, origin: str = "") -> Distribution:
+def named(name: str, origin: str = "", advice: str = "name one") -> Distribution:
     """Return a distribution.
 
     Args:
         name: What somebody wrote.
         origin: Where, for the message.
+        advice: What to do if that names several.
 
     Raises:
         InputError: there is none of this name.
     """
     if name not in NAMES:
-        raise InputError(f"{origin}: {refusal(name)}" if origin else refusal(name))
+        message = refusal(name, advice)
+        raise InputError(f"{origin}: {message}" if origin else message)
     if name not in _KNOWN:
         _KNOWN[name] = Distribution(name)
     return _KNOWN[name]
@@ -118,13 +121,30 @@ def nearest(name: str) -> Distribution:
     return named(next((known for known in ORDER if known > name), ORDER[-1]))
 
 
-def refusal(name: object) -> str:
-    """Return what to say of a name that no known distribution has."""
+def refusal(name: object, advice: str = "name one") -> str:
+    """Return what to say of a name that no known distribution has.
+
+    Args:
+        name: What somebody wrote.
+        advice: What to do if that names several.
+    """
     from difflib import get_close_matches
 
-    closest = get_close_matches(str(name).lower(), NAMES, n=1)
-    hint = f"did you mean {closest[0]!r}?" if closest else f"choose from {', '.join(NAMES)}"
-    return f"no distribution {name!r}; {hint}"
+    text = str(name).lower()
+    if len(text.replace(",", " ").split()) > 1:
+        return f"{name!r} is more than one distribution; {advice}"
+    choices = f"choose from {', '.join(NAMES)}"
+    if text in ENDED:
+        return f"{name!r} {ending(text)}; {choices}"
+    closest = get_close_matches(text, NAMES, n=1)
+    return f"no distribution {name!r}; {f'did you mean {closest[0]!r}?' if closest else choices}"
+
+
+def ending(name: str) -> str:
+    """Return why nothing is known of a distribution."""
+    if name in OF_ROS1:
+        return "is of ROS 1"
+    return "has reached its end of life" if name in ENDED else "is no known distribution"
 
 
 def several(text: str, origin: str = "") -> list[Distribution]:
@@ -141,7 +161,7 @@ def several(text: str, origin: str = "") -> list[Distribution]:
     if not words:
         known = f"no distribution is named; known are {', '.join(NAMES)}"
         raise InputError(f"{origin}: {known}" if origin else known)
-    return ordered([named(word, origin) for word in words])
+    return ordered([named(word, origin, "write commas between them") for word in words])
 
 
 def ordered(distributions: Sequence[Distribution]) -> list[Distribution]:
@@ -199,5 +219,10 @@ def targeting(
 
 def titles(distributions: Sequence[Distribution]) -> str:
     """Return ``Jazzy``, ``Jazzy and Lyrical``, ``Jazzy, Kilted and Lyrical``."""
-    *rest, last = (distribution.title for distribution in distributions)
+    return enumerated(distribution.title for distribution in distributions)
+
+
+def enumerated(words: Iterable[str]) -> str:
+    """Return ``a``, ``a and b``, ``a, b and c``."""
+    *rest, last = words
     return f"{', '.join(rest)} and {last}" if rest else last

@@ -11,13 +11,15 @@ from pathlib import Path
 
 from scaffold import changes, distributions
 from scaffold.changes import Change
+from scaffold.check import docs, registry
+from scaffold.configuration import content
 from scaffold.distributions import ALIASES, DEFAULT, ORDER, Distribution, named
 from scaffold.model.rclpy.api import names_of
 
 DOCS = Path(__file__).parent.parent / "docs" / "distributions"
-FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher"})
+FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher", "ros2 bag record"})
 """What rules of their own fix."""
-KINDS = ("name", "call", "command", "launch", "interface")
+KINDS = ("name", "call", "command", "launch", "executable", "interface")
 _INTRODUCTION = """\
 # Distributions
 
@@ -64,6 +66,7 @@ def _page(one: Distribution) -> Iterator[str]:
         yield from _table("Deprecated", [item for item in _changes() if item.is_deprecated])
     changed = [item for item in _changes() if item.changed and one.place >= item.changed.place]
     yield from _table("Changed", changed)
+    yield from _rules(one)
     yield from _interfaces(one)
     yield from _members(one)
 
@@ -141,10 +144,28 @@ def _table(title: str, found: list[Change]) -> Iterator[str]:
         instead = f"`{item.use}`" if item.use else item.advice
         if item.use == "*":
             instead = "the rest of the name"
-        later = "" if item.since.name == changes.EARLIEST else f" (from {item.since.title} on)"
-        fixed = "yes" if item.use or item.names[0] in FIXED else ""
+        is_new = item.since.name != changes.EARLIEST and item.changed is None
+        later = f" (from {item.since.title} on)" if is_new else ""
+        has_fix = item.use and item not in changes.of_kind("executable")
+        fixed = "yes" if has_fix or item.names[0] in FIXED else ""
         names = "<br>".join(f"`{name}`" for name in item.names)
         yield f"| {names} | {since} | {instead}{later} | {fixed} | {item.source} |"
+    yield ""
+
+
+def _rules(one: Distribution) -> Iterator[str]:
+    """Yield the rules that have examples for it; those of the default are all others."""
+    found = [
+        rule
+        for rule in registry.load(content.roots("rules"))
+        if any(item.distro == one.name and item.reports for item in rule.examples)
+    ]
+    if not found or one.name == DEFAULT:
+        return
+    yield f"## Rules with examples for {one.title}"
+    yield ""
+    for rule in found:
+        yield f"- [{rule.code}](../rules/{rule.code}.md) {docs.summary(rule)}"
     yield ""
 
 

@@ -11,11 +11,18 @@ from pathlib import Path
 import pytest
 
 from scaffold import distributions
+from scaffold.check.result import Result
+from scaffold.check.several import merged
+from scaffold.cli import distro
 from scaffold.cli.main import main
+from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.distributions import NAMES, ORDER, named, nearest
+from scaffold.edits import Edit, Fix
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.manifest import conditions
+from scaffold.model.package import Package
 from scaffold.model.rclpy.api import names_of
+from scaffold.source import Location
 from scaffold.types.stubs import library_stubs
 from scripts import bundle_distribution
 
@@ -69,11 +76,23 @@ def test_an_unknown_distribution_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, "")
-    for words, hint in (("lyrcal", "did you mean 'lyrical'?"), ("noetic", "choose from humble,")):
+    for words, message in (
+        ("lyrcal", "no distribution 'lyrcal'; did you mean 'lyrical'?"),
+        ("noetic", "'noetic' is of ROS 1; choose from humble,"),
+        ("iron", "'iron' has reached its end of life; choose from humble,"),
+        ("jazzy lyrical", "is more than one distribution; write commas between them"),
+        (",", "no distribution is named"),
+    ):
         assert main(["check", str(package), "--distro", words]) == 2
-        assert f"--distro: no distribution {words!r}; {hint}" in capsys.readouterr().err
-    assert main(["check", str(package), "--distro", ","]) == 2
-    assert "no distribution is named" in capsys.readouterr().err
+        assert message in capsys.readouterr().err
+
+
+def test_a_repeated_flag_names_all_of_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = write(tmp_path, "")
+    main(["check", str(package), "--select", "ND", "--distro", "lyrical,jazzy", "--distro=humble"])
+    assert " for Humble, Jazzy and Lyrical: " in capsys.readouterr().out
 
 
 def test_a_removed_method_is_reported_where_it_is_gone(
@@ -103,6 +122,17 @@ def test_several_distributions_report_each_finding_once(
     assert sum("(lyrical)" in line for line in lines) == 1
     assert sum("(jazzy, lyrical)" in line for line in lines) == 1
     assert summary.startswith("1 package, 3 files for Jazzy and Lyrical: ")
+
+
+def test_a_finding_for_several_distributions_names_them_all(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = write(tmp_path, "import imp\nimport rclpy\nimport rclpy.nodes\n")
+    old, new = sorted(check(capsys, package, "humble,jazzy,kilted,lyrical", "TY001"))
+    assert old[1].startswith("Python 3.12/3.14 has no module 'imp'")
+    assert new[1].startswith("ROS 2 Humble/Jazzy/Kilted/Lyrical has no module 'rclpy.nodes'")
+    (alone,) = [item for item in check(capsys, package, "lyrical", "TY001") if "imp'" in item[1]]
+    assert alone[1].startswith("Python 3.14 has no module 'imp'")
 
 
 def test_an_import_for_older_distributions_is_no_error_on_newer_ones(
@@ -165,6 +195,25 @@ def test_a_shell_for_another_distribution_is_noted(
     assert " for Jazzy: " in summary
     main(["check", str(package), "--select", "ND", "--distro", "humble"])
     assert "ROS_DISTRO" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("shell", "expected"),
+    [
+        ("", ()),
+        ("jazzy", ()),
+        ("humble", ("observed on Jazzy, although ROS_DISTRO is 'humble'",)),
+        (
+            "noetic",
+            ("observed on Jazzy, although ROS_DISTRO is 'noetic', which is of ROS 1",),
+        ),
+    ],
+)
+def test_smoke_notes_a_shell_for_another_distribution(
+    shell: str, expected: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_DISTRO", shell)
+    assert distro.note_of_smoke("jazzy") == expected
 
 
 def test_the_configuration_names_targets(
@@ -247,6 +296,43 @@ def test_fixes_for_several_are_those_that_are_right_for_all(
     written = module.read_text()
     assert main([*words, "--fix"]) == 1
     assert module.read_text() == written
+
+
+def test_linters_that_contradict_each_other_get_the_order_of_the_oldest(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = "import os\nimport imp\n\nimport rclpy\n\nprint(imp, os, rclpy)\n"
+    package = write(tmp_path, text)
+    module = package / "talker" / "node.py"
+    words = ["check", str(package), "--distro", "humble,lyrical", "--select", "I1,I2,TY001"]
+    assert main(words) == 1
+    assert "1 fixable with --fix" in capsys.readouterr().out
+    for count in (1, 0):
+        assert main([*words, "--fix"]) == 1
+        report = capsys.readouterr()
+        assert re.search(rf"^{count} fix(es)? applied", report.err)
+        assert "has no module 'imp'" in report.out
+        assert "fixable" not in report.out
+        assert module.read_text() == text.replace("import os\nimport imp", "import imp\nimport os")
+    assert main(["check", str(package), "--distro", "lyrical", "--select", "I1,I2"]) == 1
+    assert "third-party" in capsys.readouterr().out
+
+
+def test_only_a_fix_that_is_right_for_all_is_offered_for_several() -> None:
+    package = Package.of({"package.xml": "<package/>"})
+    at = Location.start_of("package.xml")
+    fix = Fix("write it", (Edit("package.xml", 0, 0, " "),))
+    one, both, always = (
+        Diagnostic(code, "rule", Severity.ERROR, at, "wrong", fix)
+        for code in ("AA001", "AA002", "AA003")
+    )
+    found = {
+        named("humble"): [Result(package, 0, [both])],
+        named("lyrical"): [Result(package, 0, [one, both, always])],
+    }
+    (result,) = merged(found, {"AA003"})
+    offered = {item.code: item.fix is not None for item in result.diagnostics}
+    assert offered == {"AA001": False, "AA002": True, "AA003": True}
 
 
 def test_conditions_are_those_of_the_target() -> None:

@@ -353,7 +353,7 @@ def test_what_cannot_be_read_may_be_anything(tmp_path: Path) -> None:
 
 def test_an_unknown_distribution_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["stubs", "--distro", "noetic", "--dry-run"]) == 2
-    assert "--distro: no distribution 'noetic'; choose from humble," in capsys.readouterr().err
+    assert "--distro: 'noetic' is of ROS 1; choose from humble," in capsys.readouterr().err
 
 
 def test_stubs_have_no_errors_themselves(bundled: Path) -> None:

@@ -12,6 +12,7 @@ from scaffold.api.types import (
     class_in,
     class_itself,
     full_name,
+    has_call,
     in_words,
     is_certain_misfit,
     is_function,
@@ -39,9 +40,11 @@ _TIMES = (
 )
 _UNCHECKED = (".get_parameter_or",)
 """What works with anything as long as the parameter is declared."""
+_ONLY_SHOWN = {("DeclareLaunchArgument()", "description")}
+"""What `ros2 launch --show-args` prints, whatever it is."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """What calls ``int()`` on its nanoseconds, which are annotated as an int."""
-_TIMEOUTS = {"transform": 2, "transform_full": 4}
+_TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
 """Where functions of tf2 with several signatures take a timeout."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
@@ -63,12 +66,112 @@ class ArgumentTypeUnfit(TypeRule):
     examples = (
         Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
         Example(
+            "a description in several parts",
+            {
+                "demo.launch.py": "from launch.actions import DeclareLaunchArgument\n\n"
+                "MODE = DeclareLaunchArgument('mode', description=('fast,', 'or slow'))\n"
+            },
+        ),
+        Example(
+            "a goal handle of one of two action servers",
+            {
+                "mover.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n"
+                "from tf2_msgs.action import LookupTransform\n\n\n"
+                "class Mover(Node):\n    def __init__(self):\n        super().__init__('mover')\n"
+                "        self.goal = None\n"
+                "        ActionServer(self, LookupTransform, 'look', self.run,\n"
+                "                     handle_accepted_callback=self.on_look)\n"
+                "        ActionServer(self, Fibonacci, 'count', self.run,\n"
+                "                     handle_accepted_callback=self.on_count)\n\n"
+                "    def on_look(self, goal):\n        self.goal = goal\n\n"
+                "    def on_count(self, goal):\n        self.goal = goal\n"
+                "        self.goal.publish_feedback(Fibonacci.Feedback())\n\n"
+                "    def run(self, goal):\n        goal.succeed()\n        return goal.request\n"
+            },
+        ),
+        Example(
             "what a declared parameter does not need",
             {
                 "port.py": "from rclpy.node import Node\n\n"
                 "node = Node('port')\nnode.declare_parameter('port', 1)\n"
                 "print(node.get_parameter_or('port', 2))\n"
             },
+        ),
+        Example(
+            "elements of a list of messages",
+            {
+                "way.py": "from geometry_msgs.msg import Pose, PoseStamped\n"
+                "from nav_msgs.msg import Path\n\n\n"
+                "class Way:\n"
+                "    def __init__(self):\n"
+                "        self.poses = [PoseStamped()]\n\n"
+                "    def path(self):\n"
+                "        self.poses.append(Pose())\n"
+                "        path = Path()\n"
+                "        path.poses.append(PoseStamped())\n"
+                "        path.poses.append(Pose())\n"
+                "        return path\n"
+            },
+            Report(
+                "13:27",
+                "elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
+                "geometry_msgs.msg.Pose: it cannot be published",
+            ),
+        ),
+        Example(
+            "a name for a class, an object for a function",
+            {
+                "read.py": "from launch_ros.actions import LifecycleNode\n"
+                "from launch_ros.events.lifecycle import ChangeState\n"
+                "from rclpy.serialization import deserialize_message\n"
+                "from std_msgs.msg import String\n\n\n"
+                "def read(data, kinds, reader):\n"
+                "    node = LifecycleNode(\n"
+                "        name='a', namespace='', package='demo', executable='a')\n"
+                "    ChangeState(lifecycle_node_matcher=lambda action: True, transition_id=1)\n"
+                "    ChangeState(lifecycle_node_matcher=node, transition_id=1)\n"
+                "    deserialize_message(data, kinds['a'])\n"
+                "    deserialize_message(data, String)\n"
+                "    while reader.has_next():\n"
+                "        deserialize_message(data, 'std_msgs/msg/String')\n"
+            },
+            Report(
+                "11:17",
+                "'lifecycle_node_matcher' of ChangeState() must be a function, not "
+                "a launch_ros.actions.lifecycle_node.LifecycleNode: ChangeState() "
+                "fails",
+            ),
+            Report(
+                "15:35",
+                "'message_type' of deserialize_message() must be a class, not a "
+                "str: deserialize_message() fails",
+            ),
+        ),
+        Example(
+            "the messages that a synchronizer brings",
+            {
+                "pair.py": "from cv_bridge import CvBridge\n"
+                "from message_filters import Subscriber, TimeSynchronizer\n"
+                "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import CompressedImage, Image\n\n\n"
+                "class Pair(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('pair')\n"
+                "        self.bridge = CvBridge()\n"
+                "        self.left = Subscriber(self, Image, 'left')\n"
+                "        self.right = Subscriber(self, CompressedImage, 'right')\n"
+                "        self.pairs = TimeSynchronizer([self.left, self.right], 10)\n"
+                "        self.pairs.registerCallback(self.on_pair)\n\n"
+                "    def on_pair(self, left, right):\n"
+                "        self.bridge.imgmsg_to_cv2(left)\n"
+                "        self.bridge.imgmsg_to_cv2(right)\n"
+            },
+            Report(
+                "18:35",
+                "'img_msg' of imgmsg_to_cv2() must be a sensor_msgs.msg.Image, not "
+                "a sensor_msgs.msg.CompressedImage: imgmsg_to_cv2() fails",
+            ),
         ),
         Example(
             "a callback with annotations of its own",
@@ -179,10 +282,11 @@ class ArgumentTypeUnfit(TypeRule):
             rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
             r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
         )
-        if matched is None or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
-            return None
+        if matched is None:
+            return self._judge_element(finding)
         expected, given = matched["expected"], matched["given"]
-        if not is_certain_misfit(expected, given):
+        is_misfit = is_certain_misfit(expected, given) or _is_uncallable(finding, expected, given)
+        if not is_misfit or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
             return None
         if expected.startswith("(") and is_function(given):
             return None  # they differ in their annotations; ND003 counts the arguments
@@ -198,8 +302,13 @@ class ArgumentTypeUnfit(TypeRule):
                 f"{in_words(given)}: it cannot be published{hint}",
             )
         parameter = _parameter(finding, matched["callee"])
+        if expected.startswith("("):
+            expected = "function"
+        elif expected.startswith("type["):
+            expected = "class"
         is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
-        if is_made_int and given.rstrip("*") == "float":
+        is_made_int = is_made_int and given.rstrip("*") == "float"
+        if is_made_int or (where, parameter) in _ONLY_SHOWN:
             return None
         needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
         return self.report(
@@ -207,6 +316,29 @@ class ArgumentTypeUnfit(TypeRule):
             f"{needs} must be {with_article(name_of(expected))}, not {in_words(given)}: "
             f"{where} fails{hint}",
         )
+
+    def _judge_element(self, finding: TypeFinding) -> Diagnostic | None:
+        """Judge what is appended to a list of messages, which nothing checks before it is sent."""
+        matched = finding.match(
+            r"Argument to bound method `list\.(?:append|insert)` is incorrect: "
+            rf"Expected `(?P<expected>{MARKED})`, found `(?P<given>.+)`"
+        )
+        call = next(
+            (node for node in finding.parents() if isinstance(node, ast.Call)),
+            None,
+        )
+        if matched is None or not is_certain_misfit(matched["expected"], matched["given"]):
+            return None
+        match call:
+            case ast.Call(func=ast.Attribute(value=ast.Attribute(attr=field, value=holder))) if (
+                not isinstance(holder, ast.Name) or holder.id != "self"
+            ):
+                return self.report(
+                    finding,
+                    f"elements of {field!r} must be {with_article(full_name(matched['expected']))},"
+                    f" not {in_words(matched['given'])}: it cannot be published",
+                )
+        return None
 
     def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
         """Judge a timeout: the type checker does not say which argument fits no signature."""
@@ -225,8 +357,14 @@ class ArgumentTypeUnfit(TypeRule):
         )
 
 
+def _is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
+    """Tell whether an object of ROS that cannot be called is given for a function."""
+    class_ = class_in(given)
+    return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
+
+
 def _timeout(call: ast.Call, name: str) -> ast.expr | None:
-    """Return the timeout that ``transform`` or ``transform_full`` gets."""
+    """Return the timeout that one of these functions gets."""
     for keyword in call.keywords:
         if keyword.arg == "timeout":
             return keyword.value

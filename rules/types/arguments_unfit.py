@@ -7,7 +7,14 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
-from scaffold.api.types import MARKED, TypeFinding, full_name, keywords, parameters
+from scaffold.api.types import (
+    MARKED,
+    TypeFinding,
+    full_name,
+    keywords,
+    overload_problem,
+    parameters,
+)
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
 """What launch_ros calls otherwise since Foxy."""
@@ -43,9 +50,24 @@ class ArgumentsUnfit(TypeRule):
             "unknown-argument",
             "parameter-already-assigned",
             "positional-only-parameter-as-kwarg",
+            "no-matching-overload",
         }
     )
     examples = (
+        Example(
+            "a function with several signatures",
+            {
+                "look.py": "from rclpy.time import Time\nfrom tf2_ros.buffer import Buffer\n\n\n"
+                "def look(buffer: Buffer):\n"
+                "    known = Buffer()\n"
+                "    known.can_transform('map', 'base_link', Time())\n"
+                "    known.can_transform('map', 'base_link', time=Time())\n"
+                "    known.can_transform('map', 'base_link')\n"
+                "    known.can_transform('map', 'base_link', Time(), wait=True)\n"
+            },
+            Report("9:5", "can_transform() lacks 'time': TypeError"),
+            Report("10:5", "can_transform() has no argument 'wait': TypeError"),
+        ),
         Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
         Example(
             "a variable that is a class by default only",
@@ -108,7 +130,13 @@ class ArgumentsUnfit(TypeRule):
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         if _is_old(finding):
             return None  # LF009 says what its keywords are called today
-        problem = _missing(finding) or _too_many(finding) or _unknown(finding) or _repeated(finding)
+        problem = (
+            _missing(finding)
+            or _too_many(finding)
+            or _unknown(finding)
+            or _repeated(finding)
+            or _of_no_overload(finding)
+        )
         return self.report(finding, f"{problem}: TypeError") if problem else None
 
 
@@ -192,3 +220,12 @@ def _repeated(finding: TypeFinding) -> str:
     if matched is None:
         return ""
     return f"{_shown(matched['callee'])} gets {matched['name']!r} twice"
+
+
+def _of_no_overload(finding: TypeFinding) -> str:
+    matched = finding.match(rf"No overload of {_CALLEE} matches arguments")
+    call = finding.node(ast.Call)
+    if matched is None or call is None:
+        return ""
+    problem = overload_problem(finding.package, matched["callee"], call)
+    return f"{_shown(matched['callee'])} {problem}" if problem else ""

@@ -15,11 +15,13 @@ from scaffold.api import (
     Package,
     Report,
     Safety,
+    Severity,
     TypeRule,
     closest_name,
     fact,
 )
 from scaffold.api.distributions import removed_name
+from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import (
     TypeFinding,
     class_in,
@@ -46,6 +48,7 @@ _HINT = (
     "        for logger in [self.get_logger()]:\n"
     "            logger.{}('hello')\n"
 )
+_RECORD = "import sqlite3\n\nimport rclpy\n\nrclpy.init()\nprint(sqlite3.version)\n"
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
 _IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names})
@@ -79,6 +82,7 @@ class AttributeMissing(TypeRule):
 
     code = "TY003"
     name = "attribute-missing"
+    other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
@@ -93,6 +97,16 @@ class AttributeMissing(TypeRule):
         Example(
             "what a module imports for itself",
             {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
+        ),
+        Example(
+            "a name that only a later Python removed",
+            {"record.py": _RECORD},
+        ),
+        Example(
+            "a name that Python removed",
+            {"record.py": _RECORD},
+            Report("6:7", "sqlite3 has no 'version': AttributeError"),
+            distro="lyrical",
         ),
         Example(
             "an action as annotation of its feedback",
@@ -155,11 +169,48 @@ class AttributeMissing(TypeRule):
             ),
         ),
         Example(
+            "the goal handle that a future brings",
+            {
+                "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
+                "        self.handle_of_goal = None\n"
+                "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
+                "        future.add_done_callback(self.on_goal)\n\n"
+                "    def on_goal(self, future):\n"
+                "        self.handle_of_goal = future.result()\n"
+                "        if self.handle_of_goal.accepted:\n"
+                "            return self.handle_of_goal.was_refused\n"
+            },
+            Report(
+                "22:20", "rclpy.action.client.ClientGoalHandle has no 'was_refused': AttributeError"
+            ),
+        ),
+        Example(
+            "a timer that is None at first",
+            {
+                "asker.py": _NODE.format("destroy").replace(
+                    "'fibonacci')\n",
+                    "'fibonacci')\n        self.timer = None\n        self.pause = None\n",
+                )
+                + "        self.timer = self.create_timer(1.0, self.stop)\n"
+                "        self.timer.cancel()\n        self.timer.shutdown()\n"
+                "        self.pause.start()\n"
+            },
+            Report("17:9", "rclpy.timer.Timer has no 'shutdown': AttributeError"),
+        ),
+        Example(
             "an attribute of ROS 1",
             {"asker.py": _NODE.format("cancel_all_goals")},
             Report(
                 "12:9", "rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError"
             ),
+        ),
+        Example(
+            "after spin",
+            {
+                "talk.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
+                "    rclpy.init()\n    rclpy.spin(Node('talker'))\n    rclpy.stop_all()\n"
+            },
+            Report("8:5", "rclpy has no 'stop_all': AttributeError", severity=Severity.WARNING),
         ),
         Example(
             "a field of a message",
@@ -191,7 +242,7 @@ class AttributeMissing(TypeRule):
         node = finding.node(ast.Attribute)
         if matched is None or node is None:
             return None
-        name, owner = matched["name"], matched["of"]
+        name, owner = matched["name"], _without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
         is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
         if name.startswith("_") or is_imported or is_known:
@@ -223,7 +274,14 @@ class AttributeMissing(TypeRule):
             message += f"{change.instead(change.use)} ({change.source})"
             closest = change.use if change.has_replacement else ""
         fix = _fix(finding, node, closest, is_sure=change is not None) if closest else None
-        return self.report(finding, message, fix)
+        is_late = only_while_stopping(finding.module, node)
+        severity = Severity.WARNING if is_late else Severity.ERROR
+        return self.report(finding, message, fix, severity=severity)
+
+
+def _without_none(owner: str) -> str:
+    """Return a type without the ``None`` that an attribute starts with."""
+    return " | ".join(part for part in owner.split(" | ") if part != "None") or owner
 
 
 def _class_of_object(owner: str) -> str | None:

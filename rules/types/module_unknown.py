@@ -7,7 +7,7 @@ import re
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TypeRule, closest_name
 from scaffold.api.distributions import target
-from scaffold.api.types import TypeFinding, module_names
+from scaffold.api.types import TypeFinding, later_modules, module_names
 
 _INSTEAD = {
     "asynchat": "asyncio",
@@ -26,24 +26,29 @@ _INSTEAD = {
     "symbol": "token",
     "telnetlib": "telnetlib3",
 }
+_BEFORE = {
+    "compression.zstd": "backports.zstd",
+    "tomllib": "tomli",
+}
+"""What has the same for Pythons before."""
 _NODE = "import rclpy\nimport {}\n\nrclpy.init()\nmessage = std_msgs.msg.String()\n"
 
 
 class ModuleUnknown(TypeRule):
-    """Code imports a module that Python 3.12 or a package of ROS 2 does not have.
+    """Code imports a module that Python or a package of ROS 2 does not have.
 
     **Why.** The program ends at start: ``ModuleNotFoundError: No module named 'imp'``.
 
     **Fix.** Import the module that has what you need; classes of messages are imported from
     ``std_msgs.msg``.
 
-    **Source.** Python 3.12, which Jazzy runs on; the packages of ROS 2 Jazzy.
+    **Source.** The Python that the distribution runs on, 3.12 for Jazzy; its packages of ROS 2.
     """
 
     code = "TY001"
     name = "module-unknown"
     other_severities = {Severity.WARNING: "setuptools may lend the module"}
-    is_deprecation = True
+    is_removal = True
     kinds = frozenset({"import-not-found"})
     examples = (
         Example("a module", {"talker.py": _NODE.format("std_msgs.msg")}),
@@ -78,6 +83,43 @@ class ModuleUnknown(TypeRule):
                 "you mean 'rclpy.node'?",
             ),
         ),
+        Example(
+            "a module that Python does not have yet",
+            {"settings.py": "import tomllib\n"},
+            Report(
+                "1:8",
+                "Python 3.10 has no module 'tomllib', which is new in 3.11: "
+                "ModuleNotFoundError; use tomli",
+            ),
+            distro="humble",
+        ),
+        Example(
+            "one that Python has now",
+            {"settings.py": "import tomllib\n"},
+        ),
+        Example(
+            "one of a package that Python does not have yet",
+            {"archive.py": "from compression import zstd\n"},
+            Report(
+                "1:6",
+                "Python 3.12 has no module 'compression.zstd', which is new in 3.14: "
+                "ModuleNotFoundError; use backports.zstd",
+            ),
+        ),
+        Example(
+            "for newer Pythons",
+            {
+                "settings.py": "import sys\n\nif sys.version_info >= (3, 11):\n"
+                "    import tomllib\nelse:\n    import tomli as tomllib\n",
+                "loader.py": "try:\n    import tomllib\nexcept ModuleNotFoundError:\n"
+                "    import tomli as tomllib\n",
+            },
+            distro="humble",
+        ),
+        Example(
+            "a package of one's own with such a name",
+            {"archive.py": "import rclpy\nfrom compression import pack\n\nrclpy.init()\npack()\n"},
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -93,6 +135,9 @@ class ModuleUnknown(TypeRule):
                 f"use {_INSTEAD[root]}"
             )
             return self.report(finding, message, severity=severity)
+        later = later_modules()
+        if module in later or any(name.startswith(f"{module}.") for name in later):
+            return self._of_later_python(finding, module)
         above, _, last = module.rpartition(".")
         if last.startswith("_"):
             return None  # an extension module
@@ -107,6 +152,25 @@ class ModuleUnknown(TypeRule):
         return self.report(
             finding, f"ROS 2 {target().title} has no module {module!r}: ModuleNotFoundError{hint}"
         )
+
+    def _of_later_python(self, finding: TypeFinding, module: str) -> Diagnostic | None:
+        """Report a module that Python does not have yet, or one imported from its package."""
+        later = later_modules()
+        names = [
+            f"{module}.{alias.name}"
+            for node in finding.module.walk(ast.ImportFrom)
+            if node.module == module and node.lineno == finding.location.line
+            for alias in node.names
+        ]
+        new = next((name for name in (module, *names) if name in later), None)
+        if new is None:
+            return None  # a package of the user's that is called like one of Python
+        use = f"; use {_BEFORE[new]}" if new in _BEFORE else ""
+        message = (
+            f"Python {target().python_version} has no module {new!r}, which is new in "
+            f"{later[new]}: ModuleNotFoundError{use}"
+        )
+        return self.report(finding, message)
 
     def _fix(self, finding: TypeFinding, module: str) -> Fix | None:
         """Import the module of the class: the code names it in full."""

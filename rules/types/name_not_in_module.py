@@ -28,6 +28,16 @@ class NameNotInModule(TypeRule):
     name = "name-not-in-module"
     kinds = frozenset({"missing-module-member"})
     examples = (
+        Example(
+            "a name that this Python has, in a file without ROS",
+            {"clock.py": "from datetime import UTC\n"},
+        ),
+        Example(
+            "a name that Python has later, in a file without ROS",
+            {"clock.py": "from datetime import UTC\n"},
+            Report("1:22", "'datetime' has no 'UTC': ImportError"),
+            distro="humble",
+        ),
         Example("names that exist", {"talker.py": "from rclpy.node import Node\n"}),
         Example(
             "what a module imports for itself",

@@ -9,7 +9,7 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING
 
-from scaffold import time_limit
+from scaffold import distributions, time_limit
 from scaffold.ament import ruff
 from scaffold.ament.codes import CODES
 from scaffold.ament.files import select
@@ -50,7 +50,8 @@ def _identity() -> str:
                 place = os.path.relpath(folder, top)
                 own.append(f"{place}/{name}:{status.st_size}:{status.st_mtime_ns}")
     own.sort()
-    return f"{sys.version_info[:3]}{of_target().identity}{own}{ruff.identity()}"
+    kept = [distribution.name for distribution in distributions.kept()]
+    return f"{sys.version_info[:3]}{of_target().identity}{kept}{own}{ruff.identity()}"
 
 
 class _File:

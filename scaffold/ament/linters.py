@@ -40,11 +40,15 @@ _OF: dict[Distribution, Linters] = {}
 
 def of_target() -> Linters:
     """Return the linters of the target."""
-    target = distributions.target()
-    if target not in _OF:
+    return of(distributions.target())
+
+
+def of(distribution: Distribution) -> Linters:
+    """Return the linters of a distribution."""
+    if distribution not in _OF:
         versions = {
             name: tuple(map(int, version.split(".")))
-            for name, version in target.fact("linters").items()
+            for name, version in distribution.fact("linters").items()
         }
-        _OF[target] = Linters(versions, target.python)
-    return _OF[target]
+        _OF[distribution] = Linters(versions, distribution.python)
+    return _OF[distribution]

@@ -1,4 +1,4 @@
-"""The modules of the standard library of the target's Python, where its linters ask for them."""
+"""The modules of the standard library of a Python, where the linters ask for them."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from scaffold import distributions
 from scaffold.distributions import Distribution
 
 
-def modules() -> frozenset[str]:
+def of_target() -> frozenset[str]:
     """Return the names of the modules: ``sys.stdlib_module_names`` of that Python."""
-    return _modules(distributions.target())
+    return modules(distributions.target())
 
 
 @cache
-def _modules(distribution: Distribution) -> frozenset[str]:
+def modules(distribution: Distribution) -> frozenset[str]:
+    """Return the same for a distribution."""
     with open(distribution.path("standard_library.txt"), encoding="utf-8") as file:
         return frozenset(file.read().split())

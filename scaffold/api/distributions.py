@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.changes import Change, of_kind, removed_interface, removed_name
+from scaffold.changes import Change, of_kind, of_program, removed_interface, removed_name
 from scaffold.distributions import ENDED, NAMES, Distribution, refusal, target
 
 __all__ = [
@@ -11,6 +11,7 @@ __all__ = [
     "Change",
     "Distribution",
     "of_kind",
+    "of_program",
     "refusal",
     "removed_interface",
     "removed_name",

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from scaffold.types.finding import TypeFinding
 from scaffold.types.marks import MARKED, full_name
-from scaffold.types.members import keywords, members, module_names, parameters
+from scaffold.types.members import (
+    has_call,
+    keywords,
+    members,
+    module_names,
+    overload_problem,
+    parameters,
+)
+from scaffold.types.python_modules import later_modules
 from scaffold.types.wording import (
     class_in,
     class_itself,
@@ -22,14 +30,17 @@ __all__ = [
     "class_in",
     "class_itself",
     "full_name",
+    "has_call",
     "in_words",
     "is_certain",
     "is_certain_misfit",
     "is_function",
     "keywords",
+    "later_modules",
     "members",
     "module_names",
     "name_of",
+    "overload_problem",
     "parameters",
     "with_article",
 ]

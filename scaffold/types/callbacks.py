@@ -14,8 +14,13 @@ _WORDS = (
     b"create_service(",
     b"ActionServer(",
     b"add_done_callback(",
+    b"registerCallback(",
 )
 _CALL = re.compile(r"\b(create_subscription|create_service|ActionServer|add_done_callback)\(")
+_FILTER = re.compile(
+    r"((?:self\.)?\b[^\W\d]\w{0,80})[ ]{0,9}=[ ]{0,9}(?:message_filters\.)?"
+    r"(Subscriber|TimeSynchronizer|ApproximateTimeSynchronizer)\("
+)
 _OTHER_FUTURES = re.compile(r"\b(?:asyncio|concurrent|submit)\b")
 _TYPE = re.compile(r"(?:\w+\.)*[A-Z]\w*")
 _CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
@@ -30,11 +35,17 @@ _REBOUND = (
 """Matches what gives a name another value; not a keyword argument on a line of its own."""
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _FUTURE = "_Ros2Future"
+_ACCEPTED = "_Ros2ClientGoalHandle"
 _IMPORTS = {
+    _ACCEPTED: f"\nfrom rclpy.action.client import ClientGoalHandle as {_ACCEPTED}\n",
     _GOAL_HANDLE: f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n",
     _FUTURE: f"\nfrom rclpy.task import Future as {_FUTURE}\n",
 }
 """What is imported at the end of a file, by the name that is used."""
+# linear: up to 2 kB are searched
+_FUTURE_NAME = re.compile(r"(?:self\.)?\b\w+$")
+# linear: as above
+_SENT_HERE = re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
 _LONGEST = 2_000
 """Characters of a call that are looked at."""
 _CALLBACKS = {
@@ -72,13 +83,13 @@ def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its
     """Return a class, or what is outside of classes, with what its callbacks get."""
     types: dict[str, tuple[str, ...]] = {}
     for name, given in _registered(segment):
-        if given == (_FUTURE,) and not has_ros_futures:
+        if given[0].startswith(_FUTURE) and not has_ros_futures:
             continue
         types[name] = () if types.get(name, given) != given else given
     for name, given in types.items():
         pattern = (
-            rf"(\bdef {name}\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER})"
-            rf"(?:(\s*,\s*)({_PARAMETER}))?{_END}"
+            rf"(\bdef {name}\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER}"
+            rf"(?:\s*,\s*{_PARAMETER}){{0,8}}){_END}"
         )
         matches = list(re.finditer(pattern, segment))
         if len(matches) == 1 and given:
@@ -89,12 +100,13 @@ def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its
 
 
 def _typed(definition: re.Match[str], given: tuple[str, ...], body: str) -> str:
-    head, first, comma, second, tail = definition.groups()
-    result = f"{head}{_parameter(first, given[0], body)}"
-    if second:
-        type_ = given[1] if len(given) > 1 else ""
-        result += f"{comma}{_parameter(second, type_, body)}"
-    return result + tail
+    head, parameters, tail = definition.groups()
+    result: list[str] = []
+    for at, part in enumerate(parameters.split(",")):
+        bare = part.strip()
+        typed = _parameter(bare, given[at] if at < len(given) else "", body)
+        result.append(part.replace(bare, typed, 1))
+    return f"{head}{','.join(result)}{tail}"
 
 
 def _parameter(parameter: str, type_: str, body: str) -> str:
@@ -119,13 +131,16 @@ def _name(parameter: str) -> str:
 
 def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield the callbacks that are registered, with the types of their arguments."""
+    if "registerCallback(" in segment:
+        yield from _synchronized(segment)
     for call in _CALL.finditer(segment):
         function = call[1]
         arguments = _arguments(segment, call.end())
         if function == "add_done_callback":
             callback = _CALLBACK.fullmatch(arguments.get("0", ""))
             if callback is not None:
-                yield callback[1], (_FUTURE,)
+                brings = f"[{_ACCEPTED}]" if _is_of_goal(segment, call.start()) else ""
+                yield callback[1], (_FUTURE + brings,)
             continue
         place, callbacks = _CALLBACKS[function]
         type_ = arguments.get(str(place), "")
@@ -135,6 +150,38 @@ def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
             callback = _CALLBACK.fullmatch(arguments.get(keyword, arguments.get(str(position), "")))
             if callback is not None:
                 yield callback[1], _given(function, keyword, type_)
+
+
+def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the callbacks of synchronizers of message_filters, with what their topics are of."""
+    topics: dict[str, str] = {}
+    inputs: dict[str, str] = {}
+    for made in _FILTER.finditer(segment):
+        arguments = _arguments(segment, made.end())
+        if made[2] == "Subscriber":
+            type_ = arguments.get("msg_type", arguments.get("1", ""))
+            topics[made[1]] = "" if made[1] in topics or not _TYPE.fullmatch(type_) else type_
+        else:
+            inputs[made[1]] = "" if made[1] in inputs else arguments.get("0", "")
+    for name, listed in inputs.items():
+        names = [item.strip() for item in listed.strip("[]()").split(",") if item.strip()]
+        types = tuple(topics.get(item, "") for item in names)
+        register = rf"(?<![\w.]){re.escape(name)}\.registerCallback\(\s*(?:self\.)?(\w+)\s*\)"
+        for call in re.finditer(register, segment):
+            if any(types):
+                yield call[1], types
+
+
+def _is_of_goal(segment: str, end: int) -> bool:
+    """Tell whether the future before a place is that of a goal that was sent."""
+    if "def send_goal_async" in segment:
+        return False
+    before = segment[max(0, end - _LONGEST) : end].removesuffix(".").rstrip()
+    name = _FUTURE_NAME.search(before)
+    if name is None:
+        return _SENT_HERE.search(before) is not None
+    assigned = re.findall(rf"(?<![\w.]){re.escape(name[0])}[ \t]*=(?!=)([^\n]*)", before)
+    return bool(assigned) and ".send_goal_async(" in assigned[-1]
 
 
 def _given(function: str, keyword: str, type_: str) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from scaffold import distributions
 from scaffold.model.package import Package
-from scaffold.types import environment, ty
+from scaffold.types import environment, python_modules, ty
 from scaffold.types.callbacks import with_callback_types
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
@@ -20,15 +20,13 @@ from scaffold.types.stubs import INCOMPLETE
 from scaffold.types.ty import TyDiagnostic, UnavailableError
 from scaffold.types.unannotated import without_annotations
 
-_REMOVED_IN: Mapping[tuple[int, int], frozenset[str]] = {
-    (3, 10): frozenset({"formatter", "parser", "symbol"}),
-    (3, 11): frozenset({"binhex"}),
-    (3, 12): frozenset({"asynchat", "asyncore", "distutils", "imp", "smtpd"}),
-    (3, 13): frozenset({"cgi", "crypt", "imghdr", "pipes", "sndhdr", "telnetlib"}),
-}
-"""Modules that people use, by the version of Python that has them no more."""
 _CHANGED = frozenset({"collections", "random"})
 """Modules of Python of which people use what is no longer there."""
+_DIFFERENT = frozenset(
+    {"ast", "asyncio", "contextlib", "datetime", "enum", "itertools", "math", "pkgutil", "queue"}
+    | {"sqlite3", "typing", "unittest", "uuid", "warnings"}
+)
+"""Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 # linear: a line has 20 kB at most
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
@@ -117,7 +115,7 @@ class TypeCheck:
                     item.package.full_path(item.path) for item in reached.values() if item.path
                 )
             roots = frozenset[str]().union(*(item.roots for item in reached.values()))
-            if not _is_relevant(roots, stubbed) or _is_shadowed(source, stubbed):
+            if not _is_relevant(source, roots, stubbed) or _is_shadowed(source, stubbed):
                 continue
             key = self._cache.key(source, reached)
             file = _File(source, reached, key, self._cache.get(key))
@@ -222,17 +220,14 @@ class TypeCheck:
         self.close()
 
 
-def removed_modules() -> frozenset[str]:
-    """Return the modules that Python had and that of the target does not have any more."""
-    python = distributions.target().python
-    return frozenset[str]().union(
-        *(names for version, names in _REMOVED_IN.items() if version <= python)
-    )
-
-
-def _is_relevant(roots: frozenset[str], stubbed: frozenset[str]) -> bool:
+def _is_relevant(source: Source, roots: frozenset[str], stubbed: frozenset[str]) -> bool:
     """Tell whether anything that is imported is known well enough to judge its use."""
-    return not roots.isdisjoint(stubbed | removed_modules() | _CHANGED)
+    if not source.imports.isdisjoint(python_modules.later_modules()):
+        return True
+    known = stubbed | python_modules.removed() | _CHANGED
+    if distributions.target().python != distributions.named(distributions.DEFAULT).python:
+        known |= _DIFFERENT
+    return not roots.isdisjoint(known)
 
 
 def _is_shadowed(source: Source, stubbed: frozenset[str]) -> bool:
@@ -260,10 +255,12 @@ def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
 def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
     """Tell whether a report is of interest: most are about the user's own classes."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
-        quoted = re.search(r"`([\w.]+)`", item.message)
-        root = quoted[1].partition(".")[0] if quoted else ""
+        module, name = [*re.findall(r"`([\w.]+)`", item.message), "", ""][:2]
+        root = module.partition(".")[0]
         if item.kind == "import-not-found":
-            return root in stubbed or root in removed_modules()
+            return root in stubbed or python_modules.is_of_another(module)
+        if python_modules.still_has(module, name):
+            return False
         return root in stubbed or root in sys.stdlib_module_names
     return MARK in item.message
 

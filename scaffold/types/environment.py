@@ -5,9 +5,11 @@ It is written once for each version of the stubs, into the user's cache, and fou
 
 from __future__ import annotations
 
+import contextlib
 import marshal
 import os
 import shutil
+import time
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
@@ -20,6 +22,8 @@ from scaffold.types.marks import mark
 KIND = "stubs"
 KEPT = 6
 """Environments that are kept: of this and of other versions of the tool."""
+_IN_USE = 600.0
+"""Seconds after its last use until an environment may be removed; ty runs for a minute at most."""
 _INDEX = "index"
 _MAGIC = b"scaffold-stubs-1\n"
 _SETTINGS = "home = /nonexistent\nversion = {}\n"
@@ -63,6 +67,8 @@ def directory(distribution: Distribution, scratch: Callable[[str], str]) -> str:
     if kept is not None:
         place = os.path.join(kept, identity(distribution))
         if _is_whole(place):
+            with contextlib.suppress(OSError):
+                os.utime(place)  # as in use
             return place
         try:
             _write_aside(distribution, place)
@@ -112,7 +118,7 @@ def _write_aside(distribution: Distribution, place: str) -> None:
             os.rename(aside, place)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
-    _trim(kept)
+    trim(kept)
 
 
 def _write(distribution: Distribution, place: str) -> list[str]:
@@ -141,11 +147,13 @@ def write_files(top: str, files: dict[str, str]) -> None:
             file.write(text)
 
 
-def _trim(kept: str) -> None:
-    """Remove the oldest environments."""
+def trim(kept: str) -> None:
+    """Remove the oldest environments, but none that a running type checker may read."""
+    recent = time.time() - _IN_USE
     try:
         places = [entry.path for entry in os.scandir(kept)]
         for path in sorted(places, key=os.path.getmtime)[:-KEPT]:
-            shutil.rmtree(path, ignore_errors=True)
+            if os.path.getmtime(path) < recent:
+                shutil.rmtree(path, ignore_errors=True)
     except OSError:
         return  # another process tidies up

@@ -18,7 +18,7 @@ Node = TypeVar("Node", bound=ast.AST)
 
 _DECIDING = re.compile(
     r"\b(?:hasattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
-    r"|(?:^|[^a-z])version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_",
+    r"|(?:^|[^a-z])version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_(?!next\b)",
     re.IGNORECASE,
 )
 """Matches conditions that ask what there is: for a version, a module, or a kind of object."""
@@ -74,6 +74,11 @@ class TypeFinding:
                 if self.module.location(node) == self.location:
                     return node
         return None
+
+    def parents(self) -> Iterator[ast.AST]:
+        """Yield the nodes around the place, inner ones first."""
+        if self.innermost is not None:
+            yield from self.module.parents(self.innermost)
 
     def expression(self) -> ast.expr | None:
         """Return the outermost expression that is exactly at the place."""

@@ -13,7 +13,8 @@ from scaffold.types.ty import TyDiagnostic
 
 KIND = "types"
 MOST = 20_000
-_MAGIC = b"scaffold-types-1\n"
+_MAGIC = b"scaffold-types-2\n"
+"""Changes with what is kept of the reports; see ``types.check``."""
 
 
 class Cache:

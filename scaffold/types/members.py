@@ -23,6 +23,15 @@ def members(package: Package, marked: str) -> frozenset[str]:
         package: Whose code uses it; its workspace may define interfaces.
         marked: The marked name of the class.
     """
+    return frozenset(name for name in _all_names(package, marked) if not name.startswith("_"))
+
+
+def has_call(package: Package, marked: str) -> bool:
+    """Tell whether objects of a class can be called."""
+    return "__call__" in _all_names(package, marked)
+
+
+def _all_names(package: Package, marked: str) -> set[str]:
     result: set[str] = set()
     pending = [marked]
     for _ in range(_DEEPEST):
@@ -34,7 +43,7 @@ def members(package: Package, marked: str) -> frozenset[str]:
             result.update(_names(node.body))
             for base in node.bases:
                 pending += _resolved(tree, module, base)
-    return frozenset(name for name in result if not name.startswith("_"))
+    return result
 
 
 def module_names(package: Package, module: str) -> frozenset[str]:
@@ -57,6 +66,47 @@ def parameters(package: Package, callee: str) -> Sequence[str]:
     function = _function(package, callee)
     if function is None:
         return ()
+    return _positional(function, callee)
+
+
+def overload_problem(package: Package, callee: str, call: ast.Call) -> str:
+    """Return why no overload of a function can take the arguments of a call, whatever their types.
+
+    Returns:
+        What is wrong with regard to the overload that comes nearest; empty if one takes them.
+    """
+    if any(isinstance(item, ast.Starred) for item in call.args):
+        return ""
+    if any(keyword.arg is None for keyword in call.keywords):
+        return ""
+    problems = [
+        problem
+        for function in _functions(package, callee)
+        if (problem := _problem(function, _positional(function, callee), call)) is not None
+    ]
+    return min(problems, key=len) if problems and all(problems) else ""
+
+
+def _problem(
+    function: ast.FunctionDef | ast.AsyncFunctionDef, names: Sequence[str], call: ast.Call
+) -> str | None:
+    """Return what a call lacks or has too much; ``None`` where a signature takes anything."""
+    arguments = function.args
+    if arguments.vararg is not None or arguments.kwarg is not None:
+        return None
+    given = {*names[: len(call.args)], *(keyword.arg or "" for keyword in call.keywords)}
+    by_keyword = [item.arg for item in arguments.kwonlyargs]
+    for name in sorted(given):
+        if name not in names and name not in by_keyword:
+            return f"has no argument {name!r}"
+    if len(call.args) > len(names):
+        return f"takes {len(names)} positional arguments at most, not {len(call.args)}"
+    required = names[: len(names) - len(arguments.defaults)]
+    missing = [repr(name) for name in required if name not in given]
+    return f"lacks {' and '.join(missing)}" if missing else ""
+
+
+def _positional(function: ast.FunctionDef | ast.AsyncFunctionDef, callee: str) -> Sequence[str]:
     names = [item.arg for item in (*function.args.posonlyargs, *function.args.args)]
     decorators = function.decorator_list
     is_static = any(isinstance(item, ast.Name) and item.id == "staticmethod" for item in decorators)
@@ -71,22 +121,26 @@ def keywords(package: Package, callee: str) -> Sequence[str]:
 
 def _function(package: Package, callee: str) -> ast.FunctionDef | ast.AsyncFunctionDef | None:
     """Return a function or method by its name in a message; ``None`` if it has overloads."""
+    named = _functions(package, callee)
+    return named[0] if len(named) == 1 else None
+
+
+def _functions(package: Package, callee: str) -> Sequence[ast.FunctionDef | ast.AsyncFunctionDef]:
     owner, _, method = callee.rpartition(".")
     class_ = _class(package, owner) if owner else None
     if owner and class_ is None:
-        return None
+        return ()
     if class_ is not None:
         body: Sequence[ast.stmt] = class_[0].body
     else:
         method, *where = callee.split(MARK)
         tree = _tree(package, ".".join(where))
         body = tree.body if tree is not None else ()
-    named = [
+    return [
         node
         for node in body
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name == method
     ]
-    return named[0] if len(named) == 1 else None
 
 
 def _class(package: Package, marked: str) -> tuple[ast.ClassDef, str, ast.Module] | None:

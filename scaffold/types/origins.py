@@ -67,5 +67,9 @@ def _sources_of(module: PythonModule, name: str) -> set[str]:
         if value is None or (isinstance(value, ast.Constant) and value.value is None):
             continue
         if any(isinstance(target, ast.Attribute) and target.attr == name for target in targets):
-            sources.add(ast.unparse(value.func if isinstance(value, ast.Call) else value))
+            source = ast.unparse(value.func if isinstance(value, ast.Call) else value)
+            if isinstance(value, ast.Name):  # a variable of each method
+                function = module.enclosing_function(value)
+                source += f" of {function.name}" if function else ""
+            sources.add(source)
     return sources

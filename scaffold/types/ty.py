@@ -161,7 +161,12 @@ class _Process:
     def __init__(self, arguments: Sequence[str], home: str) -> None:
         program = executable()
         # Nothing else of the user's environment: variables name configurations and environments.
-        environment = {"HOME": home, "XDG_CONFIG_HOME": home}
+        environment = {
+            "HOME": home,
+            "XDG_CONFIG_HOME": home,
+            # The workers of this tool need the others, and threads that wait cost time as well.
+            "TY_MAX_PARALLELISM": str(max(len(os.sched_getaffinity(0)) // 2, 1)),
+        }
         reading, writing = os.pipe()
         actions = [
             (os.POSIX_SPAWN_DUP2, writing, 1),

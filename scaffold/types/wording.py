@@ -14,6 +14,8 @@ _BUILTINS = frozenset(
     | {"set", "frozenset", "Literal", "LiteralString", "None", "True", "False", "type", "class"}
 )
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
+_PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
+"""Matches types of values that are no classes."""
 _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
 
 
@@ -32,6 +34,8 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         expected: The type, or several with ``|`` between them.
         given: The type of the value, which the type checker has rejected.
     """
+    if expected.startswith("type["):
+        return _PLAIN.fullmatch(given) is not None
     return is_certain(expected.replace("|", ",")) and (is_certain(given) or is_function(given))
 
 

@@ -451,7 +451,13 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_name_in_a_file_that_another_program_runs_is_a_warning() -> None:
-    files = {".cmake-format.py": 'with section("format"):\n    pass\n'}
-    reported = check(Package.of(files))
+@pytest.mark.parametrize(
+    ("path", "text"),
+    [
+        (".cmake-format.py", 'with section("format"):\n    pass\n'),
+        ("doc/conf.py", "tags.add('web')\n"),
+    ],
+)
+def test_a_name_in_a_file_that_another_program_runs_is_a_warning(path: str, text: str) -> None:
+    reported = check(Package.of({path: text}))
     assert [d.severity for d in reported if d.code == "F821"] == [Severity.WARNING]

@@ -511,6 +511,26 @@ def test_noqa_accepts_a_finding(check: Check, source: Path) -> None:
     assert check("talker", "--no-types") == []
 
 
+def test_noqa_for_a_rule_covers_what_the_types_say_of_the_same_place(
+    check: Check, source: Path
+) -> None:
+    node = """import rclpy
+
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('talker')
+    node.get_logger().warn('up')
+"""
+    make_package(source, "talker", {"talker/talk.py": node}, "<depend>rclpy</depend>")
+    flags = ("talker", "--distro", "lyrical", "--select", "IM,TY,SC")
+    assert check(*flags) == ["talker/talker/talk.py:7:IM050"]
+    accepted = node.replace("('up')", "('up')  # noqa: IM050")
+    (source / "talker" / "talker" / "talk.py").write_text(accepted)
+    assert check(*flags) == []
+    assert check("talker", "--distro", "lyrical", "--select", "TY")
+
+
 def test_stubs_that_another_process_has_written_stay(tmp_path: Path) -> None:
     place = tmp_path / "stubs"
     environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001  as two processes do
@@ -526,3 +546,12 @@ def test_stubs_that_are_not_whole_are_written_again(tmp_path: Path) -> None:
     (place / "pyvenv.cfg").unlink()
     environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001
     assert (place / "pyvenv.cfg").is_file()
+
+
+def test_stubs_that_others_may_read_are_kept(tmp_path: Path) -> None:
+    places = [tmp_path / str(number) for number in range(environment.KEPT + 2)]
+    for place in places:
+        place.mkdir()
+    os.utime(places[0], (0, 0))
+    environment.trim(str(tmp_path))
+    assert sorted(tmp_path.iterdir()) == places[1:]

@@ -133,7 +133,7 @@ def hidden_module(path: str) -> str:
         return ""
     *_, directory, file = ("", *path.split("/"))
     name = directory if file == "__init__.py" else file.removesuffix(".py")
-    is_hidden = name in standard_library.modules() and name not in _MODULES_THAT_PASS
+    is_hidden = name in standard_library.of_target() and name not in _MODULES_THAT_PASS
     return name if is_hidden else ""
 
 

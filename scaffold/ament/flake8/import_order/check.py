@@ -12,6 +12,7 @@ import ast
 from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.ament import linters, standard_library
 from scaffold.ament.finding import Finding
 from scaffold.ament.flake8.import_order.stdlib import STDLIB
@@ -215,8 +216,13 @@ def _group(module: str, options: Options) -> int:
 
 
 def _standard_library() -> frozenset[str]:
-    has_own_list = not linters.of_target().since(_NAME, 0, 19)
-    return STDLIB if has_own_list else standard_library.modules()
+    """Return the standard library of the oldest distribution that the package is for.
+
+    The linters of a later one may want a module elsewhere; no order pleases both.
+    """
+    oldest = min((distributions.target(), *distributions.kept()), key=lambda item: item.place)
+    has_own_list = not linters.of(oldest).since(_NAME, 0, 19)
+    return STDLIB if has_own_list else standard_library.modules(oldest)
 
 
 def _company_names(options: Options) -> tuple[str, ...]:

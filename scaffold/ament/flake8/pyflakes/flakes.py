@@ -76,6 +76,10 @@ OWN = frozenset({"F541", "F601", "F602", "F811"})
 """Judged in ``literals`` and ``redefinitions``."""
 
 
+_GIVEN = {"conf.py": "`tags`"}
+"""What Sphinx gives its configuration."""
+
+
 class _Stricter:
     """The diagnostics of ruff that pyflakes does not have, and those that may be wrong."""
 
@@ -109,7 +113,8 @@ class _Stricter:
         """Tell whether the module may have a name that nothing in its text defines."""
         if diagnostic.code == "F821":
             # A configuration such as .cmake-format.py is run by its program, with names from there.
-            return self._executes_text or self._text.name.startswith(".")
+            is_given = diagnostic.message.endswith(_GIVEN.get(self._text.name, " "))
+            return self._executes_text or self._text.name.startswith(".") or is_given
         return diagnostic.code == "F822" and self._has_getattr
 
     @cached_property
