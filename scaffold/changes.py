@@ -3,7 +3,8 @@
 The keys of an entry: ``removed`` and ``deprecated`` are the first distributions where it is so,
 ``changed`` is the first with the new meaning; ``use`` is the last part of the name that takes its
 place, where ``*`` is what the same sign at the end of the old name stands for; ``since`` is the
-first distribution that has this name, all of them without it; ``advice`` is for people.
+first distribution that has this name, all of them without it; ``advice`` is for people. Of a call,
+``since`` is the first distribution whose version of it takes the argument in question.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ class Change(NamedTuple):
     """The keyword with which a call is meant."""
     without: str = ""
     """The keyword without which a call is meant."""
+    raises: str = ""
+    """The exception by which a call fails now; code that catches it is ready for the change."""
 
     @property
     def is_removed(self) -> bool:
@@ -52,7 +55,7 @@ class Change(NamedTuple):
     def is_changed(self) -> bool:
         """Whether it means something else on the target than where the code comes from."""
         origin = distributions.origin()
-        if origin is None or self.changed is None:
+        if origin is None or self.changed is None or origin.place < self.since.place:
             return False
         return origin.place < self.changed.place <= distributions.target().place
 
@@ -101,7 +104,7 @@ def _entries() -> dict[str, list[dict[str, Any]]]:
 
 @cache
 def of_kind(kind: str) -> tuple[Change, ...]:
-    """Return the changes of a kind: ``name``, ``call``, ``command``, ``launch``, ``interface``."""
+    """Return the changes of a kind, which is the name of a table of the file."""
     return tuple(_change(entry) for entry in _entries()[kind])
 
 
@@ -112,6 +115,15 @@ def removed_name(name: str) -> Change | None:
         name: The full name, without ``*``.
     """
     return next((item for item in of_kind("name") if name in item.names and item.is_removed), None)
+
+
+def of_program(name: str) -> Change:
+    """Return what changed for those who start a program.
+
+    Args:
+        name: What an entry of the kind ``launch`` has as its name.
+    """
+    return next(item for item in of_kind("launch") if item.names[0] == name)
 
 
 def removed_interface(name: str) -> Change | None:
@@ -141,4 +153,5 @@ def _change(entry: dict[str, Any]) -> Change:
         entry["source"],
         entry.get("having", ""),
         entry.get("without", ""),
+        entry.get("raises", ""),
     )

@@ -19,6 +19,38 @@ _SERVER = (
     "        handle.succeed()\n"
     "        return Fibonacci.Result()\n"
 )
+_SUBCLASS = (
+    "from rclpy.action import ActionServer\n"
+    "from example_interfaces.action import Fibonacci\n\n\n"
+    "class Counting(ActionServer):\n"
+    "    def __init__(self, node, run):\n"
+    "        self.runs = 0\n"
+    "        super().__init__(node, Fibonacci, 'count', run{})\n"
+)
+_CLIENT = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Asker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('asker')\n"
+    "        self.reset = self.create_client(Trigger, 'reset')\n\n"
+    "    def ask(self):\n"
+    "{}"
+)
+_CALL = "        return self.reset.call(Trigger.Request(), {})\n"
+_TRIED = (
+    "        try:\n"
+    "            return self.reset.call(Trigger.Request(), timeout_sec=1.0)\n"
+    "        except TimeoutError:\n"
+    "            return None\n"
+)
+_PASSED = (
+    _CLIENT.format(_CALL.format("timeout_sec=1.0"))
+    .replace("class Asker(Node)", "class Asker")
+    .replace("(self)", "(self, node: Node)", 1)
+    .replace("super().__init__('asker')", "self.node = node")
+    .replace("self.create_client", "self.node.create_client")
+)
+_LATER = "from Kilted on, a timeout raises TimeoutError, and returned None before: handle both"
 
 
 class BehaviorChanged(PythonRule):
@@ -37,6 +69,7 @@ class BehaviorChanged(PythonRule):
     code = "IM052"
     name = "behavior-changed"
     severity = Severity.WARNING
+    is_about_moves = True
     examples = (
         Example("not moved", {"counter.py": _SERVER.format("")}, distro="lyrical"),
         Example(
@@ -56,6 +89,72 @@ class BehaviorChanged(PythonRule):
             ),
             distro="lyrical",
             moved_from="jazzy",
+        ),
+        Example(
+            "a default, of the class above",
+            {"counter.py": _SUBCLASS.format("")},
+            Report(
+                "8:9",
+                "from Kilted on, a result is kept for 10 s, not for 900: a client "
+                "that asks later gets none; pass result_timeout=900 to keep it as "
+                "long (rclpy 1171)",
+            ),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "an explicit value for the class above",
+            {"counter.py": _SUBCLASS.format(", result_timeout=900")},
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a timeout, as a keyword",
+            {"asker.py": _CLIENT.format(_CALL.format("timeout_sec=1.0"))},
+            Report("11:16", f"{_LATER} (rclpy 1271)"),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a timeout, by its position",
+            {"asker.py": _CLIENT.format(_CALL.format("1.0"))},
+            Report("11:16", f"{_LATER} (rclpy 1271)"),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a client of a node that is passed",
+            {"asker.py": _PASSED},
+            Report(
+                "11:16",
+                "from Kilted on, a timeout raises TimeoutError, and returned None "
+                "before: handle both (rclpy 1271)",
+            ),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "no timeout",
+            {"asker.py": _CLIENT.format(_CALL.format("timeout_sec=None"))},
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a timeout that is caught",
+            {"asker.py": _CLIENT.format(_TRIED)},
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "from where there is no such argument",
+            {"asker.py": _CLIENT.format(_CALL.format("timeout_sec=1.0"))},
+            distro="lyrical",
+            moved_from="humble",
+        ),
+        Example(
+            "accepted, and not moved any more",
+            {"counter.py": _SERVER.format("").replace("run)", "run)  # noqa: IM052")},
+            distro="lyrical",
         ),
     )
 

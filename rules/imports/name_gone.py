@@ -33,6 +33,8 @@ _GONE: Mapping[str, tuple[str, str]] = {
     "cv2.SIFT": ("since OpenCV 3", "cv2.SIFT_create()"),
 }
 """What Python raises ``AttributeError`` for, since when, and what to write instead."""
+_BACK = frozenset({"numpy.bool", "numpy.long"})
+"""Names that NumPy 2 has again: they are types of its own."""
 _LATER: Mapping[str, str] = {
     **dict.fromkeys(("trapezoid",), "np.trapz()"),
     **{f"a{name}": f"np.arc{name}()" for name in ("cos", "sin", "tan", "cosh", "sinh", "tanh")},
@@ -119,7 +121,7 @@ class NameGone(PythonRule):
         ),
         Example(
             "what NumPy 2 has",
-            {"a.py": _NODE.format("np.trapezoid(values)")},
+            {"a.py": _NODE.format("np.trapezoid(np.asarray(values, np.bool))")},
             distro="lyrical",
         ),
         Example(
@@ -147,13 +149,16 @@ class NameGone(PythonRule):
             if name not in _GONE and not name.startswith("numpy."):
                 continue
             short = name.removeprefix("numpy.")
+            is_gone = name in _GONE and _is_gone(name)
+            if not (is_gone or (short in _LATER and _numpy() < _SECOND)):
+                continue
             if is_handled(module, node, "AttributeError") or _is_replaced(module, node):
                 continue
-            if name in _GONE and _is_gone(_GONE[name][0]):
+            if is_gone:
                 since, instead = _GONE[name]
                 message = f"{name} is gone {since}: AttributeError; use {instead}"
                 yield self.report(module.location(node), message)
-            elif short in _LATER and _numpy() < _SECOND:
+            else:
                 has = target().fact("numpy").rpartition(".")[0]
                 message = (
                     f"{name} came with NumPy 2, {target().title} has {has}: AttributeError; use "
@@ -175,9 +180,11 @@ def _numpy() -> tuple[int, ...]:
     return tuple(map(int, target().fact("numpy").split(".")))
 
 
-def _is_gone(since: str) -> bool:
-    """Tell whether the target has the release that a name is gone since, as far as that differs."""
-    word, number = since.removeprefix("since ").split()
+def _is_gone(name: str) -> bool:
+    """Tell whether the release of the target lacks a name, as far as releases differ in that."""
+    if name in _BACK and _numpy() >= _SECOND:
+        return False
+    word, number = _GONE[name][0].removeprefix("since ").split()
     return word != "NumPy" or _numpy() >= tuple(map(int, number.split(".")))
 
 

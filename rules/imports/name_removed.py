@@ -91,6 +91,45 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "where it is missing, the method ends",
+            {
+                "talker.py": _NODE.format("", "warn").replace(
+                    "        self.get",
+                    "        if not hasattr(self.get_logger(), 'warn'):\n            return\n"
+                    "        self.get",
+                ),
+                "listener.py": _NODE.format("", "warn").replace(
+                    "        self.get",
+                    "        has_new = hasattr(self.get_logger(), 'warning')\n"
+                    "        if has_new:\n            self.get_logger().warning('hello')\n"
+                    "            return\n        self.get",
+                ),
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "the method ends where something else is missing",
+            {
+                "talker.py": _NODE.format("", "warn").replace(
+                    "        self.get",
+                    "        if not hasattr(self, 'port'):\n            return\n        self.get",
+                )
+            },
+            Report(
+                "10:9",
+                "rclpy.impl.rcutils_logger.RcutilsLogger.warn was removed in "
+                "Lyrical: AttributeError; use warning (rclpy 1456)",
+                fix="write warning",
+            ),
+            fixed={
+                "talker.py": _NODE.format("", "warning").replace(
+                    "        self.get",
+                    "        if not hasattr(self, 'port'):\n            return\n        self.get",
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
             "below conditions and a handler that are about something else",
             {"talker.py": _ELSEWHERE.format("warn")},
             Report(
@@ -100,6 +139,42 @@ class NameRemoved(PythonRule):
                 fix="write warning",
             ),
             fixed={"talker.py": _ELSEWHERE.format("warning")},
+            distro="lyrical",
+        ),
+        Example(
+            "what NumPy 2 removed",
+            {
+                "area.py": "import numpy as np\nfrom numpy import mat\n\n"
+                "values = np.round_(mat('1 2'))\n"
+            },
+            Report(
+                "2:19",
+                "numpy.mat was removed in Lyrical: ImportError; use asmatrix (NumPy 2.0)",
+                fix="write asmatrix",
+            ),
+            Report(
+                "4:10",
+                "numpy.round_ was removed in Lyrical: AttributeError; use round (NumPy 2.0)",
+                fix="write round",
+            ),
+            fixed={
+                "area.py": "import numpy as np\nfrom numpy import asmatrix as mat\n\n"
+                "values = np.round(mat('1 2'))\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "what NumPy 2 removed, and no name replaces",
+            {"area.py": "import numpy as np\n\nleast = np.NINF\n"},
+            Report(
+                "3:9",
+                "numpy.NINF was removed in Lyrical: AttributeError; use -numpy.inf (NumPy 2.0)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "what only later releases of NumPy remove",
+            {"area.py": "import numpy as np\n\nfound = np.in1d([1], np.array([1, 2]))\n"},
             distro="lyrical",
         ),
         Example(

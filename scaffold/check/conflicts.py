@@ -9,7 +9,7 @@ from scaffold.formats.conflicts import first_conflict
 from scaffold.model.package import Package
 from scaffold.source import ViewError
 
-_UNREADABLE = frozenset({"SC001", "E999", "PX050", "PF001"})
+UNREADABLE = frozenset({"SC001", "E999", "PX050", "PF001"})
 """The codes of files that cannot be parsed: Python, CMake, XML and YAML."""
 
 
@@ -18,7 +18,7 @@ def named(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagn
     seen: set[str] = set()
     for item in diagnostics:
         path = item.location.path
-        line = _line(package, path) if item.code in _UNREADABLE else 0
+        line = _line(package, path) if item.code in UNREADABLE else 0
         if not line:
             yield item
         elif path not in seen:

@@ -16,7 +16,8 @@ from scaffold.source import ViewError
 
 CMAKE_LISTS = "CMakeLists.txt"
 
-Lines = tuple[int, int]
+Stretch = tuple[int, int, int, int]
+"""Line and column of the start and of the end."""
 
 
 def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -25,31 +26,33 @@ def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterat
     A package for several distributions asks for the variable ROS_DISTRO; what is in a branch for
     another one is right where it runs.
     """
-    by_path: dict[str, Sequence[Lines]] = {}
+    by_path: dict[str, Sequence[Stretch]] = {}
     for diagnostic in diagnostics:
         at = diagnostic.location
         if at.path not in by_path:
-            by_path[at.path] = _lines_not_run(package, at.path)
-        if not any(first <= at.line <= last for first, last in by_path[at.path]):
+            by_path[at.path] = _not_run(package, at.path)
+        place = (at.line, at.column)
+        if not any(item[:2] <= place < item[2:] for item in by_path[at.path]):
             yield diagnostic
 
 
-def _lines_not_run(package: Package, path: str) -> Sequence[Lines]:
-    if path.rpartition("/")[2] == CMAKE_LISTS:
+def _not_run(package: Package, path: str) -> Sequence[Stretch]:
+    if path.rpartition("/")[2] == CMAKE_LISTS or path.endswith(".cmake"):
         return package.remember(("lines not run", path), lambda: _in_cmake(package, path))
     return _in_python(package, path) if path in package.python_files else ()
 
 
-def _in_cmake(package: Package, path: str) -> Sequence[Lines]:
+def _in_cmake(package: Package, path: str) -> Sequence[Stretch]:
     with suppress(ViewError):  # which is reported
         if VARIABLE in package.source(path).text:
-            return tuple(of_cmake.lines_not_run(CMakeLists.parse(package.source(path))))
+            lists = CMakeLists.parse(package.source(path))
+            return tuple((first, 0, last + 1, 0) for first, last in of_cmake.lines_not_run(lists))
     return ()
 
 
 @fact
-def _in_python(package: Package, path: str) -> Sequence[Lines]:
+def _in_python(package: Package, path: str) -> Sequence[Stretch]:
     with suppress(ViewError):
         if VARIABLE in package.source(path).text:
-            return tuple(of_python.lines_not_run(package.module(path)))
+            return tuple(of_python.stretches_not_run(package.module(path)))
     return ()

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import re
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.check import conflicts
+from scaffold.check.engine_rules import (
+    FileTooLarge,
+    PackageOfRos1,
+    RuleCrashed,
+    UnparsableFile,
+)
 from scaffold.check.session import Session
 from scaffold.check.several import without_distribution
 from scaffold.diagnostic import Diagnostic, Severity
@@ -12,12 +20,26 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.result import Result
+    from scaffold.check.rule import Rule
     from scaffold.model.discovery.targets import Target
 
     Known = Collection[tuple[str, str, str, str]]
 
-AREAS = ("PX", "CM", "SP", "LY", "TS", "NM", "IM", "ND", "MS", "LF", "PF", "TY", "SC")
-"""The beginnings of the codes that a move may change: all but those of style."""
+_AREAS = ("PX", "CM", "SP", "LY", "TS", "NM", "IM", "ND", "MS", "LF", "PF", "TY", "UR", "BR")
+_OF_PYTHON = ("E9", "F7", "F82")
+"""Of style, what a version of Python decides: its syntax, and whether annotations are evaluated."""
+
+_OF_ENGINE = (UnparsableFile.code, RuleCrashed.code, FileTooLarge.code, PackageOfRos1.code)
+
+CODES = (*_AREAS, *_OF_PYTHON, *_OF_ENGINE)
+"""The codes that a move may change, or their beginnings: all but those of mere style.
+
+What only the tool is concerned with is not among them: a suppression that nothing needs on the
+target breaks nothing, and the distributions that are kept may need it.
+"""
+
+UNEXAMINED = conflicts.UNREADABLE | {"E902", *_OF_ENGINE}
+"""The codes of what was not looked at, so that nothing is known of it."""
 
 ORDER = ("I100", "I101", "I201")
 """The codes of imports that are not in order, as modules with other names may leave them."""
@@ -31,31 +53,52 @@ class Consequences(NamedTuple):
     changes: Sequence[Diagnostic]
     """What runs and does something else."""
     deprecated: Sequence[Diagnostic]
+    unexamined: Sequence[Diagnostic]
+    """What could be read neither before nor now."""
 
     @classmethod
-    def of(cls, result: Result, deprecations: Collection[str]) -> Consequences:
+    def of(cls, result: Result, rules: Iterable[type[Rule]], known: Known) -> Consequences:
         """Sort what is found in a package; advice that is about no deprecation is left out.
 
         Args:
             result: What is found.
-            deprecations: The codes of what works, and will go; see `Rule.is_deprecation`.
+            rules: Those that looked; see `Rule.is_removal` and `Rule.is_deprecation`.
+            known: What is found in it where it comes from.
         """
+        directory = result.package.directory
+        before = {
+            path for place, path, code, _ in known if place == directory and code in UNEXAMINED
+        }
+        removals = {rule.code for rule in rules if rule.is_removal}
+        deprecations = {rule.code for rule in rules if rule.is_deprecation}
         breaks: list[Diagnostic] = []
         changes: list[Diagnostic] = []
         deprecated: list[Diagnostic] = []
+        unexamined: list[Diagnostic] = []
         for item in result.diagnostics:
-            if item.severity is Severity.ERROR:
+            if item.code in UNEXAMINED and item.location.path in before:
+                unexamined.append(item)
+            elif (
+                item.code.startswith(_OF_PYTHON)
+                or item.severity is Severity.ERROR
+                or item.code in removals
+            ):
                 breaks.append(item)
             elif item.code in deprecations:
                 deprecated.append(item)
             elif item.severity is Severity.WARNING:
                 changes.append(item)
-        return cls(result, breaks, changes, deprecated)
+        return cls(result, breaks, changes, deprecated, unexamined)
 
     @property
     def diagnostics(self) -> Sequence[Diagnostic]:
-        """All of them."""
+        """All that the move does."""
         return [*self.breaks, *self.changes, *self.deprecated]
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the package runs there as it did before, as far as is known."""
+        return not (self.breaks or self.changes or self.unexamined)
 
 
 class MigratingSession(Session):
@@ -63,12 +106,22 @@ class MigratingSession(Session):
 
     known: Known = ()
     """What is found there, as `identities` returns it."""
+    improved: Collection[str] = ()
+    """The codes of findings that are worse there, unless they are errors: see `deprecations`."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-        """Return what is new; lines may have moved since, so that places do not count."""
+        """Return what is new, and what is not known; lines may have moved, so they do not count."""
         reported = super()._report(target, diagnostics)
         directory = target.package.directory
-        return [item for item in reported if _identity(directory, item) not in self.known]
+        return [
+            item
+            for item in reported
+            if item.code in UNEXAMINED
+            or (
+                _identity(directory, item) not in self.known
+                and (item.code not in self.improved or item.severity is Severity.ERROR)
+            )
+        ]
 
 
 class OrderSession(Session):
@@ -81,6 +134,11 @@ class OrderSession(Session):
         reported = super()._report(target, diagnostics)
         directory = target.package.directory
         return [item for item in reported if (directory, item.location.path) not in self.unordered]
+
+
+def deprecations(rules: Iterable[type[Rule]]) -> frozenset[str]:
+    """Return the codes of what works, and will go; it went, or was closer to it, later on."""
+    return frozenset(rule.code for rule in rules if rule.is_deprecation)
 
 
 def unordered(results: Sequence[Result]) -> set[tuple[str, str]]:
@@ -103,4 +161,9 @@ def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:
 
 
 def _identity(directory: str, item: Diagnostic) -> tuple[str, str, str, str]:
-    return directory, item.location.path, item.code, without_distribution(item.message)
+    """Return what stays the same in a finding; what raised another exception was broken before."""
+    message = _EXCEPTION.sub("", without_distribution(item.message))
+    return directory, item.location.path, item.code, message
+
+
+_EXCEPTION = re.compile(r"\b[A-Z]\w*Error\b")

@@ -26,19 +26,24 @@ WORTH_WORKERS = 150_000
 """Bytes of Python from which on worker processes cost less than they save."""
 TASK = 250_000
 """Bytes of Python per task: large enough to share the start of ruff, small enough to share out."""
+MOST_OF_RULES = 2_000_000
+"""Bytes of Python whose rules are one task, unless they are one package: what is parsed for them
+stays in memory until its end."""
 MOST_PACKAGES = 16
 """Of a task, for progress."""
+MAX_FACTS = 10_000
+"""Facts about packages that a worker keeps from task to task; 2,000 take 1 MB."""
 
 Style = dict[str, list[Diagnostic]]
 
 
 class _Task(NamedTuple):
-    """The rules and the style of some packages, or the style alone of some files of one."""
+    """The rules of some packages, their style, or both."""
 
     start: int
     stop: int
     has_rules: bool
-    paths: frozenset[str] | None
+    paths: frozenset[str] | None = None
     """The files whose style is checked; ``None`` for all."""
 
 
@@ -75,8 +80,9 @@ def run(
     """
     global _work  # noqa: PLW0603  see its docstring
     sizes = [_sizes(target.package, earlier) for target in targets]
-    tasks = list(_tasks(sizes))
-    workers = min(len(os.sched_getaffinity(0)), len(tasks))
+    processors = len(os.sched_getaffinity(0))
+    tasks = list(_tasks(sizes, processors))
+    workers = min(processors, len(tasks))
     if workers < 2 or sum(sum(item.values()) for item in sizes) < WORTH_WORKERS:  # noqa: PLR2004
         for start in range(0, len(targets), MOST_PACKAGES):
             yield from session.run_batch(targets[start : start + MOST_PACKAGES], None, earlier)
@@ -112,23 +118,31 @@ def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
     }
 
 
-def _tasks(sizes: Sequence[Mapping[str, int]]) -> Iterator[_Task]:
-    """Yield the tasks; the rules of a package come before the rest of its style."""
-    start, bytes_so_far = 0, 0
-    for at, files in enumerate(sizes):
-        total = sum(files.values())
-        is_full = bytes_so_far + total > TASK or at - start >= MOST_PACKAGES
-        if is_full and at > start:
-            yield _Task(start, at, has_rules=True, paths=None)
-            start, bytes_so_far = at, 0
-        bytes_so_far += total
-        if total > 2 * TASK:
-            yield _Task(at, at + 1, has_rules=True, paths=frozenset())
-            for paths in _cut(files):
-                yield _Task(at, at + 1, has_rules=False, paths=paths)
-            start, bytes_so_far = at + 1, 0
-    if start < len(sizes):
-        yield _Task(start, len(sizes), has_rules=True, paths=None)
+def _tasks(sizes: Sequence[Mapping[str, int]], processors: int) -> Iterator[_Task]:
+    """Yield the tasks; the rules of a package come before the rest of its style.
+
+    A large package is a task for its rules and others for its style. Next to one, the rules of
+    others join in, as they ask about it, and each process would read it again: half of the
+    processors, one at least, share the rules.
+    """
+    totals = [sum(files.values()) for files in sizes]
+    share = TASK
+    if max(totals, default=0) > 2 * TASK:
+        share = min(max(sum(totals) // max(processors // 2, 1), TASK), MOST_OF_RULES)
+    start = 0
+    while start < len(totals):
+        stop, total = start + 1, totals[start]
+        while stop < min(start + MOST_PACKAGES, len(totals)) and total + totals[stop] <= share:
+            total += totals[stop]
+            stop += 1
+        if total <= 2 * TASK:
+            yield _Task(start, stop, has_rules=True)
+        else:
+            yield _Task(start, stop, has_rules=True, paths=frozenset())
+            for at in range(start, stop):
+                for paths in _cut(sizes[at]):
+                    yield _Task(at, at + 1, has_rules=False, paths=paths)
+        start = stop
 
 
 def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
@@ -140,7 +154,8 @@ def _cut(files: Mapping[str, int]) -> Iterator[frozenset[str]]:
         if total > TASK:
             yield frozenset(paths)
             paths, total = [], 0
-    yield frozenset(paths)
+    if paths:
+        yield frozenset(paths)
 
 
 @contextmanager
@@ -174,6 +189,7 @@ def _no_interruption() -> Iterator[None]:
 
 def _run(number: int) -> _Done:
     session, targets, earlier, packages, tasks = _work
+    _tidy(packages)
     task = tasks[number]
     places = range(task.start, task.stop)
     backend = session.start_style([targets[at].package for at in places], earlier, task.paths)
@@ -184,10 +200,24 @@ def _run(number: int) -> _Done:
         if task.has_rules:
             rules[at] = session.check_rules(package, earlier.get(package.directory))
         style[at] = backend.by_file(package) if backend else {}
-        package.forget()
-    done = _Done(rules, style, list(worker_reads.take(packages)))
-    gc.collect()  # what was parsed holds itself, and Python would let it grow with the workspace
-    return done
+        package.forget_views()
+        if task.paths is not None and task.has_rules:  # it may be large
+            gc.collect()
+    return _Done(rules, style, list(worker_reads.take(packages)))
+
+
+def _tidy(packages: Sequence[Package]) -> None:
+    """Drop what earlier tasks of this process have left.
+
+    What was parsed holds itself: Python would find it after most of a task, or very late.
+    """
+    if gc.isenabled():
+        gc.disable()  # the first task
+        return
+    gc.collect()
+    if sum(len(package.facts) for package in packages) > MAX_FACTS:
+        for package in packages:
+            package.forget_facts()
 
 
 def _all_packages(targets: Sequence[Target]) -> list[Package]:

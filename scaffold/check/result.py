@@ -78,6 +78,10 @@ class Result(NamedTuple):
     foreign: tuple[str, ...] = ()
     """Of each file that is not the user's, and was skipped, what makes it so."""
 
+    def without_fixes(self) -> Result:
+        """Return the same findings with no fix for any."""
+        return self._replace(diagnostics=[item._replace(fix=None) for item in self.diagnostics])
+
 
 class Summary(NamedTuple):
     """Counts over a whole run."""

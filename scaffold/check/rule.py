@@ -132,6 +132,10 @@ class Rule:
     """Whether what a fix writes for a distribution runs on those before, which need no fix."""
     is_deprecation: ClassVar[bool] = False
     """Whether what it reports, unless that is an error, works and will go: see ``migrate``."""
+    is_removal: ClassVar[bool] = False
+    """Whether what it reports, a warning included, is not there any more: see ``migrate``."""
+    is_about_moves: ClassVar[bool] = False
+    """Whether it reports in ``migrate`` alone, so that a suppression may be unused elsewhere."""
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]

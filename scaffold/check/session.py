@@ -53,6 +53,8 @@ class Ruled(NamedTuple):
     """The same in parts, with the style of the files that are not to be checked again."""
     foreign: tuple[str, ...] = ()
     """Of the files that are not the user's, what makes them so."""
+    suppressed: tuple[Diagnostic, ...] = ()
+    """What was found, and is not among the diagnostics."""
 
 
 def _do_nothing() -> None:
@@ -90,7 +92,7 @@ class Session:
         wanted: list[type[Rule]] = [*rules, *AMENT_RULES, LicenseNotAllowed]
         selected = [rule() for rule in wanted if selection.wants(rule.code)]
         self._rules = [rule for rule in selected if not isinstance(rule, TypeRule)]
-        self._ran = {rule.code for rule in self._rules}
+        self._ran = {rule.code for rule in self._rules if not rule.is_about_moves}
         self._type_rules = [rule for rule in selected if isinstance(rule, TypeRule)]
         self.codes_fixed_for_all = {rule.code for rule in selected if rule.is_fixed_for_all}
         """See `Rule.is_fixed_for_all`."""
@@ -142,6 +144,8 @@ class Session:
         finally:
             if is_first:
                 self._end_types()
+            for target in targets:
+                target.package.forget()
 
     def _run_batch(
         self, targets: Sequence[Target], style: StyleCheck | None, earlier: Mapping[str, Earlier]
@@ -152,7 +156,7 @@ class Session:
             package = target.package
             rules = self.check_rules(package, earlier.get(package.directory))
             results.append(self.result(target, rules, style.by_file(package) if style else {}))
-            package.forget()
+            package.forget_views()
         return results
 
     def result(
@@ -165,7 +169,8 @@ class Session:
         diagnostics = [*rules.diagnostics, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if typed is not None:
-            diagnostics += _besides(rules.diagnostics, typed.diagnostics)
+            found = [*rules.diagnostics, *rules.suppressed]
+            diagnostics += _besides(found, typed.diagnostics)
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}
                 verdict = verdict._replace(types=typed.parts, facts=facts)
@@ -281,7 +286,9 @@ class Session:
             verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
         count = sum(not self.adjustments.excludes(package, path) for path in package.files)
         foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
-        return Ruled(count, reported, verdict, foreign)
+        left = {*reported}
+        suppressed = tuple(item for item in diagnostics if item not in left)
+        return Ruled(count, reported, verdict, foreign, suppressed)
 
     def _paths(self, package: Package, path: str) -> tuple[str, ...]:
         """Return the paths of a file that the patterns of the configuration are compared with."""
@@ -356,10 +363,10 @@ def all_rules(rules: Sequence[type[Rule]]) -> list[type[Rule]]:
 
 
 def _besides(of_rules: Sequence[Diagnostic], of_types: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Return the findings about types that no rule reports in its own words.
+    """Return the findings about types that no rule has found in its own words.
 
     A rule knows more of a mistake than its types: that is so at the same place, and for errors in
-    Python code on the same line.
+    Python code on the same line. Who suppresses what the rule found means the types as well.
     """
     places = {item.location[:3] for item in of_rules}
     lines = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
@@ -22,6 +22,12 @@ if TYPE_CHECKING:
 _TITLES = "|".join(name.capitalize() for name in distributions.NAMES)
 _NAMED = re.compile(rf"\b(?:{_TITLES}|Python 3\.\d+|\d+\.\d+\.\d+ of ROS 2)\b")
 """What a message may say of the distribution that it is about."""
+# linear: a message is a few lines long
+_JOINED = re.compile(
+    rf"\b(?:(?:{_TITLES})(?:/(?:{_TITLES}))*|Python 3\.\d+(?:/3\.\d+)*"
+    r"|\d+\.\d+\.\d+(?:/\d+\.\d+\.\d+)* of ROS 2)\b"
+)
+"""What it may say of several, as `_for_all` writes it."""
 
 
 class AgreedSession(Session):
@@ -57,11 +63,14 @@ def agreed(by_distribution: Mapping[Distribution, Sequence[Result]]) -> Agreed:
     return frozenset.intersection(*map(frozenset, found))
 
 
-def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Result]:
+def merged(
+    by_distribution: Mapping[Distribution, Sequence[Result]], fixed_for_all: Collection[str] = ()
+) -> list[Result]:
     """Return one result for each package, with the findings for all distributions.
 
     Args:
         by_distribution: The results for each distribution, in the packages that are for it.
+        fixed_for_all: The codes whose fixes are right although only some have the finding.
     """
     by_package: dict[str, dict[Distribution, Result]] = {}
     for distribution, results in by_distribution.items():
@@ -69,7 +78,9 @@ def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Res
             by_package.setdefault(result.package.directory, {})[distribution] = result
     return [
         next(iter(those.values()))._replace(
-            diagnostics=_merged({item: result.diagnostics for item, result in those.items()}),
+            diagnostics=_merged(
+                {item: result.diagnostics for item, result in those.items()}, fixed_for_all
+            ),
             verdict=None,
         )
         for those in by_package.values()
@@ -77,23 +88,53 @@ def merged(by_distribution: Mapping[Distribution, Sequence[Result]]) -> list[Res
 
 
 def without_distribution(message: str) -> str:
-    """Return a message without what it says of the distribution that it is about."""
-    return _NAMED.sub("", message)
+    """Return a message without what it says of the distributions that it is about."""
+    return _JOINED.sub("", message)
 
 
-def _merged(by_distribution: Mapping[Distribution, Sequence[Diagnostic]]) -> list[Diagnostic]:
+def _for_all(messages: Sequence[str]) -> str:
+    """Return what messages say that differ in what they say of their distributions alone.
+
+    Where one names Jazzy and the other Lyrical, it is ``Jazzy/Lyrical``.
+    """
+    words = [_NAMED.findall(message) for message in messages]
+    if len({*map(len, words)}) > 1:
+        return messages[0]
+    joined = iter([_alternatives([*dict.fromkeys(names)]) for names in zip(*words, strict=True)])
+    return _NAMED.sub(lambda _: next(joined), messages[0])
+
+
+def _alternatives(names: Sequence[str]) -> str:
+    """Return names with signs between them, and what they all begin or end with once."""
+    start = "Python " if names[0].startswith("Python ") else ""
+    end = " of ROS 2" if names[0].endswith(" of ROS 2") else ""
+    return start + "/".join(name.removeprefix(start).removesuffix(end) for name in names) + end
+
+
+def _merged(
+    by_distribution: Mapping[Distribution, Sequence[Diagnostic]], fixed_for_all: Collection[str]
+) -> list[Diagnostic]:
     by_key: dict[Key, Diagnostic] = {}
-    holding: dict[Key, list[str]] = {}
+    holding: dict[Key, dict[str, str]] = {}
     for distribution, diagnostics in by_distribution.items():
         for item in diagnostics:
             key = (item.code, tuple(item.location), without_distribution(item.message))
             by_key.setdefault(key, item)
-            names = holding.setdefault(key, [])
-            if distribution.name not in names:
-                names.append(distribution.name)
+            holding.setdefault(key, {}).setdefault(distribution.name, item.message)
+    names = {key: sorted(those, key=distributions.NAMES.index) for key, those in holding.items()}
+    found = [
+        {(item.location.path, item.code) for item in those} for those in by_distribution.values()
+    ]
+    has_fix = frozenset.intersection(*map(frozenset, found))
+    for key, item in by_key.items():
+        if item.code not in fixed_for_all and (item.location.path, item.code) not in has_fix:
+            by_key[key] = item._replace(fix=None)
     # A suppression that one of them needs is not unused.
     result = [
-        item._replace(distributions=tuple(holding[key]))
+        item._replace(
+            message=_for_all([holding[key][name] for name in names[key]]),
+            distributions=tuple(names[key]),
+        )
         for key, item in by_key.items()
         if item.code != UnusedSuppression.code or len(holding[key]) == len(by_distribution)
     ]

@@ -80,7 +80,7 @@ class TypeFindings:
         verdict = check.verdict({})
         check.end()
         if reported:
-            package.forget()
+            package.forget_views()
         if verdict is None:
             return Typed(diagnostics)
         parts = dict(check.parts)

@@ -7,11 +7,12 @@ import os
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
+from scaffold.errors import InputError
 from scaffold.writing.transaction import RECORD
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
@@ -29,6 +30,7 @@ def add_argument(parser: argparse.ArgumentParser) -> None:
     """Define the flag."""
     parser.add_argument(
         FLAG,
+        action="append",
         metavar="NAMES",
         help="the distributions of ROS 2 to check for, separated by commas "
         f"(default: {KEY} of the configuration, else what `new --distro` made the package for, "
@@ -36,25 +38,25 @@ def add_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wanted(flag: str | None, settings: Config) -> list[Distribution] | None:
+def wanted(flag: Sequence[str] | None, settings: Config) -> list[Distribution] | None:
     """Return the distributions that the user names, oldest first; ``None`` if that is none.
 
     Args:
-        flag: The value of the flag.
+        flag: The values of the flag, which may be repeated.
         settings: The configuration.
 
     Raises:
         InputError: there is no distribution of a name.
     """
     if flag is not None:
-        return distributions.several(flag, FLAG)
+        return distributions.several(",".join(flag), FLAG)
     if KEY not in settings.values:
         return None
     value = settings.value(KEY)
     return distributions.several(value if isinstance(value, str) else ",".join(value), KEY)
 
 
-def chosen(flag: str | None, settings: Config) -> list[Distribution]:
+def chosen(flag: Sequence[str] | None, settings: Config) -> list[Distribution]:
     """Return the distributions for packages without a record; see `wanted`."""
     return wanted(flag, settings) or [distributions.named(distributions.DEFAULT)]
 
@@ -62,15 +64,35 @@ def chosen(flag: str | None, settings: Config) -> list[Distribution]:
 def recorded(directory: str, disk: Disk | None = None) -> list[Distribution] | None:
     """Return what the record in a package says that it is for; ``None`` without a record.
 
+    Args:
+        directory: Of the package.
+        disk: Records what was accessed.
+
+    Raises:
+        InputError: it names a distribution that is not known, or is supported no more.
+    """
+    names = recorded_names(directory, disk)
+    if names is None:
+        return None
+    path = os.path.join(directory, RECORD)
+    for name in names:
+        if name in distributions.ENDED:
+            raise InputError(
+                f"{path}: {name!r} {distributions.ending(name)}; `ros2-scaffold migrate "
+                f"{directory} --to NAME --fix` moves the package"
+            )
+    return distributions.several(",".join(names), path)
+
+
+def recorded_names(directory: str, disk: Disk | None = None) -> list[str] | None:
+    """Return the names in the record of a package, known or not; ``None`` without a record.
+
     A record of a version that did not ask is of a package for the default, a damaged one is left to
     the verbs that need the rest of it.
 
     Args:
         directory: Of the package.
         disk: Records what was accessed.
-
-    Raises:
-        InputError: it names a distribution that is not known.
     """
     from scaffold.files.disk import Disk
 
@@ -83,7 +105,7 @@ def recorded(directory: str, disk: Disk | None = None) -> list[Distribution] | N
         text = names if isinstance(names, str) else ",".join(names)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
-    return distributions.several(text, path)
+    return [word.strip() for word in text.split(",") if word.strip()]
 
 
 def usual(settings: Config) -> dict[str, Given]:
@@ -106,6 +128,37 @@ def note(targets: Sequence[Distribution]) -> tuple[str, ...]:
     name = os.environ.get(VARIABLE, "")
     if not name or name in [target.name for target in targets]:
         return ()
-    checked = f"checked for {distributions.titles(targets)}, although {VARIABLE} is {name!r}"
+    checked = f"checked for {distributions.titles(targets)}, although {_of_shell(name)}"
     is_known = name in distributions.NAMES
     return (f"{checked}: {FLAG} {name} checks for that",) if is_known else (checked,)
+
+
+def note_of_new(given: Mapping[str, Given]) -> tuple[str, ...]:
+    """Return a note on the distribution of a new package if only ROS_DISTRO names one.
+
+    Args:
+        given: The answers, those of `usual` included.
+    """
+    name = os.environ.get(VARIABLE, "")
+    answer = given.get(ANSWER)
+    others = f"{FLAG} NAMES makes it for others"
+    if name and answer is None:
+        title = distributions.target().title
+        return (f"made for {title}, although {_of_shell(name)}; {others}",)
+    if answer is not None and answer.origin == VARIABLE and name != distributions.DEFAULT:
+        return (f"made for {distributions.named(name).title}, as {_of_shell(name)}; {others}",)
+    return ()
+
+
+def note_of_smoke(observed: str) -> tuple[str, ...]:
+    """Return the line about a shell that is set up for another distribution than was observed."""
+    name = os.environ.get(VARIABLE, "")
+    if name in {"", observed}:
+        return ()
+    return (f"observed on {observed.capitalize()}, although {_of_shell(name)}",)
+
+
+def _of_shell(name: str) -> str:
+    """Return what the shell says, and why nothing can be done for that if so."""
+    is_known = name in distributions.NAMES
+    return f"{VARIABLE} is {name!r}" + ("" if is_known else f", which {distributions.ending(name)}")

@@ -33,7 +33,7 @@ def content_in(parser: argparse.ArgumentParser) -> list[str]:
 
 def add_content(parser: Parser) -> None:
     """Define the flag for templates of a team."""
-    parser.add_argument(
+    action = parser.add_argument(
         "--content",
         action="append",
         default=[],
@@ -41,6 +41,7 @@ def add_content(parser: Parser) -> None:
         help="a directory with templates/ of your own, or URL@REV of a git repository with one "
         "that `ros2-scaffold trust URL` trusts",
     )
+    action.completer = offer_directories  # type: ignore[attr-defined]  # argcomplete
 
 
 def add_answers(parser: Parser) -> None:
@@ -48,6 +49,13 @@ def add_answers(parser: Parser) -> None:
     parser.add_argument(
         "--answers", metavar="FILE", help="a YAML file with answers; flags take precedence"
     )
+
+
+def offer_directories(prefix: str, **_: object) -> list[str]:
+    """Offer directories to who presses tab."""
+    from argcomplete.completers import DirectoriesCompleter
+
+    return [*DirectoriesCompleter()(prefix)]
 
 
 def offer_rules(prefix: str, **_: object) -> list[str]:

@@ -151,9 +151,14 @@ def _show_traceback(error: Exception) -> None:
 
 def _complete() -> None:
     from scaffold.cli.parser import build_parser
-    from scaffold.cli.verbs.completion import complete
+    from scaffold.cli.verbs.completion import complete, words_before
+    from scaffold.errors import ScaffoldError
 
-    complete(build_parser())
+    try:
+        parser = build_parser(words=words_before(os.environ))
+    except ScaffoldError:  # content that cannot be used: what is there without it is offered
+        parser = build_parser()
+    complete(parser)
 
 
 if __name__ == "__main__":

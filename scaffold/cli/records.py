@@ -7,19 +7,127 @@ import os
 import re
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.cli import distro
+from scaffold.record import NamedTuple
 from scaffold.writing.transaction import RECORD
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
+
+
+class Recorded(NamedTuple):
+    """What became of the records of packages."""
+
+    before: Mapping[str, Sequence[str]]
+    """What the packages were for whose records were changed, by directory."""
+    has_others: bool
+    """Whether there are packages without a record."""
+    has_failed: bool
+
 
 _ANSWERS = re.compile(r'^  "answers": \{\n', re.MULTILINE)
 _ANSWER = re.compile(rf'^    "{distro.ANSWER}": [^\n]*,\n', re.MULTILINE)
 
 
-def move(directory: str, targets: Sequence[Distribution]) -> bool | None:
+def move_all(directories: Iterable[str], targets: Sequence[Distribution]) -> Recorded:
+    """Write into the records of packages what they are for now; say which could not be written.
+
+    Args:
+        directories: Of the packages.
+        targets: What they are for.
+    """
+    from scaffold.cli import terminal
+    from scaffold.errors import ScaffoldError
+
+    changed: dict[str, Sequence[str]] = {}
+    has_others = has_failed = False
+    for directory in directories:
+        try:
+            before = distro.recorded_names(directory)
+            if before is None:
+                has_others = True
+            elif move(directory, targets):
+                changed[directory] = before
+        except ScaffoldError as error:
+            terminal.error(str(error))
+            has_failed = True
+    return Recorded(changed, has_others, has_failed)
+
+
+def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config) -> Iterator[str]:
+    """Yield what is not recorded any more, and what wins over the records, a line each.
+
+    Args:
+        recorded: What `move_all` returns.
+        targets: What the packages are for now.
+        settings: The configuration.
+    """
+    titles = distributions.titles(targets)
+    same: dict[tuple[str, ...], list[str]] = {}
+    for directory, before in recorded.before.items():
+        others = tuple(name for name in before if not _is_among(name, targets))
+        same.setdefault(others, []).append(directory)
+    for dropped, directories in same.items():
+        what = "a package" if len(directories) == 1 else "packages"
+        no_longer = ""
+        if dropped:
+            no_longer = f", no longer for {distributions.enumerated(map(str.capitalize, dropped))}"
+            names = ",".join(name for name in dropped if name in distributions.NAMES)
+            no_longer += f" (without --keep {names})" if names else ""
+        yield (
+            f"{_listed(directories)}: recorded as {what} for {titles}{no_longer}; "
+            "`ros2-scaffold update` brings what its templates have for that"
+        )
+    named = distro.wanted(None, settings)
+    usual = named or [distributions.named(distributions.DEFAULT)]
+    if usual == [*targets] or not (named or recorded.has_others):
+        return
+    names = ",".join(target.name for target in targets)
+    checks = f"`check` without --distro checks for {distributions.titles(usual)}"
+    if named:
+        checks += f", as {distro.KEY} in {settings.origin(distro.KEY)} says: change it there"
+    else:
+        checks += f": set {distro.KEY} of the configuration"
+    yield f"{checks}, or pass --distro {names}"
+
+
+def _is_among(name: str, targets: Sequence[Distribution]) -> bool:
+    """Return whether a distribution is one of some, maybe under another name."""
+    places = {item.place for item in targets}
+    return name in distributions.NAMES and distributions.named(name).place in places
+
+
+def held(directories: Iterable[str], targets: Sequence[Distribution]) -> str:
+    """Return what to say of packages that are not recorded yet; nothing if none has a record.
+
+    Args:
+        directories: Of the packages that are not ready.
+        targets: What they are to be for.
+    """
+    names = [target.name for target in targets]
+    waiting = [path for path in directories if distro.recorded_names(path) not in (None, names)]
+    if not waiting:
+        return ""
+    return (
+        f"{_listed(waiting)}: not recorded for {distributions.titles(targets)} before what is left "
+        "is fixed, or accepted with noqa: then run this again"
+    )
+
+
+def _listed(directories: Sequence[str]) -> str:
+    """Return some directories; the first few, and the number of the others."""
+    shown = ", ".join(map(os.path.normpath, directories[:_SHOWN]))
+    return f"{shown} and {len(directories) - _SHOWN} more" if directories[_SHOWN:] else shown
+
+
+_SHOWN = 3
+
+
+def move(directory: str, targets: Sequence[Distribution]) -> bool:
     """Write into the record of a package what it is for now.
 
     Args:
@@ -27,7 +135,7 @@ def move(directory: str, targets: Sequence[Distribution]) -> bool | None:
         targets: What it is for.
 
     Returns:
-        Whether that is new; ``None`` for a package without a record.
+        Whether that is new.
 
     Raises:
         ScaffoldError: the package is being changed, or cannot be written.
@@ -36,15 +144,13 @@ def move(directory: str, targets: Sequence[Distribution]) -> bool | None:
     from scaffold.files.tree import DiskTree
     from scaffold.writing.plan import WritePlan
 
-    before = distro.recorded(directory)
-    if before is None:
-        return None
-    if before == [*targets]:
+    names = [target.name for target in targets]
+    if distro.recorded_names(directory) in (None, names):
         return False
     with writing.held(directory, is_dry=False):
         with open(os.path.join(directory, RECORD), encoding="utf-8", newline="") as file:
             text = file.read()
-        moved = with_answer(text, [target.name for target in targets])
+        moved = with_answer(text, names)
         tree = DiskTree(directory)
         WritePlan.of(directory, {RECORD: moved.encode()}, tree=tree).write(force=True)
     return True

@@ -93,7 +93,8 @@ class SeveralTargets:
                 text, _ = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
             session.agreed = None
             by_distribution = self._checked_unsaved(text)
-        results = baselines.hide(options, merged(by_distribution), self._targets, session)
+        results = merged(by_distribution, session.codes_fixed_for_all)
+        results = baselines.hide(options, results, self._targets, session)
         if options.fix:
             terminal.write_error(reports.text(results, check.report_options(options)))
         else:
@@ -186,7 +187,7 @@ class SeveralTargets:
         from scaffold.cli.verbs import check
 
         options, session = self._options, self._session
-        results = merged(by_distribution)
+        results = merged(by_distribution, session.codes_fixed_for_all)
         if options.write_baseline:
             return baselines.write(options, results)
         reported = baselines.hide(options, results, self._targets, session)

@@ -110,7 +110,8 @@ def _refuse_distribution(value: Any) -> str:  # noqa: ANN401  likewise
         return _must_be(_DISTRIBUTION_NOUN)
     for name in names:
         if name not in distributions.NAMES:
-            return f"is {value!r}: {distributions.refusal(name)}"
+            words = ", ".join(f'"{word}"' for word in name.replace(",", " ").split())
+            return f"is wrong: {distributions.refusal(name, f'write a list: [{words}]')}"
     return ""
 
 

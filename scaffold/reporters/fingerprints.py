@@ -8,6 +8,7 @@ from hashlib import sha256
 from typing import TYPE_CHECKING
 
 from scaffold.ament.codes import STYLE
+from scaffold.check.several import without_distribution
 from scaffold.reporters.paths import in_repository
 from scaffold.source import ViewError
 
@@ -30,8 +31,8 @@ class Fingerprints:
     """Gives each finding of a report a fingerprint that no other one has.
 
     It depends on the file, the code, the text of the line unless the finding is about the whole
-    file, and the message without its numbers: these may be those of other lines. Findings that
-    agree in all of it are counted.
+    file, and the message without its numbers, which may be those of other lines, and without the
+    distributions that were checked for. Findings that agree in all of it are counted.
 
     Args:
         path_of: Returns the path of a file of a package that fingerprints are computed from.
@@ -48,7 +49,7 @@ class Fingerprints:
         is_of_file = diagnostic.code not in STYLE or diagnostic.code in _STYLE_OF_FILES
         is_of_file &= (at.line, at.column, at.end_line, at.end_column) == (1, 1, 1, 1)
         line = lines[at.line - 1].strip() if at.line <= len(lines) and not is_of_file else ""
-        message = _NUMBERS.sub("", diagnostic.message)
+        message = _NUMBERS.sub("", without_distribution(diagnostic.message))
         key = (self._path_of(package, at.path), diagnostic.code, line, message)
         self._counts[key] += 1
         text = "\0".join([*key, str(self._counts[key])])

@@ -49,6 +49,13 @@ def found(
         ("self.is_old and distro != 'lyrical'", [13]),
         ("self.is_old or distro == 'humble'", []),
         ("self.is_old", [11, 13]),
+        ("distro > 'k'", [11]),
+        ("distro.startswith(('h', 'j'))", [13]),
+        ("distro[0] in 'hj'", [13]),
+        ("(os.environ.get('ROS_DISTRO') or 'jazzy') == 'jazzy'", [13]),
+        ("is_old(distro)", []),
+        ("distro in RELEASES", []),
+        ("RELEASES[distro]", []),
     ],
 )
 def test_python(
@@ -56,6 +63,78 @@ def test_python(
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
     (tmp_path / "talker.py").write_text(_NODE.format(condition, "else:"))
+    expected = [("IM050", line, ["lyrical"]) for line in lines]
+    assert found(capsys, tmp_path, "lyrical") == expected
+
+
+_FORMS = {
+    "a name for a comparison": (
+        "OLD = D in ('humble', 'jazzy')\nif OLD:\n    {}\nelse:\n    {}\n",
+        [9],
+    ),
+    "a name for a name": (
+        "OLD = D < 'k'\ndef talk():\n    new = not OLD\n    if new: {}\n    else: {}\n",
+        [8],
+    ),
+    "a name that is set again": ("OLD = D < 'k'\nOLD = True\nif OLD:\n    {}\n", []),
+    "ternary": ("{} if D == 'jazzy' else {}\n", [5]),
+    "ternary on several lines": ("_ = ({}\n     if D == 'jazzy' else\n     {})\n", [7]),
+    "and": ("D == 'jazzy' and {}\nD == 'lyrical' or {}\nD == 'jazzy' or {}\n", [7]),
+    "while": ("while D == 'jazzy':\n    {}\nelse:\n    {}\n", [8]),
+    "early return": (
+        "def talk():\n    if D != 'lyrical':\n        {}\n        return\n    {}\n",
+        [9],
+    ),
+    "early return of the target": (
+        "def talk():\n    if D == 'lyrical':\n        return\n    {}\ndef speak():\n    {}\n",
+        [10],
+    ),
+    "the end of the program": ("import sys\nif D == 'lyrical':\n    sys.exit(1)\n{}\n", []),
+    "all branches leave": (
+        "def do(a):\n    if D != 'jazzy':\n        if a: return\n        else: raise E\n    {}\n",
+        [],
+    ),
+    "a branch that stays": (
+        "def talk(a):\n    if D == 'jazzy':\n        return\n    elif a:\n        return\n    {}\n",
+        [10],
+    ),
+    "return where nobody knows": ("def talk():\n    if old(D):\n        return\n    {}\n", []),
+    "loop": ("for _ in D:\n    if D > 'k':\n        continue\n    {}\n{}\n", [9]),
+    "match": (
+        "match D:\n    case 'humble' | 'jazzy': {}\n    case 'lyrical': {}\n    case _: {}\n",
+        [7],
+    ),
+    "match with a name": (
+        "match D:\n    case 'jazzy':\n        {}\n    case other:\n        {}\n",
+        [9],
+    ),
+    "match that nobody knows": (
+        "match D:\n    case names.OLD:\n        {}\n    case _:\n        {}\n",
+        [],
+    ),
+    "a function": (
+        "def is_old():\n    return D < 'k'\nif is_old():\n    {}\nelse:\n    {}\n",
+        [10],
+    ),
+    "attributes": (
+        "class A:\n    A = D < 'k'\n    def f(self):\n        if self.A: {}\n        else: {}\n",
+        [9],
+    ),
+    "an attribute that is set again": (
+        "class C:\n    a = D < 'k'\n    def f(self):\n        self.a = b\n        if self.a: {}\n",
+        [],
+    ),
+    "a name of itself": ("def talk():\n    D = D.lower()\n    if D == 'jazzy':\n        {}\n", [8]),
+}
+
+
+@pytest.mark.parametrize("name", _FORMS)
+def test_forms_of_python(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    form, lines = _FORMS[name]
+    head = "import os\nfrom rclpy.logging import get_logger\nL = get_logger('talker')\n"
+    head += "D = os.environ['ROS_DISTRO']\n"
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "talker.py").write_text(head + form.replace("{}", "L.warn('here')"))
     expected = [("IM050", line, ["lyrical"]) for line in lines]
     assert found(capsys, tmp_path, "lyrical") == expected
 

@@ -227,6 +227,17 @@ def test_fixes_repair_what_is_safe_and_nothing_else(
     capsys.readouterr()
 
 
+def test_fixes_that_need_a_look_are_applied_where_they_are_asked_for(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lists = workspace / "listed" / "CMakeLists.txt"
+    lists.write_text(LISTS.replace("std_msgs)", "std_msgs shapes)"))
+    main(["migrate", "listed", "--to", "lyrical", "--fix"])
+    assert capsys.readouterr().out.endswith("; 1 fixable with --fix --unsafe-fixes\n")
+    main(["migrate", "listed", "--to", "lyrical", "--fix", "--unsafe-fixes"])
+    assert "${std_msgs_TARGETS} ${shapes_TARGETS})" in lists.read_text()
+
+
 def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
     node = (workspace / "twenty" / "twenty" / "node.py").read_text()
@@ -238,12 +249,66 @@ def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[
     assert main(["check", "--distro", "jazzy", "--select", rules]) == 0
 
 
+def test_what_is_kept_is_checked_and_recorded_once_nothing_breaks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    person = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+    for name in ("plain", "newer"):
+        assert main(["new", name, "--distro", "jazzy", *person]) == 0
+    module = Path("newer/newer/events.py")
+    module.write_text("from rclpy.event_handler import EventHandler\n\nKIND = EventHandler\n")
+    flags = ("migrate", "--to", "lyrical", "--keep", "humble,kilted")
+    capsys.readouterr()
+    assert main([*flags]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    (line,) = (one for one in lines if "events.py" in one)
+    assert "has no module 'rclpy.event_handler': ModuleNotFoundError (humble)" in line
+    assert lines[-1].endswith("1 break, 0 change silently, 0 deprecated")
+    assert main([*flags, "--fix"]) == 1
+    shown = capsys.readouterr().err
+    assert "newer: not recorded for Humble, Kilted and Lyrical before what is left" in shown
+    records = {name: Path(name, ".ros2-scaffold.json") for name in ("plain", "newer")}
+    recorded = {
+        name: json.loads(path.read_text())["answers"]["distro"] for name, path in records.items()
+    }
+    assert recorded["plain"] == ["humble", "kilted", "lyrical"]
+    assert recorded["newer"] == ["jazzy"]
+    module.unlink()
+    assert main([*flags, "--fix"]) == 0
+    assert '"distro": ["humble", "kilted", "lyrical"]' in records["newer"].read_text()
+
+
 @pytest.mark.usefixtures("workspace")
 def test_a_move_to_the_same_distribution_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["migrate", "--to", "jazzy"]) == 2
-    assert "the packages are for Jazzy already" in capsys.readouterr().err
+    error = capsys.readouterr().err
+    assert "listed, twenty: not moved: no record and no configuration says" in error
+    assert "and the default is Jazzy itself; --from names it" in error
     assert main(["migrate", "--to", "kited"]) == 2
     assert "--to: no distribution 'kited'; did you mean 'kilted'?" in capsys.readouterr().err
+    assert main(["migrate", "--to", "jazzy,lyrical"]) == 2
+    assert "name the one to move to, and with --keep those" in capsys.readouterr().err
+
+
+def test_a_move_back_reports_what_breaks_and_not_what_gets_better(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    node = workspace / "twenty" / "twenty" / "node.py"
+    silent = "pose = Pose2D()  # noqa: MS001, IM050"
+    node.write_text(NODE.replace("pose = Pose2D()", silent))
+    flags = ("--from", "lyrical", "--to", "jazzy")
+    assert main(["migrate", *flags]) == 0
+    assert capsys.readouterr().out == "2 packages from Lyrical to Jazzy: nothing changes\n"
+    assert main(["migrate", *flags, "--fix"]) == 0
+    assert capsys.readouterr().err.startswith("0 fixes applied\n")
+    assert silent in node.read_text()
+    main(["migrate", "--from", "lyrical", "--to", "humble"])
+    out = capsys.readouterr().out
+    assert "call() has no argument 'timeout_sec'" in out
+    assert out.endswith(
+        "2 packages from Lyrical to Humble: 1 break, 0 change silently, 0 deprecated\n"
+    )
 
 
 def test_the_record_of_a_package_says_what_it_has_moved_to(
@@ -271,14 +336,105 @@ def test_the_record_of_a_package_says_what_it_has_moved_to(
     assert "ROS 2 Lyrical" in (tmp_path / "talker" / "README.md").read_text()
 
 
+def test_each_package_comes_from_what_its_record_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    person = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+    for name, distro in (("a", "humble"), ("b", "jazzy"), ("c", "lyrical"), ("d", "humble,jazzy")):
+        assert main(["new", f"talker_{name}", "--distro", distro, *person]) == 0
+    records = {name: Path(f"talker_{name}/.ros2-scaffold.json") for name in "abcd"}
+    untouched = records["c"].stat().st_mtime_ns
+    node = Path("talker_b/talker_b/minimal_publisher.py")
+    node.write_text(node.read_text().replace("get_logger().info", "get_logger().warn"))
+    capsys.readouterr()
+    main(["migrate", "--to", "lyrical", "--format", "json"])
+    report = json.loads(capsys.readouterr().out)
+    assert report["from"] == ["humble", "jazzy"]
+    assert [item["from"] for item in report["packages"]] == ["humble", "jazzy", "humble"]
+    assert [len(item["breaks"]) for item in report["packages"]] == [0, 1, 0]
+    assert main(["migrate", "--to", "lyrical", "--fix"]) == 0
+    shown = capsys.readouterr()
+    assert shown.out == (
+        "2 packages from Humble and 1 from Jazzy to Lyrical: nothing changes; "
+        "1 is for Lyrical already\n"
+    )
+    done, *notes = shown.err.splitlines()
+    assert done == "1 fix applied; 3 packages recorded for Lyrical"
+    for name, left, flag in (
+        ("a", "Humble", "humble"),
+        ("d", "Humble and Jazzy", "humble,jazzy"),
+        ("b", "Jazzy", "jazzy"),
+    ):
+        assert notes.pop(0).startswith(
+            f"note: talker_{name}: recorded as a package for Lyrical, no longer for {left} "
+            f"(without --keep {flag}); "
+        )
+    assert not notes
+    assert records["c"].stat().st_mtime_ns == untouched
+    assert main(["migrate", "--to", "lyrical", "--fix"]) == 0
+    shown = capsys.readouterr()
+    assert shown.out.startswith("the packages are for Lyrical already: nothing to move; ")
+    assert shown.err == "0 fixes applied\n"
+    main(["migrate", "talker_c", "--to", "lyrical", "--keep", "kilted", "--keep", "jazzy", "--fix"])
+    assert "1 package from Jazzy to Lyrical" in capsys.readouterr().out
+    assert json.loads(records["c"].read_text())["answers"]["distro"] == [
+        *("jazzy", "kilted", "lyrical")
+    ]
+
+
 def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["migrate", "listed", "--to", "lyrical", "--fix"])
     assert "set check.distribution of the configuration" in capsys.readouterr().err
-    (workspace / "ros2-scaffold.toml").write_text('[check]\ndistribution = "lyrical"\n')
+    configuration = workspace / "ros2-scaffold.toml"
+    configuration.write_text('[check]\ndistribution = "jazzy"\n')
+    main(["migrate", "listed", "--to", "lyrical", "--fix"])
+    assert f"as check.distribution in {configuration} says" in capsys.readouterr().err
+    configuration.write_text('[check]\ndistribution = "lyrical"\n')
     main(["migrate", "listed", "--to", "lyrical", "--from", "jazzy", "--fix"])
     assert "check.distribution" not in capsys.readouterr().err
+
+
+def test_a_keyword_that_is_no_field_breaks_where_it_was_dropped_before(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module = workspace / "twenty" / "twenty" / "sent.py"
+    module.write_text("from std_msgs.msg import String\n\nMESSAGE = String(dta='hello')\n")
+    for origin, target, effect in (
+        ("jazzy", "lyrical", "TypeError"),
+        ("humble", "lyrical", ""),
+        ("lyrical", "humble", ""),
+        ("humble", "jazzy", "the value is silently dropped"),
+    ):
+        capsys.readouterr()
+        main(["migrate", "twenty", "--from", origin, "--to", target])
+        lines = [line for line in capsys.readouterr().out.splitlines() if "'dta'" in line]
+        assert len(lines) == bool(effect)
+        assert all(f"has no field 'dta': {effect};" in line for line in lines)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "if {asked}:\n    return ActionServer({args})\nreturn ActionServer({args})",
+        "if {asked}:\n    return ActionServer({args})\nelse:\n    return ActionServer({args})",
+        "return ActionServer({args}) if {asked} else ActionServer({args})",
+    ],
+)
+def test_a_call_for_one_distribution_alone_does_not_change(
+    workspace: Path, capsys: pytest.CaptureFixture[str], body: str
+) -> None:
+    module = workspace / "twenty" / "twenty" / "node.py"
+    asked = "os.environ['ROS_DISTRO'] in ('lyrical', 'rolling')"
+    for condition, count in ((asked, 0), (f"not {asked}", 0), ("args", 2)):
+        code = body.format(asked=condition, args="*args")
+        lines = "\n".join(f"    {line}" for line in code.splitlines())
+        start = "import os\n\nfrom rclpy.action import ActionServer\n\n\ndef serve(*args):\n"
+        module.write_text(f"{start}{lines}\n")
+        found, _ = migrate(capsys)
+        assert found["changes"] == ["IM052"] * count
 
 
 def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
@@ -317,9 +473,192 @@ def test_a_move_to_the_same_under_another_name_says_so(
     assert "already, which is the same as Rolling for Python packages" in capsys.readouterr().err
 
 
-def test_a_file_that_never_parsed_is_not_reported_after_fixes(
+def _new(*names: str, distro: str = "jazzy") -> None:
+    person = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
+    for name in names:
+        assert main(["new", name, "--distro", distro, *person]) == 0
+
+
+def _recorded(name: str) -> object:
+    return json.loads(Path(name, ".ros2-scaffold.json").read_text())["answers"]["distro"]
+
+
+def test_files_that_cannot_be_read_are_named_and_nothing_is_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker", "whole")
+    files = {
+        "talker/talker/open.py": b"def g(x:\n",
+        "talker/talker/two.py": b"print 'hello'\n",
+        "talker/talker/latin.py": b"X = '\xe9'\n",
+        "talker/talker/marked.py": b"<<<<<<< ours\nX = 1\n=======\nX = 2\n>>>>>>> theirs\n",
+        "talker/launch/open.launch.xml": b"<launch><node",
+        "talker/setup.cfg": b"[develop\n",
+    }
+    for path, content in files.items():
+        Path(path).parent.mkdir(exist_ok=True)
+        Path(path).write_bytes(content)
+    capsys.readouterr()
+    assert main(["migrate", "--to", "lyrical", "--fix"]) == 1
+    shown = capsys.readouterr()
+    for path in files:
+        assert f"    {path}:1:" in shown.out
+    assert "breaks:" not in shown.out
+    assert shown.out.endswith(
+        "2 packages from Jazzy to Lyrical: nothing changes in what was examined; "
+        "6 files not examined\n"
+    )
+    assert "note: talker: not recorded for Lyrical before what is left is fixed" in shown.err
+    assert (_recorded("talker"), _recorded("whole")) == (["jazzy"], ["lyrical"])
+    main(["migrate", "talker", "--to", "lyrical", "--format", "json"])
+    (package,) = json.loads(capsys.readouterr().out)["packages"]
+    assert {item["path"] for item in package["unexamined"]} == {*files}
+    assert not package["breaks"]
+
+
+_SERVED = """\
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from test_msgs.action import Fibonacci
+
+
+class Server(Node):
+
+    def __init__(self):
+        super().__init__('server')
+        self.server = ActionServer(self, Fibonacci, 'count', self.count){}
+
+    def count(self, handle):
+        handle.succeed()
+        return Fibonacci.Result()
+"""
+
+
+def test_a_package_is_recorded_once_nothing_is_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker")
+    module = Path("talker/talker/old.py")
+    module.write_text("import cgi\n\nPAGE = cgi\n")
+    for _ in range(2):
+        capsys.readouterr()
+        assert main(["migrate", "talker", "--to", "lyrical", "--fix"]) == 1
+        shown = capsys.readouterr()
+        assert "no module 'cgi'" in shown.out
+        assert "recorded for Lyrical\n" not in shown.err
+        assert _recorded("talker") == ["jazzy"]
+    module.write_text(_SERVED.format(""))
+    assert main(["migrate", "talker", "--to", "lyrical", "--fix"]) == 1
+    assert "1 change silently" in capsys.readouterr().out
+    module.write_text(_SERVED.format("  # noqa: IM052"))
+    assert main(["migrate", "talker", "--to", "lyrical", "--fix"]) == 0
+    assert _recorded("talker") == ["lyrical"]
+    assert main(["check", "talker", "--select", "IM,SC"]) == 0
+
+
+def test_syntax_and_annotations_that_an_older_python_refuses_break(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker", distro="lyrical")
+    Path("talker/talker/syntax.py").write_text(
+        'def f(x):\n    try:\n        return f"{x["a"]}"\n    except ValueError, TypeError:\n'
+        "        return None\n"
+    )
+    Path("talker/talker/later.py").write_text(
+        "class A:\n    def f(self, x: Later): ...\n\n\nclass Later: ...\n"
+    )
+    capsys.readouterr()
+    assert main(["migrate", "--to", "jazzy", "--format", "json"]) == 1
+    (package,) = json.loads(capsys.readouterr().out)["packages"]
+    found = {item["path"]: item["code"] for item in package["breaks"]}
+    assert found["talker/talker/later.py"] == "F821"
+    assert found["talker/talker/syntax.py"] == "E999"
+
+
+def test_paths_in_no_package_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("loose.txt", "loose.py"):
+        Path(name).write_text("")
+        assert main(["migrate", name, "--to", "lyrical"]) == 2
+        assert f"{name}: in no ROS 2 package" in capsys.readouterr().err
+
+
+def test_modules_that_setuptools_may_lend_are_among_what_breaks(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (workspace / "twenty" / "twenty" / "old.py").write_text("print 'hello'\n")
-    main(["migrate", "--to", "lyrical", "--fix"])
-    assert "old.py" not in capsys.readouterr().out
+    (workspace / "twenty" / "twenty" / "node.py").write_text("from distutils import util\n")
+    capsys.readouterr()
+    main(["migrate", "twenty", "--from", "humble", "--to", "jazzy", "--format", "json"])
+    (package,) = json.loads(capsys.readouterr().out)["packages"]
+    assert "TY001" in {item["code"] for item in package["breaks"]}
+
+
+def test_packages_that_nothing_is_known_of_are_named(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.rmtree(workspace / "twenty")
+    _new("talker", distro="humble")
+    capsys.readouterr()
+    assert main(["migrate", "--to", "jazzy"]) == 0
+    shown = capsys.readouterr()
+    assert shown.out == "1 package from Humble to Jazzy: nothing changes\n"
+    assert shown.err.startswith("note: listed: not moved: no record and no configuration says ")
+
+
+@pytest.mark.parametrize(
+    ("names", "flags", "origin"),
+    [
+        (["foxy"], (), "Humble"),
+        (["foxy", "jazzy"], (), "Jazzy"),
+        (["foxy"], ("--from", "jazzy"), "Jazzy"),
+    ],
+)
+def test_a_record_of_what_is_supported_no_more_moves(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    names: list[str],
+    flags: tuple[str, ...],
+    origin: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker")
+    record = Path("talker/.ros2-scaffold.json")
+    record.write_text(record.read_text().replace('["jazzy"]', json.dumps(names)))
+    capsys.readouterr()
+    assert main(["check", "talker"]) == 2
+    assert "`ros2-scaffold migrate talker --to NAME --fix` moves the package" in (
+        capsys.readouterr().err
+    )
+    assert main(["migrate", "--to", "lyrical", "--fix", *flags]) == 0
+    shown = capsys.readouterr()
+    assert shown.out == f"1 package from {origin} to Lyrical: nothing changes\n"
+    is_succeeded = "packages recorded for Foxy, which has reached its end of life, move from Humble"
+    assert (is_succeeded in shown.err) is (origin == "Humble")
+    assert "no longer for Foxy" in shown.err
+    assert "--keep foxy" not in shown.err
+    assert _recorded("talker") == ["lyrical"]
+    assert main(["check", "talker"]) == 0
+    record.write_text(record.read_text().replace('["lyrical"]', '["foxy", "humble"]'))
+    assert main(["migrate", "--to", "humble", "--fix"]) == 0
+    assert _recorded("talker") == ["humble"]
+
+
+def test_a_package_of_ros1_is_not_examined(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    depends = "<buildtool_depend>catkin</buildtool_depend><depend>rospy</depend>"
+    (workspace / "listed" / "package.xml").write_text(
+        _MANIFEST.format(name="listed", depends=depends, kind="catkin")
+    )
+    (workspace / "listed" / "CMakeLists.txt").write_text("find_package(catkin REQUIRED)\n")
+    assert main(["migrate", "listed", "--to", "lyrical"]) == 1
+    out = capsys.readouterr().out
+    assert "  not examined:\n    listed/package.xml:8:" in out
+    assert "SC007" in out
+    assert out.endswith("nothing changes in what was examined; 1 file not examined\n")

@@ -57,10 +57,27 @@ def offered(line: str) -> list[str]:
         ("ros2-scaffold rules import-und", ["import-undeclared"]),
         ("ros2-scaffold check --select PX,import-und", ["PX,import-undeclared"]),
         ("ros2-scaffold cache cl", ["clean"]),
+        ("ros2-scaffold templates copy serial", ["serial_driver"]),
+        ("ros2-scaffold new talker --content /nowhere --topi", ["--topic"]),
     ],
 )
 def test_what_is_offered(line: str, expected: list[str]) -> None:
     assert [word.strip() for word in offered(line)] == expected
+
+
+def test_templates_of_a_team_are_offered_after_their_directory(tmp_path: Path) -> None:
+    extra = tmp_path / "team" / "templates" / "extras" / "citation"
+    extra.mkdir(parents=True)
+    (extra / "template.yaml").write_text(
+        "summary: A citation\nquestions:\n  year_of_paper: { default: 2026, help: when }\n"
+    )
+    team = tmp_path / "team"
+    assert offered(f"ros2-scaffold new talker --content {tmp_path}/te") == [f"{team}/"]
+    assert offered(f"ros2-scaffold templates list {tmp_path}/te") == [f"{team}/"]
+    for words in (f"new talker --content {team} --extras cit", f"add --content {team} cit"):
+        assert [word.strip() for word in offered(f"ros2-scaffold {words}")] == ["citation"]
+    flag = offered(f"ros2-scaffold add citation --content={team} --year")
+    assert [word.strip() for word in flag] == ["--year-of-paper"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

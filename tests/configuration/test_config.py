@@ -311,7 +311,11 @@ def test_dependencies_that_are_known_to_be_there(
     [
         (
             "distribution = 'jazy'",
-            "check.distribution is 'jazy': no distribution 'jazy'; did you mean 'jazzy'?",
+            "check.distribution is wrong: no distribution 'jazy'; did you mean 'jazzy'?",
+        ),
+        (
+            "distribution = 'jazzy, lyrical'",
+            '\'jazzy, lyrical\' is more than one distribution; write a list: ["jazzy", "lyrical"]',
         ),
         ("distribution = []", "check.distribution must be one of `humble`, `jazzy`, "),
         (

@@ -64,6 +64,24 @@ def test_only_what_is_new_is_reported(talker: Path, capsys: pytest.CaptureFixtur
     ], "the same fault once more is new"
 
 
+def test_the_distributions_that_are_checked_for_do_not_count(
+    talker: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (talker / "talker" / "extra.py").write_text(
+        "import asynchat\nimport imp\n\nfrom rclpy import nothing\n\n"
+        "USED = asynchat, imp, nothing\n"
+    )
+    several = ["--select", "TY", "--distro", "jazzy,lyrical"]
+    for written, used in ((["--select", "TY", "--distro", "jazzy"], several), (several, several)):
+        _, (*old, _) = check(capsys, *written)
+        assert len(old) == 3
+        check(capsys, *written, "--write-baseline", "base.json")
+        code, (note, *_) = check(capsys, *used, "--baseline", "base.json")
+        assert (code, note) == (0, "baseline base.json: 3 findings hidden")
+    code, (note, *_) = check(capsys, "--select", "TY", "--baseline", "base.json")
+    assert (code, note) == (0, "baseline base.json: 3 findings hidden")
+
+
 def test_entries_that_no_longer_occur_are_counted(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

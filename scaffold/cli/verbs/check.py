@@ -240,6 +240,7 @@ def _give_settings(
         )
     if isinstance(session, ClusterSession):
         session.address = options.cluster
+        session.tell = terminal.note
         session.settings = Settings(
             session.selection,
             session.adjustments,

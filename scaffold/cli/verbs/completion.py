@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 
 from scaffold.cli import terminal
 
@@ -26,6 +27,15 @@ def run(options: argparse.Namespace) -> int:
     code = shellcode(["ros2-scaffold"], shell=options.shell)
     terminal.show(_HOW[options.shell] + code.strip("\n"))
     return 0
+
+
+def words_before(variables: Mapping[str, str]) -> list[str]:
+    """Return the words before the one that is completed, without the name of the program."""
+    from argcomplete.lexers import split_line
+
+    line = variables.get("COMP_LINE", "").encode()
+    before = line[: int(variables.get("COMP_POINT", len(line)))].decode(errors="ignore")
+    return split_line(before)[3][1:]
 
 
 def complete(parser: argparse.ArgumentParser) -> None:

@@ -7,22 +7,49 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.cli import distro, fixing, terminal
+from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.migration import Consequences, MigratingSession, OrderSession
     from scaffold.check.result import Result
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
+    from scaffold.cli.origins import Origins
     from scaffold.configuration.config import Config
     from scaffold.diagnostic import Diagnostic
     from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Package
 
-HEADINGS = ("breaks", "changes silently", "deprecated")
+HEADINGS = ("breaks", "changes silently", "deprecated", "not examined")
 COUNTED = ("break", "change silently", "deprecated")
+_ADVICE = "name the one to move to, and with --keep those that packages are to run on as well"
+
+
+class Move(NamedTuple):
+    """Packages that move from one distribution to another."""
+
+    origin: Distribution
+    directories: Sequence[str]
+    target: Distribution
+    kept: Sequence[Distribution]
+
+
+class Moved(NamedTuple):
+    """What became of them."""
+
+    consequences: Sequence[Consequences]
+    """Of what is left, where nothing is only shown."""
+    arrived: Sequence[str]
+    """The directories of packages that were written, and where nothing is left."""
+    left: Sequence[str]
+    """Those of packages where something is left."""
+    fixes: int
+    types_failure: str
+    has_failed: bool
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,12 +73,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--keep",
+        action="append",
         metavar="NAMES",
         help="distributions that they are to run on as well, separated by commas: fixes write "
         "only what all of them have",
     )
     parser.add_argument(
-        "--fix", action="store_true", help="apply what is safe, and report what is left"
+        "--fix",
+        action="store_true",
+        help="apply what is safe, and report what is left; a package is recorded for the new "
+        "distribution once nothing in it breaks or changes silently, and all of it can be read",
+    )
+    parser.add_argument(
+        "--unsafe-fixes",
+        action="store_true",
+        help="also apply fixes that may need a look: links to packages that may export no targets",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
@@ -60,12 +96,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Report what a move changes, and fix what is safe; return the exit code."""
     from scaffold.check import registry
-    from scaffold.check.migration import Consequences, identities
+    from scaffold.cli import origins
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.cli.settings import warn
     from scaffold.cli.verbs import check
     from scaffold.configuration import config, content
+    from scaffold.errors import InputError
     from scaffold.files.disk import Disk
 
     directory = check.common_directory(options.paths, Disk())
@@ -73,164 +110,212 @@ def run(options: argparse.Namespace) -> int:
     warn(settings.warnings)
     choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
     _complete(options, choices)
-    session = _session(choices)
-    target = distributions.named(options.to, "--to")
-    kept = distributions.several(options.keep, "--keep") if options.keep else []
-    origin = _origin(options, target, settings, session)
+    target = distributions.named(options.to, "--to", _ADVICE)
+    kept = distributions.several(",".join(options.keep), "--keep") if options.keep else []
+    packages = check.find_targets(options, _session(choices, is_back=False), None)
+    directories = [item.package.directory for item in packages]
+    if not directories:
+        raise InputError(_nothing_found(options))
+    found = origins.find(options.origin, settings, target, kept, directories)
+    for note in origins.notes(found, target):
+        terminal.note(note)
+    moves = [
+        _moved(options, choices, Move(origin, moving, target, kept))
+        for origin, moving in found.directories.items()
+    ]
+    has_failed = any(move.has_failed for move in moves)
+    if options.diff or options.fix:
+        count = sum(move.fixes for move in moves)
+        done = f"{check.fix_count(count)} {'would be applied' if options.diff else 'applied'}"
+        if options.diff:
+            terminal.say(done)
+            return FINDINGS if count else CLEAN
+        has_failed |= _record(moves, distributions.ordered([*kept, target]), settings, done)
+    items = sorted(
+        (item for move in moves for item in move.consequences),
+        key=lambda item: directories.index(item.result.package.directory),
+    )
+    if options.format == "json":
+        terminal.show_json(_as_data(items, found, target, kept))
+    else:
+        terminal.show("\n".join(_lines(items, found, target, is_unsafe=options.unsafe_fixes)))
+    for failure in dict.fromkeys(move.types_failure for move in moves if move.types_failure):
+        terminal.error(f"types are not checked: {failure}")
+        has_failed = True
+    is_done = all(item.is_done for item in items)
+    return USAGE_ERROR if has_failed else CLEAN if is_done else FINDINGS
+
+
+def _nothing_found(options: argparse.Namespace) -> str:
+    """Return why there is no package to move."""
+    if options.notes:
+        return f"no package to move; {'; '.join(options.notes)}"
+    return f"{', '.join(options.paths)}: in no ROS 2 package, which is what moves"
+
+
+def _moved(options: argparse.Namespace, choices: Choices, move: Move) -> Moved:
+    """Check packages that come from one distribution, and fix them if that is asked for."""
+    from scaffold.check.migration import Consequences, identities
+
+    origin, target = move.origin, move.target
+    session = _session(choices, is_back=target.place < origin.place)
+    fixed: list[Fixed] = []
     has_failed = False
     with distributions.targeting(origin):
-        session.known = identities(_checked(options, session))
-        ordering = _ordering(options, choices) if options.fix else None
-    with distributions.targeting(target, origin, kept):
-        targets = check.find_targets(options, session, None)
+        session.known = identities(_checked(options, session, move))
+        ordering = _ordering(options, choices, move) if options.fix else None
+    with distributions.targeting(target, origin, move.kept):
         if options.fix or options.diff:
-            written, has_failed = fixing.write(
-                options, session, targets, lambda: check.find_targets(options, session, None)
-            )
-            count = sum(item.applied for item in written)
-            verb = "would be applied" if options.diff else "applied"
-            terminal.say(f"{check.fix_count(count)} {verb}")
-            if options.diff:
-                return FINDINGS if count else CLEAN
+            fixed, has_failed = _fix(options, session, move)
             if ordering is not None:
                 with distributions.targeting(origin):
-                    has_failed |= _sort_imports(options, ordering)
-            directories = [item.package.directory for item in written]
-            has_failed |= _move(directories, distributions.ordered([*kept, target]), settings)
-        results = _checked(options, session)
-    deprecations = {rule.code for rule in choices.rules if rule.is_deprecation}
-    consequences = [Consequences.of(result, deprecations) for result in results]
-    if options.format == "json":
-        terminal.show_json(_as_data(consequences, origin, target, kept))
-    else:
-        terminal.show("\n".join(_lines(consequences, origin, target)))
-    if session.types_failure:
-        terminal.error(f"types are not checked: {session.types_failure}")
-        has_failed = True
-    is_left = any(item.breaks or item.changes for item in consequences)
-    return USAGE_ERROR if has_failed else FINDINGS if is_left else CLEAN
+                    _, is_refused = _fix(options, ordering, move)
+                has_failed |= is_refused
+        results = [] if options.diff else _checked(options, session, move)
+    if results:
+        results = _with_kept(options, choices, move, session, results)
+    written = [item.package.directory for item in fixed]
+    consequences = [Consequences.of(result, choices.rules, session.known) for result in results]
+    done = {
+        item.result.package.directory
+        for item in consequences
+        if item.is_done and not session.types_failure
+    }
+    return Moved(
+        consequences,
+        [directory for directory in written if directory in done],
+        [directory for directory in written if directory not in done],
+        sum(item.applied for item in fixed),
+        session.types_failure,
+        has_failed,
+    )
 
 
-def _origin(
-    options: argparse.Namespace, target: Distribution, settings: Config, session: MigratingSession
-) -> Distribution:
-    """Return where packages come from: the oldest that they are for, and that is not the target.
+def _with_kept(
+    options: argparse.Namespace,
+    choices: Choices,
+    move: Move,
+    session: MigratingSession,
+    results: Sequence[Result],
+) -> list[Result]:
+    """Add to the results for the target what is found for the distributions that are kept.
 
-    Raises:
-        InputError: there is no distribution of a name, or nothing to move.
+    What the packages come from is left out: all that is found there was found before.
     """
-    from scaffold.cli.verbs import check
-    from scaffold.errors import InputError
+    from scaffold.check.several import merged
 
-    if options.origin:
-        candidates = [distributions.named(options.origin, "--from")]
-    else:
-        default = [distributions.named(distributions.DEFAULT)]
-        candidates = distro.wanted(None, settings) or [
-            origin
-            for item in check.find_targets(options, session, None)
-            for origin in distro.recorded(item.package.directory) or default
-        ]
-        if all(item.place == target.place for item in candidates):
-            candidates += default  # they have been moved before, which may be repeated
-    others = [item for item in candidates if item.place != target.place]
-    if not others:
-        last = candidates[-1]
-        message = f"the packages are for {last.title} already"
-        if last.name != target.name:
-            message += f", which is the same as {target.title} for Python packages"
-        raise InputError(f"{message}: --from names where they come from")
-    return distributions.ordered(others)[0]
+    by_distribution = {move.target: results}
+    for one in move.kept:
+        if one.place in (move.origin.place, move.target.place):
+            continue
+        kept = _session(choices, is_back=one.place < move.origin.place)
+        kept.known = session.known
+        with distributions.targeting(one, move.origin, move.kept):
+            by_distribution[one] = [item.without_fixes() for item in _checked(options, kept, move)]
+        session.types_failure = session.types_failure or kept.types_failure
+    return merged(by_distribution) if len(by_distribution) > 1 else [*results]
 
 
-def _ordering(options: argparse.Namespace, choices: Choices) -> OrderSession:
-    """Return what sorts imports; files whose imports are not in order now are left alone."""
+def _fix(options: argparse.Namespace, session: Session, move: Move) -> tuple[list[Fixed], bool]:
+    return fixing.write(
+        options,
+        session,
+        _targets(options, session, move),
+        lambda: _targets(options, session, move),
+    )
+
+
+def _ordering(options: argparse.Namespace, choices: Choices, move: Move) -> OrderSession:
+    """Return what sorts imports that the fixes leave unsorted, by their new names.
+
+    It works for where the packages come from, as nothing but the fixes has changed there; files
+    whose imports are not in order now are left alone.
+    """
     from scaffold.check.migration import ORDER, OrderSession, unordered
 
     selection = choices.selection([",".join(ORDER)])
     session = OrderSession(choices.rules, selection, choices.adjustments())
-    session.unordered = unordered(_checked(options, session))
+    session.unordered = unordered(_checked(options, session, move))
     return session
 
 
-def _sort_imports(options: argparse.Namespace, session: OrderSession) -> bool:
-    """Sort imports that are not in order any more, by their new names; return whether that failed.
+def _record(
+    moves: Sequence[Moved], targets: Sequence[Distribution], settings: Config, done: str
+) -> bool:
+    """Say in the records of packages what they are for now; return whether that failed.
 
-    That is judged for where the packages come from: nothing but the fixes has changed there.
+    The record of a package where something is left stays, so that the next run reports it again.
+
+    Args:
+        moves: What became of the packages.
+        targets: What they are for.
+        settings: The configuration, which wins over the records.
+        done: What was done before.
     """
-    from scaffold.cli.verbs import check
-
-    targets = check.find_targets(options, session, None)
-    _, has_failed = fixing.write(
-        options, session, targets, lambda: check.find_targets(options, session, None)
-    )
-    return has_failed
-
-
-def _move(directories: Sequence[str], targets: Sequence[Distribution], settings: Config) -> bool:
-    """Say in the records of packages what they are for now; return whether that failed."""
     from scaffold.cli import records
-    from scaffold.errors import ScaffoldError
+    from scaffold.reporters.summary import count
 
+    changed = records.move_all([path for move in moves for path in move.arrived], targets)
     titles = distributions.titles(targets)
-    has_failed = False
-    has_others = False
-    for directory in directories:
-        try:
-            is_moved = records.move(directory, targets)
-        except ScaffoldError as error:
-            terminal.error(str(error))
-            has_failed = True
-            continue
-        has_others = has_others or is_moved is None
-        if is_moved:
-            terminal.note(
-                f"{directory}: recorded as a package for {titles}; `ros2-scaffold update` brings "
-                "what its templates have for that"
-            )
-    named = distro.wanted(None, settings)
-    usual = named or [distributions.named(distributions.DEFAULT)]
-    if usual != [*targets] and (named or has_others):
-        names = ",".join(target.name for target in targets)
-        terminal.note(
-            f"`check` without --distro checks for {distributions.titles(usual)}: set {distro.KEY} "
-            f"of the configuration, or pass --distro {names}"
-        )
-    return has_failed
+    if changed.before:
+        done += f"; {count(len(changed.before), 'package')} recorded for {titles}"
+    terminal.say(done)
+    for note in records.notes(changed, targets, settings):
+        terminal.note(note)
+    held = records.held([path for move in moves for path in move.left], targets)
+    if held:
+        terminal.note(held)
+    return changed.has_failed
 
 
 def _complete(options: argparse.Namespace, choices: Choices) -> None:
     """Set what the functions of `check` ask for besides the flags of this verb."""
     options.whole_packages = True
-    options.unsafe_fixes = False
     options.policy = choices.policy()
     options.notes = ()
 
 
-def _session(choices: Choices) -> MigratingSession:
-    from scaffold.check.migration import AREAS, MigratingSession
+def _session(choices: Choices, *, is_back: bool) -> MigratingSession:
+    from scaffold.check.migration import CODES, MigratingSession, deprecations
 
-    selection = choices.selection([",".join(AREAS)])
-    return MigratingSession(choices.rules, selection, choices.adjustments(), has_types=True)
+    selection = choices.selection([",".join(CODES)])
+    session = MigratingSession(choices.rules, selection, choices.adjustments(), has_types=True)
+    if is_back:
+        session.improved = deprecations(choices.rules)
+    return session
 
 
-def _checked(options: argparse.Namespace, session: Session) -> list[Result]:
-    from scaffold.cli.interactive import progress
+def _targets(options: argparse.Namespace, session: Session, move: Move) -> list[Target]:
     from scaffold.cli.verbs import check
 
-    targets: Sequence[Target] = check.find_targets(options, session, None)
+    found = check.find_targets(options, session, None)
+    return [item for item in found if item.package.directory in move.directories]
+
+
+def _checked(options: argparse.Namespace, session: Session, move: Move) -> list[Result]:
+    from scaffold.cli.interactive import progress
+
+    targets = _targets(options, session, move)
     return list(progress.shown(session.run(targets), len(targets), "packages"))
 
 
 def _lines(
-    consequences: Sequence[Consequences], origin: Distribution, target: Distribution
+    consequences: Sequence[Consequences], found: Origins, target: Distribution, *, is_unsafe: bool
 ) -> Iterator[str]:
     """Yield the report: packages with what happens to them, then the counts."""
+    from scaffold.cli.origins import sentence, shares
     from scaffold.reporters.summary import count, fixable
+
+    if not found.directories:
+        yield (
+            f"{sentence([*found.arrived.values()], target)}: nothing to move; "
+            "`ros2-scaffold check` reports what is wrong there, --from NAME what another changes"
+        )
+        return
 
     for item in consequences:
         groups = [*zip(HEADINGS, item[1:], strict=True)]
-        if not item.diagnostics:
+        if not any(item[1:]):
             continue
         yield f"{item.result.package.name}:"
         for heading, diagnostics in groups:
@@ -241,12 +326,20 @@ def _lines(
     counts = zip(totals, COUNTED, strict=True)
     named = ", ".join(f"{number} {state}" for number, state in counts)
     every = [one for item in consequences for one in item.diagnostics]
-    parts = [
-        f"{count(len(consequences), 'package')} from {origin.title} to {target.title}: "
-        + (named if every else "nothing changes")
-    ]
-    fixes = fixable(every, unsafe=False)
-    yield "; ".join([*parts, fixes] if fixes else parts)
+    missed = sum(_unexamined_files(item) for item in consequences)
+    nothing = "nothing changes in what was examined" if missed else "nothing changes"
+    parts = [f"{shares(found)} to {target.title}: {named if every else nothing}"]
+    parts += [f"{count(missed, 'file')} not examined"] if missed else []
+    fixes = fixable(every, unsafe=is_unsafe)
+    parts += [fixes] if fixes else []
+    number = len(found.arrived) - len(found.assumed)
+    if number:
+        parts.append(f"{number} {'is' if number == 1 else 'are'} for {target.title} already")
+    yield "; ".join(parts)
+
+
+def _unexamined_files(item: Consequences) -> int:
+    return len({one.location.path for one in item.unexamined})
 
 
 def _folded(package: Package, diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
@@ -269,7 +362,7 @@ def _folded(package: Package, diagnostics: Sequence[Diagnostic]) -> Iterator[str
 
 def _as_data(
     consequences: Sequence[Consequences],
-    origin: Distribution,
+    found: Origins,
     target: Distribution,
     kept: Sequence[Distribution],
 ) -> dict[str, object]:
@@ -279,17 +372,20 @@ def _as_data(
         result = item.result._replace(diagnostics=list(diagnostics))
         return [*json.diagnostics([result], [target.name])]
 
+    origins = {path: origin.name for origin, paths in found.directories.items() for path in paths}
     return {
         "schema_version": json.SCHEMA_VERSION,
-        "from": origin.name,
+        "from": [origin.name for origin in found.directories],
         "to": target.name,
         "keep": [one.name for one in kept],
         "packages": [
             {
                 "name": item.result.package.name,
+                "from": origins[item.result.package.directory],
                 "breaks": listed(item, item.breaks),
                 "changes": listed(item, item.changes),
                 "deprecated": listed(item, item.deprecated),
+                "unexamined": listed(item, item.unexamined),
             }
             for item in consequences
         ],

@@ -29,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         distro.FLAG,
+        action="append",
         metavar="NAMES",
         help="make it a package for these distributions of ROS 2, separated by commas",
     )
@@ -45,7 +46,8 @@ def run(options: argparse.Namespace) -> int:
     directory = os.path.normpath(options.directory)
     if not os.path.isdir(directory):
         raise InputError(f"{directory}: no such directory")
-    moved = distributions.several(options.distro, distro.FLAG) if options.distro else None
+    flag = options.distro
+    moved = None if flag is None else distributions.several(",".join(flag), distro.FLAG)
     targets = moved or distro.recorded(directory) or [distributions.JAZZY]
     with distributions.targeting(targets[0]):
         return _run(options, directory, moved)

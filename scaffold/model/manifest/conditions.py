@@ -12,6 +12,9 @@ from scaffold.record import NamedTuple
 VARIABLES = frozenset({"ROS_VERSION", "ROS_DISTRO", "ROS_PYTHON_VERSION"})
 """What conditions may ask for."""
 
+_NEAR = 0.75
+"""How much of a name has to be right for it to be a misspelled one."""
+_DISTRIBUTIONS = (*distributions.NAMES, *sorted(distributions.ENDED))
 _SYNTAX = r"""\s*(?:(?P<op>==|!=|<=|>=|<|>)|(?P<paren>[()])|(?P<text>"[^"]*"|'[^']*')"""
 _SYNTAX += r"""|(?P<variable>\$[A-Za-z0-9_]+)|(?P<word>[A-Za-z0-9_-]+))"""
 
@@ -29,6 +32,11 @@ class _Token(NamedTuple):
     kind: str
     text: str
     offset: int
+
+    @property
+    def content(self) -> str:
+        """The text without quotes around it."""
+        return self.text.strip("\"'")
 
 
 def environment() -> Mapping[str, str]:
@@ -64,18 +72,78 @@ def misspelled(condition: str) -> Iterator[tuple[str, str]]:
     """
     from difflib import get_close_matches
 
-    tokens = [token for token in _tokens(condition) if token.kind != "paren"]
     variables = {f"${name}" for name in VARIABLES}
-    for token in tokens:
+    for token in _tokens(condition):
         if token.kind == "variable" and token.text not in variables:
-            yield from ((token.text, near) for near in get_close_matches(token.text, variables, 1))
-    compared = [*zip(tokens, tokens[2:], strict=False)]
-    for one, other in [*compared, *((other, one) for one, other in compared)]:
-        name = other.text.strip("\"'")
-        is_asked = one.text == f"${distributions.VARIABLE}" and other.kind in {"word", "text"}
-        if is_asked and name not in {*distributions.NAMES, *distributions.ENDED}:
-            near = get_close_matches(name.lower(), distributions.NAMES, 1, 0.75)
-            yield from ((name, known) for known in near)
+            close = get_close_matches(token.text, variables, 1, _NEAR)
+            yield from ((token.text, known) for known in close)
+    for name in _unknown_distributions(condition):
+        near = get_close_matches(name.lower(), distributions.NAMES, 1, _NEAR)
+        yield from ((name, known) for known in near)
+
+
+def _unknown_distributions(condition: str) -> list[str]:
+    """Return the names that ``$ROS_DISTRO`` is compared with and that no distribution has."""
+    return [
+        other.content
+        for left, _, right in _comparisons(condition)
+        for one, other in ((left, right), (right, left))
+        if one.text == f"${distributions.VARIABLE}"
+        and other.kind != "variable"
+        and other.content not in _DISTRIBUTIONS
+    ]
+
+
+class Constant(NamedTuple):
+    """A comparison of two texts, which no environment changes."""
+
+    text: str
+    variable: str
+    """The one that a text names, without its ``$``; empty for none."""
+    offset: int
+    """Where the text with the name begins."""
+    value: bool
+
+
+def constants(condition: str) -> Iterator[Constant]:
+    """Yield the comparisons without a variable.
+
+    Args:
+        condition: A condition that follows the grammar.
+    """
+    for left, operator, right in _comparisons(condition):
+        if "variable" in {left.kind, right.kind}:
+            continue
+        named = next((token for token in (left, right) if token.text in VARIABLES), None)
+        text = f"{left.text} {operator.text} {right.text}"
+        offset = left.offset if named is None else named.offset
+        yield Constant(text, named.text if named else "", offset, holds(text))
+
+
+def is_never_true(condition: str) -> bool:
+    """Tell whether a condition is true on no distribution of ROS, whatever its Python is.
+
+    Args:
+        condition: A condition that follows the grammar.
+    """
+    if names_unknown(condition):
+        return False
+    environments: list[Mapping[str, str]] = [{}]
+    for name in (*_DISTRIBUTIONS, *_unknown_distributions(condition)):
+        version = "1" if name in distributions.OF_ROS1 else "2"
+        environments += [
+            {"ROS_VERSION": version, "ROS_DISTRO": name, "ROS_PYTHON_VERSION": python}
+            for python in ("2", "3")
+        ]
+    return not any(holds(condition, environment) for environment in environments)
+
+
+def _comparisons(condition: str) -> Iterator[tuple[_Token, _Token, _Token]]:
+    """Yield what is compared, with the operator in the middle."""
+    tokens = _tokens(condition)
+    for number, token in enumerate(tokens):
+        if token.kind == "op":
+            yield tokens[number - 1], token, tokens[number + 1]
 
 
 def _tokens(condition: str) -> list[_Token]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 
 from scaffold.model.python.module import PythonModule, last_names
 
-_LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+"""Statements after which the rest of a block is not run."""
 _ALL = frozenset({"Exception", "BaseException"})
 
 
@@ -106,16 +108,37 @@ def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
             result.append(parent.test)
         if isinstance(parent, ast.BoolOp) and isinstance(child, ast.expr):
             result += parent.values[: parent.values.index(child)]
-        if isinstance(child, ast.stmt):
-            field, number = module.index.place(child)
-            block = getattr(parent, field, None)
-            for earlier in block[:number] if isinstance(block, list) else ():
-                if isinstance(earlier, ast.If) and isinstance(earlier.body[-1], _LEAVING):
-                    result.append(earlier.test)
+        result += _left_before(module, child, parent)
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             break
         child = parent
     return result
+
+
+def conditions_of_leaving(module: PythonModule, node: ast.AST) -> list[ast.expr]:
+    """Return the conditions of branches that leave before a node is reached.
+
+    Args:
+        module: The file.
+        node: What runs if the branches do not; those of functions around its own count too.
+    """
+    result: list[ast.expr] = []
+    child = node
+    for parent in module.parents(node):
+        result += _left_before(module, child, parent)
+        child = parent
+    return result
+
+
+def _left_before(module: PythonModule, child: ast.AST, parent: ast.AST) -> Iterator[ast.expr]:
+    """Yield the conditions of earlier statements in the same block that may leave it."""
+    if not isinstance(child, ast.stmt):
+        return
+    field, number = module.index.place(child)
+    block = getattr(parent, field, None)
+    for earlier in block[:number] if isinstance(block, list) else ():
+        if isinstance(earlier, ast.If) and isinstance(earlier.body[-1], LEAVING):
+            yield earlier.test
 
 
 def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:

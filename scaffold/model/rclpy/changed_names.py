@@ -6,10 +6,10 @@ import ast
 import re
 from collections.abc import Iterator, Sequence
 
-from scaffold.changes import Change, of_kind
+from scaffold.changes import Change
 from scaffold.edits import Edit
-from scaffold.model.python.distribution_branches import holds
-from scaffold.model.python.guards import is_handled
+from scaffold.model.python.distribution_branches import asks, cases, holds, is_unsure
+from scaffold.model.python.guards import conditions_of_leaving, is_handled
 from scaffold.model.python.module import PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
@@ -218,11 +218,24 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
     child = node
     for parent in module.parents(node):
         match parent:
-            case ast.If(test=test) | ast.IfExp(test=test) if child is not test:
-                if asked.decides(test) and holds(module, test) is None:
+            case ast.If(test=test) | ast.IfExp(test=test) | ast.While(test=test) if (
+                child is not test
+            ):
+                if is_unsure(module, test) or (asked.decides(test) and holds(module, test) is None):
+                    return True
+            case ast.BoolOp(values=[*values]) if any(
+                is_unsure(module, value) for value in values if value is not child
+            ):
+                return True
+            case ast.Match(subject=subject) if isinstance(child, ast.match_case):
+                number = parent.cases.index(child)
+                if cases(module, parent)[number] is None and asks(module, subject):
                     return True
         child = parent
-    return False
+    return any(
+        asked.names_it(test) or is_unsure(module, test)
+        for test in conditions_of_leaving(module, node)
+    )
 
 
 class _Asked(NamedTuple):
@@ -238,9 +251,17 @@ class _Asked(NamedTuple):
         text = self.module.text(test)
         if _VERSION.search(text):
             return True
-        if "hasattr" in text and self._is_word_asked_for(test):
+        if self.names_it(test):
             return True
         return any(map(self._is_of_import, filter(_is_flag, _CONSTANT.findall(text))))
+
+    def names_it(self, test: ast.expr) -> bool:
+        """Tell whether a condition, or what a name in it is set to, asks for one of the words."""
+        values = [test]
+        for name in ast.walk(test):
+            lookup = self.module.index.lookup(name.id, name) if isinstance(name, ast.Name) else None
+            values += [item.value for item in (lookup[1] if lookup else ()) if item.value]
+        return any(map(self._is_word_asked_for, values))
 
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
@@ -275,30 +296,3 @@ def _assigned(node: ast.Try) -> set[str]:
         for name in ast.walk(node)
         if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
     }
-
-
-def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
-    """Yield the calls that mean something else on the target than where the code comes from."""
-    changes = [change for change in of_kind("call") if change.is_changed]
-    if not changes or not module.mentions(*(_word(name) for one in changes for name in one.names)):
-        return
-    file = RclpyFile.of(module)
-    for call in module.walk(ast.Call):
-        called = _called(file, call)
-        given = {word.arg for word in call.keywords}
-        for change in changes:
-            if called.isdisjoint(change.names) or None in given:
-                continue
-            if change.without in given or (change.having and change.having not in given):
-                continue
-            at = module.location(call.func)
-            yield ChangedUse(change, at, change.names[0].rpartition(".")[2], "")
-
-
-def _called(file: RclpyFile, call: ast.Call) -> set[str]:
-    names = set(file.module.qualified_names(call.func))
-    if isinstance(call.func, ast.Attribute):
-        class_ = class_of(file, call.func.value)
-        if class_ is not None:
-            names.add(f"{class_}.{call.func.attr}")
-    return names

@@ -1,0 +1,186 @@
+"""IM054: an event loop is made before it is asked for."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.distributions import target
+from scaffold.api.python import PythonModule, conditions_on, is_handled
+from scaffold.api.rclpy import is_asked_for
+
+_FIRST = (3, 14)
+"""The Python that makes no event loop for whoever asks for the current one."""
+_NAME = "asyncio.get_event_loop"
+_MAKERS = ("set_event_loop", "nest_asyncio", "qasync", "uvloop")
+"""What makes a loop the current one, or changes which one that is."""
+_MAIN = (
+    "import asyncio\n{}\n\nasync def work():\n    loop = asyncio.get_event_loop()\n"
+    "    await loop.run_in_executor(None, print)\n\n\n"
+    "def main():\n    loop = {}\n    loop.run_until_complete(work())\n"
+)
+_OLD = "asyncio.get_event_loop()"
+
+
+class EventLoopMissing(PythonRule):
+    """A program asks asyncio for the current event loop when there is none.
+
+    In ``main``, in a function that it calls, or at the top of a module, where no loop runs, and
+    where the file sets none.
+
+    **Why.** Python 3.14, which Lyrical runs on, makes none: ``RuntimeError: There is no current
+    event loop in thread 'MainThread'``.
+
+    **Fix.** Run the coroutine with ``asyncio.run()``, or make the loop with
+    ``asyncio.new_event_loop()`` and set it with ``asyncio.set_event_loop()``.
+
+    **Source.** Python 3.14, "What's new", asyncio; ClusterLabs/crmsh issue 2032.
+    """
+
+    code = "IM054"
+    name = "event-loop-missing"
+    since = "0.2"
+    examples = (
+        Example("an older Python", {"talker.py": _MAIN.format("", _OLD)}),
+        Example(
+            "a new loop",
+            {"talker.py": _MAIN.format("", "asyncio.new_event_loop()")},
+            distro="lyrical",
+        ),
+        Example(
+            "one that the file sets",
+            {"talker.py": _MAIN.format("asyncio.set_event_loop(asyncio.new_event_loop())", _OLD)},
+            distro="lyrical",
+        ),
+        Example(
+            "a program that is prepared, and one that a loop may call",
+            {
+                "talker.py": "import asyncio\nimport sys\n\n\ndef main():\n    try:\n"
+                f"        loop = {_OLD}\n    except RuntimeError:\n"
+                "        loop = asyncio.new_event_loop()\n"
+                "    return loop\n\n\n"
+                f"def later():\n    {_OLD}.stop()\n\n\n"
+                f"if sys.version_info < (3, 14):\n    loop = {_OLD}\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "functions that something else calls, that may not ask, or whose caller is prepared",
+            {
+                "talker.py": "import asyncio\n\n\n"
+                f"def later():\n    return {_OLD}\n\n\n"
+                f"def given(loop):\n    return loop or {_OLD}\n\n\n"
+                f"def prepared():\n    return {_OLD}\n\n\n"
+                f"def one_by_one():\n    yield {_OLD}\n\n\n"
+                "async def work():\n    later()\n\n\n"
+                "def main():\n    given(asyncio.new_event_loop())\n    one_by_one()\n"
+                "    try:\n        prepared()\n    except RuntimeError:\n        return\n"
+                "    asyncio.run(work())\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "in a function that main calls",
+            {
+                "talker.py": f"import asyncio\n\n\ndef loop():\n    return {_OLD}\n\n\n"
+                "def main():\n    loop().run_forever()\n",
+            },
+            Report(
+                "talker.py:5:12",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "in main, and where the module starts",
+            {
+                "talker.py": _MAIN.format("", _OLD),
+                "listener.py": "import asyncio\n\n"
+                f"if __name__ == '__main__':\n    {_OLD}.close()\n",
+            },
+            Report(
+                "listener.py:4:5",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            Report(
+                "talker.py:10:12",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            distro="lyrical",
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if target().python < _FIRST or not module.mentions("get_event_loop"):
+            return
+        if any(maker in module.source.text for maker in _MAKERS):
+            return
+        for call in module.walk(ast.Call):
+            if module.qualified_name(call.func) != _NAME or not _is_at_start(module, call):
+                continue
+            if is_handled(module, call, "RuntimeError") or is_asked_for(module, call, _NAME):
+                continue
+            message = (
+                f"Python {target().python_version} makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes"
+            )
+            yield self.report(module.location(call), message)
+
+
+def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is run by a program before it has a loop, in a function of main too."""
+    if _is_of_program(module, call):
+        return True
+    around = _functions_around(module, call)
+    if len(around) != 1 or conditions_on(module, call):
+        return False  # what a function is given may decide whether it asks
+    helper = next((one for one in module.functions.values() if one.node is around[0]), None)
+    if helper is None or not _is_plain(helper.node):
+        return False
+    if len(module.index.bindings(module.tree)[helper.name]) > 1:
+        return False
+    for name in module.index.names(helper.name):
+        site, found = module.parent(name), module.index.lookup(name.id, name)
+        if found is None or found[0] is not module.tree:
+            continue
+        if isinstance(site, ast.Call) and site.func is name and _runs_into_it(module, site):
+            return True
+    return False
+
+
+def _functions_around(module: PythonModule, node: ast.AST) -> list[ast.AST]:
+    kinds = (ast.Lambda, ast.GeneratorExp, ast.FunctionDef, ast.AsyncFunctionDef)
+    return [parent for parent in module.parents(node) if isinstance(parent, kinds)]
+
+
+def _is_plain(node: ast.AST) -> bool:
+    """Tell whether a call of a function runs its body, there and then."""
+    return (
+        isinstance(node, ast.FunctionDef)
+        and not node.decorator_list
+        and not any(isinstance(part, ast.Yield | ast.YieldFrom) for part in ast.walk(node))
+    )
+
+
+def _runs_into_it(module: PythonModule, site: ast.Call) -> bool:
+    """Tell whether the call of a function that asks is run, and not prepared for the failure."""
+    is_prepared = is_handled(module, site, "RuntimeError") or is_asked_for(module, site, _NAME)
+    return _is_of_program(module, site) and not is_prepared
+
+
+def _is_of_program(module: PythonModule, call: ast.Call) -> bool:
+    """Tell whether a call is run when the module is, or by its ``main`` that nothing awaits."""
+    around = _functions_around(module, call)
+    main = module.functions.get("main")
+    if not around or main is None:
+        return not around
+    is_main = around == [main.node] and isinstance(main.node, ast.FunctionDef)
+    return is_main and not any(
+        isinstance(parent, ast.AsyncFunctionDef)
+        for name in module.index.names("main")
+        for parent in module.parents(name)
+    )

@@ -1,0 +1,153 @@
+"""Where packages come from that move to another distribution, each by its own record."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+from scaffold.cli import distro
+from scaffold.errors import InputError
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from scaffold.configuration.config import Config
+    from scaffold.distributions import Distribution
+
+
+class Origins(NamedTuple):
+    """Where packages come from."""
+
+    directories: Mapping[Distribution, Sequence[str]]
+    """The directories of the packages that move, by where they come from, oldest first."""
+    arrived: Mapping[str, Distribution]
+    """What the other packages are for, by directory: the target, or the same under another name."""
+    assumed: Sequence[str]
+    """Those of the other packages of which nothing says what they are for."""
+    ended: Mapping[str, Distribution]
+    """The names in records that are supported no more, with what the packages move from instead."""
+
+
+def find(
+    flag: str | None,
+    settings: Config,
+    target: Distribution,
+    kept: Sequence[Distribution],
+    directories: Iterable[str],
+) -> Origins:
+    """Find out where packages come from: the oldest that they are for, and that is not the target.
+
+    Args:
+        flag: What the user says.
+        settings: What the configuration says, without a flag; then the records count.
+        target: Where they move to.
+        kept: What they are to run on besides; a package for the target alone comes from there.
+        directories: Of the packages.
+
+    Raises:
+        InputError: there is no distribution of a name, or the packages are for the target only as
+            far as is known.
+    """
+    named = [distributions.named(flag, "--from")] if flag else distro.wanted(None, settings)
+    groups: dict[Distribution, list[str]] = {}
+    arrived: dict[str, Distribution] = {}
+    assumed: list[str] = []
+    ended: dict[str, Distribution] = {}
+    for directory in directories:
+        gone = [] if named else _ended(directory)
+        recorded = named or _recorded(directory, gone)
+        if recorded == []:
+            recorded = [distributions.nearest(max(gone))]
+            ended[max(gone)] = recorded[0]
+        candidates = recorded or [distributions.named(distributions.DEFAULT)]
+        others = [item for item in candidates if item.place != target.place]
+        if not others and not flag:
+            others = [item for item in kept if item.place != target.place]
+        if gone and not others:  # the record changes
+            others = candidates
+        if others:
+            groups.setdefault(distributions.ordered(others)[0], []).append(directory)
+        else:
+            arrived[directory] = candidates[-1]
+            assumed += [directory] if recorded is None else []
+    found = Origins(
+        {item: groups[item] for item in distributions.ordered([*groups])}, arrived, assumed, ended
+    )
+    if not groups and assumed:
+        raise InputError(_assumption(found, target))
+    if not groups and flag:
+        raise InputError(
+            f"{sentence([*arrived.values()], target)}: --from names where they come from"
+        )
+    return found
+
+
+def _ended(directory: str) -> list[str]:
+    """Return the names in the record of a package that are supported no more."""
+    names = distro.recorded_names(directory) or ()
+    return [name for name in names if name in distributions.ENDED_ROS2]
+
+
+def _recorded(directory: str, ended: Sequence[str]) -> list[Distribution] | None:
+    """Return what the record of a package says, but for what is supported no more."""
+    if not ended:
+        return distro.recorded(directory)
+    left = [name for name in distro.recorded_names(directory) or () if name not in ended]
+    return distributions.several(",".join(left), directory) if left else []
+
+
+def notes(origins: Origins, target: Distribution) -> Iterator[str]:
+    """Yield what users may not expect of where packages come from, a line each."""
+    for name, origin in origins.ended.items():
+        yield _succession(name, origin)
+    if origins.assumed:
+        yield _assumption(origins, target)
+
+
+def _assumption(origins: Origins, target: Distribution) -> str:
+    """Return the sentence about packages that stay, as nothing says that they are for another."""
+    number = len(origins.assumed)
+    names = ", ".join(map(os.path.normpath, origins.assumed[:_SHOWN]))
+    if number > _SHOWN:
+        names += f" and {number - _SHOWN} more"
+    they, come = ("it", "comes") if number == 1 else ("they", "come")
+    return (
+        f"{names}: not moved: no record and no configuration says what {they} {come} from, and the "
+        f"default is {target.title} itself; --from names it"
+    )
+
+
+def _succession(name: str, origin: Distribution) -> str:
+    """Return the sentence about records of a distribution that is supported no more."""
+    title = name.capitalize()
+    return (
+        f"packages recorded for {title}, which {distributions.ending(name)}, move from "
+        f"{origin.title}, the next one: what changed between the two is not known, `check` "
+        "reports what is wrong now"
+    )
+
+
+_SHOWN = 5
+
+
+def sentence(arrived: Sequence[Distribution], target: Distribution) -> str:
+    """Return the sentence about packages that are for the target already."""
+    last = arrived[-1]
+    text = f"the packages are for {last.title} already"
+    if last.name != target.name:
+        text += f", which is the same as {target.title} for Python packages"
+    return text
+
+
+def shares(origins: Origins) -> str:
+    """Return ``3 packages from Jazzy``, ``2 packages from Humble and 1 from Jazzy``."""
+    from scaffold.reporters.summary import count
+
+    first, *others = (
+        (len(directories), origin.title) for origin, directories in origins.directories.items()
+    )
+    parts = [f"{count(first[0], 'package')} from {first[1]}"]
+    *rest, last = [*parts, *(f"{number} from {title}" for number, title in others)]
+    return f"{', '.join(rest)} and {last}" if rest else last

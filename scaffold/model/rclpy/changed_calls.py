@@ -1,0 +1,119 @@
+"""Calls that mean something else on the target than on the distribution they come from."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold import distributions
+from scaffold.changes import Change, of_kind
+from scaffold.model.python.distribution_branches import holds
+from scaffold.model.python.guards import caught_around, conditions_of_leaving
+from scaffold.model.python.module import PythonModule
+from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.api_signatures import OBJECTS
+from scaffold.model.rclpy.changed_names import ChangedUse, is_asked_for
+from scaffold.model.rclpy.file import RclpyFile
+
+_ABOVE = {"TimeoutError": "OSError"}
+"""The class above an error."""
+
+
+def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
+    """Yield the calls that mean something else on the target than where the code comes from.
+
+    Calls that run on one of both only are left out: they never meant anything else.
+    """
+    changes = [change for change in of_kind("call") if change.is_changed]
+    words = (name.rpartition(".")[2] for change in changes for name in change.names)
+    if not changes or not module.mentions(*words):
+        return
+    file = RclpyFile.of(module)
+    for call in module.walk(ast.Call):
+        called = _called(file, call)
+        for change in changes:
+            name = next((name for name in change.names if name in called), "")
+            if name and _is_meant(file, call, change, name) and _runs_on_both(module, call, name):
+                at = module.location(call.func)
+                yield ChangedUse(change, at, change.names[0].rpartition(".")[2], "")
+
+
+def _called(file: RclpyFile, call: ast.Call) -> set[str]:
+    names = set(file.module.qualified_names(call.func))
+    match call.func:
+        case ast.Attribute(attr="__init__", value=ast.Call(func=ast.Name(id="super"), args=[])):
+            parents = file.module.parents(call)
+            class_def = next((item for item in parents if isinstance(item, ast.ClassDef)), None)
+            for base in class_def.bases if class_def is not None else ():
+                names |= file.module.qualified_names(base)
+    if isinstance(call.func, ast.Attribute):
+        class_ = class_of(file, call.func.value)
+        if class_ is not None:
+            names.add(f"{class_}.{call.func.attr}")
+    return names
+
+
+def _is_meant(file: RclpyFile, call: ast.Call, change: Change, name: str) -> bool:
+    """Tell whether a call has the arguments that the change is about, and is not ready for it."""
+    if any(word.arg is None for word in call.keywords):
+        return False
+    if change.raises:
+        caught = caught_around(file.module, call)
+        if not caught.isdisjoint({change.raises, _ABOVE.get(change.raises, change.raises)}):
+            return False
+    if change.without and _argument(call, name, change.without) is not None:
+        return False
+    if not change.having:
+        return True
+    value = _argument(call, name, change.having)
+    return value is not None and not _is_none(file.evaluator.single_value(value))
+
+
+def _argument(call: ast.Call, name: str, keyword: str) -> ast.expr | None:
+    """Return what a call gives for an argument, by its name or at its position."""
+    for word in call.keywords:
+        if word.arg == keyword:
+            return word.value
+    class_, _, function = name.rpartition(".")
+    signature = OBJECTS.get(function, {}).get(class_)
+    if signature is None or keyword not in signature.positional:
+        return None
+    number = [*signature.positional].index(keyword)
+    before = call.args[: number + 1]
+    if len(before) <= number or any(isinstance(item, ast.Starred) for item in before):
+        return None
+    return call.args[number]
+
+
+def _is_none(node: ast.AST | None) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _runs_on_both(module: PythonModule, call: ast.Call, name: str) -> bool:
+    """Tell whether a call runs on the target and where the code comes from."""
+    if is_asked_for(module, call, name):
+        return False
+    origin = distributions.origin() or distributions.target()
+    for distribution in (distributions.target(), origin):
+        with distributions.targeting(distribution, distributions.origin(), distributions.kept()):
+            if not _is_run(module, call):
+                return False
+    return True
+
+
+def _is_run(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether no condition that asks for the distribution keeps a node from running."""
+    child = node
+    for parent in module.parents(node):
+        match parent:
+            case ast.If(test=test) | ast.While(test=test) if child is not test:
+                is_body = module.index.place(child)[0] == "body"
+            case ast.IfExp(test=test) if child is not test:
+                is_body = child is parent.body
+            case _:
+                child = parent
+                continue
+        if holds(module, test) is (not is_body):
+            return False
+        child = parent
+    return not any(holds(module, test) for test in conditions_of_leaving(module, node))
