@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterator
 from itertools import product
 
@@ -17,7 +16,7 @@ from scaffold.api import (
     Safety,
     Severity,
 )
-from scaffold.api.cmake import Argument, CMakeLists, Command
+from scaffold.api.cmake import Argument, CMakeLists, Command, nested
 from scaffold.api.distributions import of_kind
 
 _LISTS = (
@@ -43,9 +42,18 @@ _EXPORTING = frozenset(
     | {"pluginlib", "class_loader", "ament_index_cpp", "diagnostic_updater"}
     | {"rosbag2_cpp", "rosbag2_storage", "rosbag2_transport", "rosbag2_compression"}
     | {"controller_interface", "controller_manager", "hardware_interface", "joint_limits"}
-    | {"transmission_interface", "ros2_control_test_assets"}
+    | {"transmission_interface", "ros2_control_test_assets", "realtime_tools"}
+    | {"angles", "geometric_shapes", "kdl_parser", "laser_geometry", "resource_retriever", "urdf"}
+    | {"rviz_common", "rviz_default_plugins", "rviz_rendering"}
 )
 """Packages that export targets on every distribution."""
+_LINKED = {
+    "Boost": "${Boost_LIBRARIES}",
+    "Eigen3": "Eigen3::Eigen",
+    "OpenCV": "${OpenCV_LIBS}",
+    "console_bridge": "console_bridge::console_bridge",
+}
+"""What to link of packages that are not of ROS, and are found on every distribution."""
 _WIDTH = 100
 """The characters from which on the targets of a call get lines of their own."""
 _LATER = frozenset({"tf2_sensor_msgs"})
@@ -92,11 +100,71 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
+            "in a file that is included, from the directory of modules too",
+            {
+                "CMakeLists.txt": "project(talker)\n"
+                "list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake)\n"
+                "include(cmake/Talk.cmake)\ninclude(Listen)\ninclude(CTest)\n",
+                "cmake/Talk.cmake": f"{_OLD}(talker rclcpp)\n"
+                "include(${CMAKE_CURRENT_LIST_DIR}/Link.cmake OPTIONAL)\n",
+                "cmake/Listen.cmake": f"{_OLD}(listener rclcpp)\n",
+                "cmake/Link.cmake": f"{_OLD}(linker rclcpp)\n",
+                "cmake/Other.cmake": f"{_OLD}(other rclcpp)\n",
+            },
+            Report(
+                "cmake/Link.cmake:1:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            Report(
+                "cmake/Listen.cmake:1:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            Report(
+                "cmake/Talk.cmake:1:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            fixed={
+                "cmake/Talk.cmake": "target_link_libraries(talker ${rclcpp_TARGETS})\n"
+                "include(${CMAKE_CURRENT_LIST_DIR}/Link.cmake OPTIONAL)\n",
+                "cmake/Link.cmake": "target_link_libraries(linker ${rclcpp_TARGETS})\n",
+                "cmake/Listen.cmake": "target_link_libraries(listener ${rclcpp_TARGETS})\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "in a file that is included for an older distribution",
+            {
+                "CMakeLists.txt": "project(talker)\nif($ENV{ROS_DISTRO} STREQUAL jazzy)\n"
+                "  include(cmake/old.cmake)\nendif()\nif(rclcpp_VERSION VERSION_LESS 29)\n"
+                "  include(cmake/older.cmake)\nendif()\n",
+                "cmake/old.cmake": f"{_OLD}(talker rclcpp)\n",
+                "cmake/older.cmake": f"{_OLD}(talker rclcpp)\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a package that has the command itself",
+            {
+                "CMakeLists.txt": f"include(cmake/old.cmake)\n{_OLD}(talker rclcpp)\n",
+                "cmake/old.cmake": f"macro({_OLD} TARGET)\nendmacro()\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
             "asked for",
             {
                 "CMakeLists.txt": _LISTS.format(
                     f"if(COMMAND {_OLD})\n  {_OLD}(talker rclcpp)\n"
                     "elseif(rclcpp_VERSION VERSION_LESS 29)\n"
+                    f"  {_OLD}(talker rclcpp)\nendif()\n"
+                    'string(REGEX MATCH "^[0-9]+" MAJOR_VERSION "${rclcpp_VERSION}")\n'
+                    "if(MAJOR_VERSION GREATER_EQUAL 29)\nelse()\n"
                     f"  {_OLD}(talker rclcpp)\nendif()"
                 )
             },
@@ -159,6 +227,22 @@ class CommandRemoved(Rule):
             distro="lyrical",
         ),
         Example(
+            "packages that are not of ROS",
+            {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker Eigen3 urdf Boost)")},
+            Report(
+                "4:1",
+                "ament_target_dependencies was removed in Lyrical: CMake stops; use "
+                "target_link_libraries (ament_cmake 572, 614)",
+                fix="write target_link_libraries",
+            ),
+            fixed={
+                "CMakeLists.txt": _LISTS.format(
+                    "target_link_libraries(talker Eigen3::Eigen ${urdf_TARGETS} ${Boost_LIBRARIES})"
+                )
+            },
+            distro="lyrical",
+        ),
+        Example(
             "a package of the workspace that exports no targets",
             {"CMakeLists.txt": _LISTS.format(f"{_OLD}(talker shapes)")},
             Report(
@@ -199,8 +283,15 @@ class CommandRemoved(Rule):
         changes = [one for one in of_kind("command") if one.is_removed or one.is_deprecated]
         if not changes:
             return
-        lists = [package.cmake, *_nested(package)]
-        for change, cmake in product(changes, lists):
+        lists = [package.cmake, *nested(package, _is_asked_for)]
+        own = {
+            command.values[0].lower()
+            for cmake in lists
+            for command in cmake.find("macro", "function")
+            if command.values
+        }
+        missed = [change for change in changes if change.names[0] not in own]
+        for change, cmake in product(missed, lists):
             for command in cmake.find(change.names[0]):
                 if _is_asked_for(cmake, command):
                     continue
@@ -220,11 +311,11 @@ class CommandRemoved(Rule):
             return None
         text, path = cmake.source.text, cmake.source.path
         start = command.start
-        added = sum(len(f"${{{name}_TARGETS}}") for names in linked for name in names)
+        added = sum(len(_target(name)) for names in linked for name in names)
         is_wide = text.find("\n", start) >= items[-1].end and added > _WIDTH - len(_OLD)
         edits = []
         for item, names in zip(items, linked, strict=True):
-            targets = [f"${{{name}_TARGETS}}" for name in names]
+            targets = [_target(name) for name in names]
             line = text[text.rfind("\n", 0, item.start) + 1 : item.start]
             indent = line[: len(line) - len(line.lstrip())]
             if is_wide:
@@ -244,25 +335,9 @@ class CommandRemoved(Rule):
 def _is_asked_for(cmake: CMakeLists, command: Command) -> bool:
     """Tell whether a condition around a call asks for the command, or for the version of one."""
     return any(
-        "COMMAND" in words or any(word.startswith("VERSION_") for word in words)
+        "COMMAND" in words or any("VERSION" in word for word in words)
         for words in cmake.conditions(command)
     )
-
-
-def _nested(package: Package) -> Iterator[CMakeLists]:
-    """Yield the files that ``add_subdirectory`` names, and those that they name."""
-    known = {""}
-    pending = [("", package.cmake)]
-    while pending:
-        directory, lists = pending.pop()
-        for command in lists.find("add_subdirectory"):
-            place = posixpath.normpath(posixpath.join(directory, *command.values[:1]))
-            path = f"{place}/CMakeLists.txt"
-            if place not in known and package.has(path):
-                known.add(place)
-                below = CMakeLists.parse(package.source(path))
-                pending.append((place, below))
-                yield below
 
 
 def _packages(cmake: CMakeLists, command: Command, argument: Argument) -> list[str]:
@@ -272,9 +347,13 @@ def _packages(cmake: CMakeLists, command: Command, argument: Argument) -> list[s
     return names if is_clear else []
 
 
+def _target(name: str) -> str:
+    return _LINKED.get(name, f"${{{name}_TARGETS}}")
+
+
 def _exports(package: Package, name: str) -> bool:
     """Tell whether a package is known to export targets: libraries of ROS, and interfaces."""
-    if name in _EXPORTING:
+    if name in _EXPORTING or name in _LINKED:
         return True
     neighbor = package.workspace.get(name)
     if neighbor is not None and neighbor.name != package.name and neighbor.has("CMakeLists.txt"):

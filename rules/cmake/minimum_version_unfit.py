@@ -6,9 +6,10 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.cmake import Command
+from scaffold.api.cmake import CMakeLists, Command, nested
 from scaffold.api.distributions import target
 
+_PATH = "CMakeLists.txt"
 _OLDEST = (3, 5)
 _WANTED = "3.8"
 _LISTS = "cmake_minimum_required(VERSION {})\nproject(talker)\n"
@@ -78,6 +79,21 @@ class MinimumVersionUnfit(Rule):
             distro="lyrical",
         ),
         Example(
+            "in a directory of its own",
+            {
+                "CMakeLists.txt": _LISTS.format("3.10") + "add_subdirectory(sim)\n",
+                "sim/CMakeLists.txt": _LISTS.format("3.4"),
+            },
+            Report(
+                "sim/CMakeLists.txt:1:32",
+                "CMake 4.2 of Lyrical stops at 3.4: it supports 3.5 and newer",
+                fix="write 3.10",
+                severity=Severity.ERROR,
+            ),
+            fixed={"sim/CMakeLists.txt": _LISTS.format("3.10")},
+            distro="lyrical",
+        ),
+        Example(
             "newer than the CMake of the distribution",
             {"CMakeLists.txt": _LISTS.format("3.25")},
             Report(
@@ -104,7 +120,10 @@ class MinimumVersionUnfit(Rule):
         project = cmake.project
         minimum = cmake.find("cmake_minimum_required")
         for command in minimum:
-            yield from self._check_version(command)
+            yield from self._check_version(cmake, command)
+        for below in nested(package):
+            for command in below.find("cmake_minimum_required"):
+                yield from self._check_version(below, command)
         if project is None or (cmake.find("include") and not minimum):
             return
         if not minimum:
@@ -115,7 +134,7 @@ class MinimumVersionUnfit(Rule):
             message = f"cmake_minimum_required() of line {line} belongs before project()"
             yield self.report(project.name_location, message)
 
-    def _check_version(self, command: Command) -> Iterator[Diagnostic]:
+    def _check_version(self, cmake: CMakeLists, command: Command) -> Iterator[Diagnostic]:
         match command.arguments:
             case [word, version, *_] if word.value == "VERSION":
                 numbers = _numbers(version.value)
@@ -126,8 +145,8 @@ class MinimumVersionUnfit(Rule):
                 if own is not None and numbers > own:
                     message = f"{_cmake()} is older than {version.value}: CMake stops"
                     yield self.report(version, message, severity=Severity.ERROR)
-                elif message:
-                    edit = Edit("CMakeLists.txt", version.start, version.end, wanted)
+                elif message and (severity is not None or cmake.source.path == _PATH):
+                    edit = Edit(cmake.source.path, version.start, version.end, wanted)
                     fix = Fix(f"write {wanted}", (edit,))
                     yield self.report(version, message, fix, severity=severity)
 

@@ -13,6 +13,7 @@ _ACTIONS = frozenset(
     | {"LogInfo", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
 )
 _SETTERS = ("PushRosNamespace", "PushROSNamespace", "SetParameter", "SetRemap")
+_RUNNING = frozenset({*NODES, "IncludeLaunchDescription"})
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import GroupAction\n"
     "from launch_ros.actions import Node\n\n\n"
@@ -83,6 +84,24 @@ class ActionMadeWrongly(LaunchRule):
                 "nothing follows this SetParameter in the group: it has no effect",
             ),
         ),
+        Example(
+            "something set before and after the nodes",
+            {
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "import Node", "import Node, SetParameter"
+                ).format(
+                    "executable='a'", "[GroupAction([]), SetParameter('use_sim_time', True), node]"
+                ),
+                "launch/b.launch.py": _LAUNCH.replace(
+                    "import Node", "import Node, SetParameter"
+                ).format(
+                    "executable='a'", "[GroupAction([]), node, SetParameter('use_sim_time', True)]"
+                ),
+            },
+            Report(
+                "launch/b.launch.py:8:54", "nothing follows this SetParameter: it has no effect"
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -92,6 +111,12 @@ class ActionMadeWrongly(LaunchRule):
                 yield self.report(call, problem)
             if call.kind in _ACTIONS:
                 yield from self._check_action(launch, call)
+            above = launch.module.parent(call.call)
+            if call.kind == "LaunchDescription" and isinstance(above, ast.Return):
+                last = _setting_nothing(launch, call.given.get("initial_entities"))
+                if last is not None:
+                    message = f"nothing follows this {last.kind}: it has no effect"
+                    yield self.report(last, message)
 
     def _check_action(self, launch: LaunchFile, call: LaunchCall) -> Iterator[Diagnostic]:
         parent = launch.module.parent(call.call)
@@ -116,8 +141,8 @@ def _setting_nothing(launch: LaunchFile, actions: ast.expr | None) -> LaunchCall
     """Return the last action of a group if it sets something for those that follow it."""
     if not isinstance(actions, ast.List) or len(actions.elts) < 2:  # noqa: PLR2004  one before it
         return None
-    first, last = launch.call_of(actions.elts[0]), launch.call_of(actions.elts[-1])
-    runs = first is not None and first.kind in {*NODES, "IncludeLaunchDescription"}
+    *before, last = [launch.call_of(item) for item in actions.elts]
+    runs = any(item is not None and item.kind in _RUNNING for item in before)
     return last if runs and last is not None and last.kind in _SETTERS else None
 
 

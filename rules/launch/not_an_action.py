@@ -65,6 +65,18 @@ class NotAnAction(LaunchRule):
             Report("14:2", "this is None, but LaunchDescription takes actions"),
         ),
         Example(
+            "an event for what happens at the end of a node",
+            {
+                "launch/a.launch.py": "from launch.events import Shutdown\n"
+                + _LAUNCH.format("node").replace("name=name", "on_exit=Shutdown()")
+            },
+            Report(
+                "11:62",
+                "this is an event, but 'on_exit' of Node takes actions: wrap it in "
+                "EmitEvent(event=...)",
+            ),
+        ),
+        Example(
             "an event, a source, a node in a container",
             {
                 "launch/a.launch.py": "from launch.events import Shutdown\n"
@@ -95,7 +107,7 @@ class NotAnAction(LaunchRule):
         for item in entities(launch):
             what = describe(launch, item.node)
             if what and not (item.is_alone and what in _ALONE):
-                message = f"{what}, but {item.holder} takes actions{_hint(what)}"
+                message = f"{what}, but {item.taker} takes actions{_hint(what)}"
                 yield self.report(launch.location(item.node), message)
         for call in launch.calls:
             listed = call.given.get("composable_node_descriptions")

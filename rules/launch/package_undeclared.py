@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.launch import exists, meant_package, package_uses
+from scaffold.api.distributions import target
+from scaffold.api.launch import Reference, exists, meant_package, package_uses
 from scaffold.api.manifest import declared
 
 _LAUNCH = (
@@ -24,7 +25,8 @@ class PackageUndeclared(Rule):
     **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not
     found``.
 
-    **Fix.** Add an ``<exec_depend>``.
+    **Fix.** Add an ``<exec_depend>``; where there is one whose condition leaves out the
+    distribution, change the condition.
 
     **Source.** REP-149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
     projects".
@@ -57,6 +59,36 @@ class PackageUndeclared(Rule):
                 "package.xml": _MANIFEST.format(
                     "  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"
                 )
+            },
+        ),
+        Example(
+            "declared for another distribution",
+            {
+                "package.xml": _MANIFEST.format(
+                    "  <exec_depend>launch_ros</exec_depend>\n"
+                    '  <exec_depend condition="$ROS_DISTRO == humble">rviz2</exec_depend>\n'
+                ),
+                "launch/a.launch.py": _LAUNCH,
+            },
+            Report(
+                "launch/a.launch.py:8:22",
+                "starts a node of 'rviz2', and line 4 of package.xml declares it only if "
+                "$ROS_DISTRO == humble, which leaves out Jazzy; change the condition",
+            ),
+        ),
+        Example(
+            "declared for this distribution, or where a variable of who builds it is set",
+            {
+                "package.xml": _MANIFEST.format(
+                    '  <exec_depend condition="$ROS_DISTRO == humble">rviz2</exec_depend>\n'
+                    '  <exec_depend condition="$ROS_DISTRO != humble">rviz2</exec_depend>\n'
+                    '  <exec_depend condition="$SIMULATION == yes">arm</exec_depend>\n'
+                ),
+                "launch/a.launch.py": _LAUNCH,
+                "launch/b.launch.py": _LAUNCH.replace("rviz2", "arm"),
+            },
+            neighbours={
+                "arm": {"package.xml": '<package format="3">\n  <name>arm</name>\n</package>\n'}
             },
         ),
         Example(
@@ -120,7 +152,8 @@ class PackageUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         there = declared(package, for_tests=False)
-        seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
+        active = {item.name for item in manifest.dependencies if item.may_be_active}
+        seen = {package.name, *there.direct, *there.along, *active}
         tag = "exec_depend" if manifest.format > 1 else "run_depend"
         for use in package_uses(package):
             if use.name in seen or use.is_optional or meant_package(package, use):
@@ -128,17 +161,32 @@ class PackageUndeclared(Rule):
             if not exists(package, use.name) or not use.location.path.startswith("launch"):
                 continue
             seen.add(use.name)
-            does = "looks for" if use.executable is None else "starts a node of"
-            does = f"runs {use.program!r} of" if use.program else does
+            is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
+            severity = Severity.WARNING if is_near else Severity.ERROR
+            other = next((item for item in manifest.dependencies if item.name == use.name), None)
+            if other is not None:
+                message = (
+                    f"{_does(use)} {use.name!r}, and line {other.location.line} of package.xml "
+                    f"declares it only if {other.condition}, which leaves out "
+                    f"{target().title}; change the condition"
+                )
+                yield self.report(use.location, message, severity=severity)
+                continue
             message = (
-                f"{does} {use.name!r}, which no dependency in package.xml provides; "
+                f"{_does(use)} {use.name!r}, which no dependency in package.xml provides; "
                 f"add <{tag}>{use.name}</{tag}>"
             )
-            is_near = package.workspace.get(use.name) is not None or use.name.startswith("ros2")
             yield self.report(
                 use.location,
                 message,
                 Fix(f"declare {use.name}", (manifest.insert(tag, use.name),)),
-                severity=Severity.WARNING if is_near else Severity.ERROR,
+                severity=severity,
                 cause=f"dependency {use.name}",
             )
+
+
+def _does(use: Reference) -> str:
+    """Return what a launch file does with a package."""
+    if use.program:
+        return f"runs {use.program!r} of"
+    return "looks for" if use.executable is None else "starts a node of"

@@ -47,6 +47,15 @@ class RemappingWithoutEffect(Rule):
     code = "LF065"
     name = "remapping-without-effect"
     examples = (
+        Example(
+            "a name that keeps its name",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("", "chat_in").replace(
+                    "'other'", "'/chat_in'"
+                ),
+            },
+        ),
         Example("a topic", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "/chatter")}),
         Example(
             "a private topic", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "talker/input")}

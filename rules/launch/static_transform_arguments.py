@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
-from scaffold.api.distributions import of_kind, target
-from scaffold.api.launch import NODES, LaunchFile, markup_files
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api.distributions import of_program, target
+from scaffold.api.launch import (
+    PROGRAM,
+    Attribute,
+    CommandLine,
+    LaunchFile,
+    Word,
+    static_transforms,
+)
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -30,6 +38,25 @@ _LINES = (
 )
 _ROOMY = (
     "\n  {}'1', {}'0', {}'0',\n  {}'0', {}'0', {}'0',  # of yaw first\n  {}'base',\n  {}'laser'"
+)
+_PROGRAMS = (
+    "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    words = ['0', '0', '0', '0', '0', '0']\n"
+    "    node = 'static_transform_publisher'\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='tf2_ros', executable=node,\n"
+    "             arguments='0 0 0 0 0 0 base laser'.split()),\n"
+    "        Node(package='tf2_ros', executable=node, arguments=words + ['base', 'laser']),\n"
+    "        Node(package='tf2_ros', executable=node, arguments=[\n"
+    "            '0', '0', '0', '0', '0', '0', '1', 'a', 'b', '--ros-args', '-r', 'a:=b']),\n"
+    "        ExecuteProcess(cmd=['ros2', 'run', 'tf2_ros', node, *'0 0 0 0 0 0 a b'.split()]),\n"
+    "    ])\n"
+)
+_PROCESS = (
+    "<launch>\n  <executable cmd='ros2 run tf2_ros static_transform_publisher {}1 {}0 {}0 {}0 {}0 "
+    "{}0 {}$(var base frame) {}laser --ros-args -r a:=b'/>\n</launch>\n"
 )
 _FRAMES = ("--frame-id", "--child-frame-id")
 _FLAGS = {
@@ -97,84 +124,239 @@ class StaticTransformArguments(Rule):
             },
             distro="lyrical",
         ),
+        Example(
+            "other ways to give them",
+            {
+                "launch/a.launch.py": _PROGRAMS,
+                "launch/b.launch.xml": _PROCESS.format(*[""] * 8),
+            },
+            Report(
+                "launch/a.launch.py:11:24",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            Report(
+                "launch/a.launch.py:12:60",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            Report(
+                "launch/a.launch.py:13:60",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            Report(
+                "launch/a.launch.py:15:28",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            Report(
+                "launch/b.launch.xml:2:20",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+                fix="write the names",
+            ),
+            fixed={
+                "launch/a.launch.py": _PROGRAMS.replace(
+                    "['0', '0', '0', '0', '0', '0']",
+                    "['--x', '0', '--y', '0', '--z', '0', '--yaw', '0', '--pitch', '0', "
+                    "'--roll', '0']",
+                )
+                .replace(
+                    "'0 0 0 0 0 0 base laser'",
+                    "('--x 0 --y 0 --z 0 --yaw 0 --pitch 0 --roll 0 '\n"
+                    f"{' ' * 24}'--frame-id base --child-frame-id laser')",
+                )
+                .replace(
+                    "words + ['base', 'laser']",
+                    "words + [\n            '--frame-id', 'base',\n"
+                    "            '--child-frame-id', 'laser',\n        ]",
+                )
+                .replace(
+                    "\n            '0', '0', '0', '0', '0', '0', '1', 'a', 'b', "
+                    "'--ros-args', '-r', 'a:=b'",
+                    "\n            '--x', '0',\n            '--y', '0',\n            '--z', '0',"
+                    "\n            '--qx', '0',\n            '--qy', '0',\n            '--qz', '0',"
+                    "\n            '--qw', '1',\n            '--frame-id', 'a',"
+                    "\n            '--child-frame-id', 'b',"
+                    "\n            '--ros-args', '-r', 'a:=b',\n        ",
+                )
+                .replace(
+                    "*'0 0 0 0 0 0 a b'",
+                    "*('--x 0 --y 0 --z 0 --yaw 0 --pitch 0 --roll 0 '\n"
+                    f"{' ' * 62}'--frame-id a --child-frame-id b')",
+                ),
+                "launch/b.launch.xml": _PROCESS.format(*[f"{flag} " for flag in _FLAGS[8]]),
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a list for two programs",
+            {
+                "launch/a.launch.py": "from launch_ros.actions import Node\n\n"
+                "NODE = 'static_transform_publisher'\n"
+                "WORDS = ['0', '0', '0', '0', '0', '0', 'base', 'laser']\n\n\n"
+                "def nodes():\n"
+                "    yield Node(package='tf2_ros', executable=NODE, arguments=WORDS)\n"
+                "    yield Node(package='tf2_ros', executable=NODE,\n"
+                "               arguments=[*WORDS, '--ros-args', '-r', 'a:=b'])\n"
+            },
+            Report(
+                "8:62",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+            ),
+            Report(
+                "10:26",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "the arguments of ROS 1, with a period at the end",
+            {"launch/a.launch.xml": _XML.format("0 0 0 0 0 0 base laser 100")},
+            Report(
+                "2:63",
+                "static_transform_publisher of Lyrical takes no arguments without "
+                "names; write --x, --y and so on",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "what is not all there, and other programs",
+            {
+                "launch/a.launch.py": _LAUNCH.format("*more(), '0', 'a', 'b'"),
+                "launch/b.launch.xml": _PROCESS.format(*[""] * 8).replace("tf2_ros static", "a b"),
+            },
+            distro="lyrical",
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        (change,) = of_kind("launch")
+        change = of_program(PROGRAM)
         if not change.is_removed:
             return
-        message = (
-            f"{change.names[0]} of {target().title} takes no arguments without names; "
-            f"{change.advice}"
-        )
-        for launch in LaunchFile.of_package(package):
-            for location, edits in _written_in_python(launch, change.names[0]):
-                yield self.report(location, message, Fix("write the names", edits))
-        for file in markup_files(package):
-            for node in file.nodes:
-                given = node.arguments
-                if node.executable is None or node.executable.value not in change.names:
-                    continue
-                words = given.value.split() if given is not None else []
-                flags = _FLAGS.get(len(words))
-                if given is None or flags is None or any(item.startswith("--") for item in words):
-                    continue
-                edit = _edit(package, given.location, given.value, _named(words, flags))
-                fix = Fix("write the names", (edit,)) if edit is not None else None
-                yield self.report(given.location, message, fix)
+        message = f"{PROGRAM} of {target().title} takes no arguments without names; {change.advice}"
+        for transform in static_transforms(package):
+            words = transform.words
+            flags = _FLAGS.get(len(words))
+            if flags is None or any(word.text.startswith("--") for word in words):
+                continue
+            edits: tuple[Edit, ...] = ()
+            if any(word.is_no_number for word in words[: -len(_FRAMES)]):
+                pass  # arguments in another order, such as those of ROS 1
+            elif transform.attribute is not None:
+                edits = _in_markup(package, transform.attribute, words, flags)
+            else:
+                edits = _in_python(transform, flags)
+            fix = Fix("write the names", edits) if edits else None
+            yield self.report(transform.given, message, fix)
 
 
-def _written_in_python(
-    launch: LaunchFile, name: str
-) -> Iterator[tuple[Location, tuple[Edit, ...]]]:
-    for call in launch.find(*NODES):
-        executable, given = call.given.get("executable"), call.given.get("arguments")
-        match executable, given:
-            case ast.Constant(value=written), ast.List(elts=values) if written == name:
-                flags = _FLAGS.get(len(values))
-                if flags is not None and not any(map(_is_flag, values)):
-                    yield launch.location(given), tuple(_edits(launch, given, flags))
+def _in_markup(
+    package: Package, attribute: Attribute, words: Sequence[Word], flags: Sequence[str]
+) -> tuple[Edit, ...]:
+    """Put the names into the value of an attribute, where it is written as it is read."""
+    source, at, value = package.source(attribute.location.path), attribute.location, attribute.value
+    start = source.offset(at.line, at.column)
+    if not source.text.startswith(value, start):
+        return ()
+    return tuple(
+        Edit(at.path, start + word.span[0], start + word.span[0], f"{flag} ")
+        for word, flag in zip(words, flags, strict=True)
+        if word.span is not None
+    )
 
 
-def _named(words: Sequence[str], flags: Sequence[str]) -> str:
-    return " ".join(f"{flag} {word}" for flag, word in zip(flags, words, strict=True))
-
-
-def _edit(package: Package, at: Location, old: str, new: str) -> Edit | None:
-    """Replace the value of an attribute, where it is written as it is read."""
-    lines = package.source(at.path).text.split("\n")
-    start = sum(len(line) + 1 for line in lines[: at.line - 1]) + at.column - 1
-    is_plain = lines[at.line - 1].startswith(old, at.column - 1)
-    return Edit(at.path, start, start + len(old), new) if is_plain else None
-
-
-def _is_flag(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and str(node.value).startswith("--")
-
-
-def _edits(launch: LaunchFile, given: ast.List, flags: tuple[str, ...]) -> Iterator[Edit]:
-    """Put the names before the values; in a list that gets too wide, each pair on a line."""
-    text = launch.module.source.text
-    start, end = launch.module.span(given)
-    spans = [launch.module.span(value) for value in given.elts]
-    added = [
-        Edit(launch.path, place, place, f"'{flag}', ")
-        for (place, _), flag in zip(spans, flags, strict=True)
-    ]
-    above = text.rfind("\n", 0, start) + 1
-    below = text.find("\n", end)
-    parts = [text[above : spans[0][0]]]
-    for (first, _), (after, _), flag in zip(
-        spans, [*spans[1:], (below, below)], flags, strict=True
+def _in_python(transform: CommandLine, flags: Sequence[str]) -> tuple[Edit, ...]:
+    launch, nodes = transform.launch, [word.node for word in transform.words]
+    values = [node for node in nodes if node is not None]
+    if launch is None or len(values) < len(flags):
+        return ()
+    if len({*values}) == 1:
+        return _in_text(launch, values[0], flags)
+    if len({*values}) < len(values) or not all(
+        _is_for_this_alone(launch, transform.expression, value) for value in values
     ):
-        parts.append(f"'{flag}', {text[first:after]}")
-    if max(map(len, "".join(parts).split("\n"))) <= _WIDTH or "#" in text[start:end]:
+        return ()
+    return tuple(
+        edit
+        for holder, pairs in groupby(
+            zip(values, flags, strict=True), key=lambda pair: launch.module.parent(pair[0])
+        )
+        for edit in _in_holder(launch, holder, [*pairs])
+    )
+
+
+def _is_for_this_alone(launch: LaunchFile, expression: ast.expr | None, value: ast.expr) -> bool:
+    """Tell whether nothing else uses the list that a value is written in."""
+    names = [node for node in ast.walk(expression or value) if isinstance(node, ast.Name)]
+    around = [value, *launch.module.parents(value)]
+    if expression not in around:
+        statement = next(node for node in around if isinstance(node, ast.stmt))
+        targets = statement.targets if isinstance(statement, ast.Assign) else []
+        if not targets or not all(isinstance(item, ast.Name) for item in targets):
+            return False
+        names += [item for item in targets if isinstance(item, ast.Name)]
+    elif isinstance(expression, ast.List):
+        return True
+    return all(
+        sum(isinstance(use.ctx, ast.Load) for use in launch.module.index.names(name.id)) == 1
+        for name in names
+    )
+
+
+def _in_text(launch: LaunchFile, node: ast.expr, flags: Sequence[str]) -> tuple[Edit, ...]:
+    """Put the names into the text of ``'...'.split()``; it gets too wide for one line."""
+    match node:
+        case ast.Call(
+            func=ast.Attribute(value=ast.Constant(value=str(text)) as written, attr="split"),
+            args=[],
+            keywords=[],
+        ):
+            words = text.split()
+            start, end = launch.module.span(written)
+            if len(words) == len(flags) and launch.module.source.text[start + 1 : end - 1] == text:
+                pairs = [f"{flag} {word}" for flag, word in zip(flags, words, strict=True)]
+                indent = " " * (launch.location(written).column)
+                values, frames = " ".join(pairs[:-2]), " ".join(pairs[-2:])
+                new = f"('{values} '\n{indent}'{frames}')"
+                return (Edit(launch.path, start, end, new),)
+    return ()
+
+
+def _in_holder(
+    launch: LaunchFile, holder: ast.AST | None, pairs: Sequence[tuple[ast.expr, str]]
+) -> Iterator[Edit]:
+    """Put the names before the values; in a list that gets too wide, each pair on a line."""
+    module, text = launch.module, launch.module.source.text
+    spans = [module.span(value) for value, _ in pairs]
+    added = [
+        Edit(launch.path, start, start, f"'{flag}', ")
+        for (start, _), (_, flag) in zip(spans, pairs, strict=True)
+    ]
+    if not isinstance(holder, ast.List):
+        yield from added
+        return
+    start, end = module.span(holder)
+    above, below = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+    wide = text[above:below]
+    for edit in reversed(added):
+        wide = wide[: edit.start - above] + edit.text + wide[edit.start - above :]
+    if max(map(len, wide.split("\n"))) <= _WIDTH or "#" in text[start:end]:
         yield from added
         return
     line = text[above:start]
     indent = line[: len(line) - len(line.lstrip())]
-    pairs = [
-        f"{indent}    '{flag}', {text[first:last]},\n"
-        for (first, last), flag in zip(spans, flags, strict=True)
+    lines = [
+        text[start + 1 : spans[0][0]].strip().rstrip(","),
+        *(f"'{flag}', {text[slice(*span)]}" for span, (_, flag) in zip(spans, pairs, strict=True)),
+        text[spans[-1][1] : end - 1].strip(", \n"),
     ]
-    yield Edit(launch.path, start, end, f"[\n{''.join(pairs)}{indent}]")
+    body = "".join(f"{indent}    {line},\n" for line in lines if line)
+    yield Edit(launch.path, start, end, f"[\n{body}{indent}]")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, closest_name
-from scaffold.api.launch import LaunchFile, markup_files
+from scaffold.api.distributions import of_program
+from scaffold.api.launch import PROGRAM, UNSAID, Word, static_transforms
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -17,14 +19,19 @@ _XML = '<launch>\n  <node pkg="tf2_ros" exec="static_transform_publisher" args="
 _VALUES = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw", "--roll", "--pitch", "--yaw")
 _FRAMES = ("--frame-id", "--child-frame-id")
 _POSITIONAL = (8, 9)
-_PROGRAM = "static_transform_publisher"
+_TURN = 6.3
+"""A little more than a turn."""
 
 
 class StaticTransformMisused(Rule):
     """A launch file gives static_transform_publisher options that it does not know, or too few.
 
+    Or an angle in degrees, or no number where one belongs, as with the arguments of ROS 1 that end
+    with a period.
+
     **Why.** It ends at once, ``must specify --frame-id``: the frame is missing, and nodes wait for
-    a transform that never comes.
+    a transform that never comes. Angles are in radians: a frame that is turned by 90 of them points
+    anywhere.
 
     **Fix.** ``--x 0.1 --yaw 1.57 --frame-id base_link --child-frame-id laser``, each value in a
     string of its own.
@@ -54,7 +61,7 @@ class StaticTransformMisused(Rule):
             },
             Report(
                 "launch/a.launch.py:8:25",
-                "static_transform_publisher has no option '--frame_id': it ends at "
+                "'--frame_id' is no option: static_transform_publisher ends at "
                 "once; closest: '--frame-id'",
             ),
             Report(
@@ -63,7 +70,71 @@ class StaticTransformMisused(Rule):
             ),
             Report(
                 "launch/c.launch.xml:2:63",
-                "static_transform_publisher has no option '--tx': it ends at once; closest: '--x'",
+                "'--tx' is no option: static_transform_publisher ends at once; closest: '--x'",
+            ),
+        ),
+        Example(
+            "options that Lyrical passes over",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'--tx', '1', '--frame-id', 'a', '--child-frame-id', 'b'"
+                ),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:8:25",
+                "'--tx' is no option: static_transform_publisher ignores it; closest: '--x'",
+            ),
+            Report(
+                "launch/b.launch.py:8:25",
+                "'0.1' follows no option: static_transform_publisher ignores it",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "a process, and values that are not known",
+            {
+                "launch/a.launch.xml": "<launch>\n  <executable cmd='ros2 run tf2_ros "
+                "static_transform_publisher --x 1 --frame-id a'/>\n</launch>\n",
+                "launch/b.launch.xml": _XML.format("$(var x) --frame-id a"),
+                "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id $(var b c)"),
+                "launch/d.launch.xml": _XML.format("0 0 0 $(var rotation) a b"),
+            },
+            Report(
+                "launch/a.launch.xml:2:20",
+                "no '--child-frame-id': static_transform_publisher ends at once, it must be given",
+            ),
+        ),
+        Example(
+            "degrees",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "'--yaw', '90', '--frame-id', 'a', '--child-frame-id', 'b'"
+                ),
+                "launch/b.launch.xml": _XML.format("7 8 9 -6.28 0 180 a b"),
+                "launch/c.launch.xml": _XML.format("7 8 9 10 11 12 13 a b"),
+            },
+            Report("launch/a.launch.py:8:34", "angles are in radians: 90 is more than a turn"),
+            Report("launch/b.launch.xml:2:63", "angles are in radians: 180 is more than a turn"),
+        ),
+        Example(
+            "the arguments of ROS 1, with a period at the end; no number",
+            {
+                "launch/a.launch.py": _LAUNCH.format("*'0 0 0 0 0 0 a b 100'.split()"),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "'--yaw', 'pi', '--frame-id', 'a', '--child-frame-id', 'b'"
+                ),
+                "launch/c.launch.xml": _XML.format("1e-1 .5 -.5 +0 inf 1.0f 1 a b"),
+            },
+            Report(
+                "launch/a.launch.py:8:26",
+                "'a' is no number: static_transform_publisher ends at once",
+            ),
+            Report(
+                "launch/b.launch.py:8:34",
+                "'pi' is no number: static_transform_publisher ends at once",
             ),
         ),
         Example(
@@ -86,8 +157,8 @@ class StaticTransformMisused(Rule):
             },
             Report(
                 "launch/a.launch.py:7:9",
-                "5 arguments, static_transform_publisher takes 8 or 9 of them: it "
-                "ends at once; write --frame-id, --child-frame-id and --x, --y, ...",
+                "5 arguments without names: static_transform_publisher ends at "
+                "once; write --frame-id, --child-frame-id and --x, --y, ...",
             ),
             Report(
                 "launch/b.launch.py:7:9",
@@ -99,61 +170,79 @@ class StaticTransformMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for launch in LaunchFile.of_package(package):
-            for call in launch.find("Node"):
-                if launch.text(call, "executable") != _PROGRAM or "arguments" not in call.given:
-                    continue
-                elements = launch.evaluator.elements(call.given["arguments"])
-                words = [launch.evaluator.joined_text(item.node) for item in elements.items]
-                if not elements.complete or not elements.items:
-                    continue
-                # What is not known is a value; an option is written as it is.
-                texts = [word if isinstance(word, str) else "$" for word in words]
-                places = [launch.location(item.node) for item in elements.items]
-                yield from self._check(package, texts, places, call.location)
-        for file in markup_files(package):
-            for node in file.nodes:
-                arguments = node.arguments
-                program = node.executable
-                if program is None or program.value != _PROGRAM or arguments is None:
-                    continue
-                texts = arguments.value.split()
-                if "$(" in arguments.value:
-                    continue
-                places = [arguments.location] * len(texts)
-                yield from self._check(package, texts, places, arguments.location)
-
-    def _check(
-        self, package: Package, words: Sequence[str], places: Sequence[Location], whole: Location
-    ) -> Iterator[Diagnostic]:
-        words = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
-        options = [index for index, word in enumerate(words) if word.startswith("--")]
-        if not options:
-            if len(words) not in _POSITIONAL and "$" not in words:
+        for transform in static_transforms(package):
+            for angle in _angles(transform.words):
+                if _is_beyond_a_turn(angle.text):
+                    message = f"angles are in radians: {angle.text} is more than a turn"
+                    yield self.report(angle.location, message)
+            whole = transform.given if transform.attribute is not None else transform.location
+            options = [n for n, word in enumerate(transform.words) if word.text.startswith("--")]
+            for word in _refused(transform.words):
+                message = f"{word.text!r} is no number: {PROGRAM} ends at once"
+                yield self.report(word.location, message)
+            if options:
+                yield from self._check_options(package, transform.words, options, whole)
+                continue
+            count = len(transform.words)
+            if count not in _POSITIONAL and all(word.text != UNSAID for word in transform.words):
                 message = (
-                    f"{len(words)} arguments, {_PROGRAM} takes 8 or 9 of them: it ends at once; "
+                    f"{count} arguments without names: {PROGRAM} ends at once; "
                     "write --frame-id, --child-frame-id and --x, --y, ..."
                 )
                 yield self.report(whole, message)
-            return
-        unknown = [index for index in options if words[index] not in (*_VALUES, *_FRAMES, "--help")]
+
+    def _check_options(
+        self, package: Package, words: Sequence[Word], options: Sequence[int], whole: Location
+    ) -> Iterator[Diagnostic]:
+        texts = [word.text for word in words]
+        loose = [n for n in range(len(words)) if n not in options and n - 1 not in options]
+        if any(texts[index] == UNSAID for index in loose):
+            return  # which may be an option
+        change = of_program(PROGRAM)
+        then = "ignores it" if change.is_removed else "ends at once"
+        unknown = [index for index in options if texts[index] not in (*_VALUES, *_FRAMES, "--help")]
         for index in unknown:
-            closest = closest_name(package, words[index], (*_VALUES, *_FRAMES), 0.6)
+            closest = closest_name(package, texts[index], (*_VALUES, *_FRAMES), 0.6)
             hint = f"; closest: {closest!r}" if closest else ""
-            message = f"{_PROGRAM} has no option {words[index]!r}: it ends at once{hint}"
-            yield self.report(places[index], message)
-        for index, word in enumerate(words):
-            if index not in options and index - 1 not in options and not unknown:
-                message = f"{word!r} follows no option: {_PROGRAM} ends at once"
-                yield self.report(places[index], message)
+            message = f"{texts[index]!r} is no option: {PROGRAM} {then}{hint}"
+            yield self.report(words[index].location, message)
+        for index in loose if not unknown else ():
+            message = f"{texts[index]!r} follows no option: {PROGRAM} {then}"
+            yield self.report(words[index].location, message)
         for frame in _FRAMES:
-            if frame not in words and not unknown:
-                yield self.report(whole, f"no {frame!r}: {_PROGRAM} ends at once, it must be given")
-        given = {words[index] for index in options}
+            if frame not in texts and not unknown:
+                yield self.report(whole, f"no {frame!r}: {PROGRAM} ends at once, it must be given")
+        given = {texts[index] for index in options}
         if given & {"--roll", "--pitch", "--yaw"} and given & {"--qx", "--qy", "--qz", "--qw"}:
-            message = f"angles and a quaternion: {_PROGRAM} ends at once; give one of them"
+            message = f"angles and a quaternion: {PROGRAM} ends at once; give one of them"
             yield self.report(whole, message)
-        frames = [words[words.index(frame) + 1 :][:1] for frame in _FRAMES if frame in words]
-        if len(frames) == len(_FRAMES) and frames[0] == frames[1] != ["$"]:
+        frames = [texts[texts.index(frame) + 1 :][:1] for frame in _FRAMES if frame in texts]
+        if len(frames) == len(_FRAMES) and frames[0] == frames[1] != [UNSAID]:
             message = f"{frames[0][0]!r} is its own parent: tf2 ignores the transform"
             yield self.report(whole, message)
+
+
+def _refused(words: Sequence[Word]) -> Iterator[Word]:
+    """Yield the words that are to be numbers and are none."""
+    if of_program(PROGRAM).is_removed:
+        return  # unnamed arguments are refused as such
+    values = [value for option, value in pairwise(words) if option.text in _VALUES]
+    if len(words) in _POSITIONAL and not any(word.text.startswith("--") for word in words):
+        values = list(words[: -len(_FRAMES)])
+    yield from (value for value in values if value.is_no_number)
+
+
+def _angles(words: Sequence[Word]) -> Sequence[Word]:
+    """Return the words that are angles."""
+    if len(words) == _POSITIONAL[0] and not any(word.text.startswith("--") for word in words):
+        return words[3:6]
+    return [
+        value for option, value in pairwise(words) if option.text in {"--roll", "--pitch", "--yaw"}
+    ]
+
+
+def _is_beyond_a_turn(text: str) -> bool:
+    try:
+        return abs(float(text)) > _TURN
+    except ValueError:
+        return False

@@ -54,6 +54,18 @@ class ValueRefusedByLaunch(LaunchRule):
             ),
         ),
         Example(
+            "the name of a type",
+            {
+                "launch/a.launch.py": "from launch.substitutions import LaunchConfiguration\n"
+                "from launch_ros.parameter_descriptions import ParameterValue\n\n\n"
+                "def generate_launch_description():\n"
+                "    rate = LaunchConfiguration('rate', default='1')\n"
+                "    return [ParameterValue(rate, value_type=int),\n"
+                "            ParameterValue(rate, value_type='int')]\n"
+            },
+            Report("8:45", "value_type must be a type, not a string: write int"),
+        ),
+        Example(
             "other kinds",
             {
                 "launch/a.launch.py": _LAUNCH.format("fast", "['ls'], respawn='true'", "True"),
@@ -97,6 +109,9 @@ def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) ->
             return _choices_problem(launch, call, node)
         case "ExecuteProcess", "cmd":
             return _command_problem(launch, call, node)
+        case "ParameterValue", "value_type":
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                return f"value_type must be a type, not a string: write {node.value}"
         case kind, "respawn" if kind in {*NODES, "ExecuteProcess"}:
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 return "respawn must be a bool, not a string: write True or False"

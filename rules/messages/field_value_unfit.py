@@ -194,6 +194,37 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
+            "all results of a function for one of them",
+            {
+                "talker.py": "import cv2\nfrom sensor_msgs.msg import CompressedImage\n\n\n"
+                "def compressed(frame):\n"
+                "    image = CompressedImage()\n"
+                "    image.data = cv2.imencode('.jpg', frame)[1].tobytes()\n"
+                "    image.data = cv2.imencode('.jpg', frame)\n"
+                "    return image\n"
+            },
+            Report(
+                "8:18",
+                "'data' of sensor_msgs/msg/CompressedImage is uint8[], but "
+                "cv2.imencode('.jpg', frame) is a tuple of several results, not a "
+                "list",
+            ),
+        ),
+        Example(
+            "one message for a list of them",
+            {
+                "talker.py": "from geometry_msgs.msg import PoseStamped\n"
+                "from nav_msgs.msg import Path\n\n"
+                "pose = PoseStamped()\npath = Path()\n"
+                "path.poses = [pose]\npath.poses = pose\n"
+            },
+            Report(
+                "7:14",
+                "'poses' of nav_msgs/msg/Path is geometry_msgs/PoseStamped[], but "
+                "pose is one geometry_msgs/msg/PoseStamped, not a list",
+            ),
+        ),
+        Example(
             "a 2-D array for a flat one",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"

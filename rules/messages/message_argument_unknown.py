@@ -17,12 +17,12 @@ class MessageArgumentUnknown(MessageRule):
     """A message is constructed with a keyword that is not a field, or with positional arguments.
 
     **Why.** An unknown keyword is silently ignored: an empty message is published. Humble raises
-    an ``AssertionError``. A positional argument raises ``TypeError``.
+    an ``AssertionError``, Lyrical a ``TypeError``. A positional argument raises ``TypeError``.
 
     **Fix.** Write ``field=value``, with a field of the definition.
 
-    **Source.** ``rosidl_generator_py``, ``resource/_msg.py.em``: keywords that are not
-    fields are rejected only when ``ROS_PYTHON_CHECK_FIELDS`` is set.
+    **Source.** ``rosidl_generator_py``, ``resource/_msg.py.em``: on Jazzy and Kilted keywords that
+    are not fields are rejected only when ``ROS_PYTHON_CHECK_FIELDS`` is set.
     """
 
     code = "MS003"
@@ -51,6 +51,26 @@ class MessageArgumentUnknown(MessageRule):
             distro="humble",
         ),
         Example(
+            "misspelled, on Lyrical",
+            {"talker.py": _PREFIX.format("dta='hello'")},
+            Report(
+                "3:18",
+                "std_msgs/msg/String has no field 'dta': TypeError; did you mean "
+                "'data'? (definition: std_msgs 5.9.2 of ROS 2 Lyrical)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "asked to look at values, on Humble",
+            {"talker.py": _PREFIX.format("data='hello', check_fields=True")},
+            Report(
+                "3:32",
+                "std_msgs/msg/String has no field 'check_fields': AssertionError; "
+                "it has data (definition: std_msgs 4.9.1 of ROS 2 Humble)",
+            ),
+            distro="humble",
+        ),
+        Example(
             "positional",
             {"talker.py": _PREFIX.format("'hello'")},
             Report(
@@ -73,14 +93,14 @@ class MessageArgumentUnknown(MessageRule):
 
 def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     has = [field.name for field in owner.section.fields]
+    more = ["check_fields"] if target().fact("messages.has_check_fields") else []
     if call.args and not isinstance(call.args[0], ast.Starred):
         example = f"; write {has[0]}=..." if has else ""
         yield call.args[0], f"{owner.name} takes only keyword arguments: TypeError{example}"
     for word in call.keywords:
-        if word.arg is not None and word.arg not in {*has, "check_fields"}:
+        if word.arg is not None and word.arg not in {*has, *more}:
             hint = closest_word(word.arg, has) or f"; it has {', '.join(has[:5]) or 'no fields'}"
-            is_checked = target().fact("messages.checks_fields")
-            effect = "AssertionError" if is_checked else "the value is silently dropped"
+            effect = target().fact("messages.unknown_keyword")
             message = (
                 f"{owner.name} has no field {word.arg!r}: {effect}{hint} "
                 f"(definition: {owner.origin})"

@@ -38,6 +38,7 @@ _RANGES: Mapping[tuple[str, str], tuple[float, float, str]] = {
     ("sensor_msgs/msg/NavSatFix", "longitude"): (-180, 180, "in degrees from -180 to 180"),
     ("vision_msgs/msg/ObjectHypothesis", "score"): (0, 1, "a share from 0 to 1"),
     ("builtin_interfaces/msg/Time", "nanosec"): (0, 999_999_999, "less than a second"),
+    ("builtin_interfaces/msg/Duration", "nanosec"): (0, 999_999_999, "less than a second"),
     **{("std_msgs/msg/ColorRGBA", name): (0, 1, "a share from 0 to 1") for name in "rgba"},
     **{("geometry_msgs/msg/Quaternion", name): (-1, 1, "between -1 and 1") for name in "xyzw"},
 }

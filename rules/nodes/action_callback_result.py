@@ -78,6 +78,15 @@ class ActionCallbackResult(MessageRule):
                 "result for the action server of line 9: AssertionError",
             ),
         ),
+        Example(
+            "the class of the result",
+            {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result")},
+            Report(
+                "17:9",
+                "returns the class Fibonacci.Result, not the result for the action "
+                "server of line 9: AssertionError",
+            ),
+        ),
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -129,6 +138,8 @@ def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, an
     if answer:
         other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
         return "" if other == answer else f"a {other}"
+    if isinstance(value, ast.Attribute) and types.class_of(value) is not None:
+        return f"the class {types.module.text(value)}"
     message = types.type_of(value)
     if message is None or types.definitions.find(server.interface or "") is None:
         return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, closest_name
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, closest_name
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import (
     NODE,
@@ -16,11 +16,12 @@ from scaffold.api.rclpy import (
     is_read_in_full,
     known_names,
     names_of_bases,
+    only_while_stopping,
     used_by_classes,
 )
 
 _NODE = (
-    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
     "    def __init__(self):\n"
     "        super().__init__('talker')\n"
@@ -28,6 +29,10 @@ _NODE = (
     "        self.create_timer(1.0, self.{})\n\n"
     "    def on_timer(self):\n"
     "        self.{}.publish(String())\n"
+)
+_MAIN = (
+    "\n\ndef main():\n    rclpy.init()\n    talker = Talker()\n    rclpy.spin(talker)\n"
+    "    talker.destroy()\n"
 )
 _ELSEWHERE = {
     "advertise": "create_publisher",
@@ -56,6 +61,7 @@ class AttributeOfNodeUnknown(RclpyRule):
 
     code = "ND046"
     name = "attribute-of-node-unknown"
+    other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
     examples = (
         Example("defined", {"talker.py": _NODE.format("on_timer", "pub")}),
         Example(
@@ -66,11 +72,32 @@ class AttributeOfNodeUnknown(RclpyRule):
             },
         ),
         Example(
+            "after spin, and in a program that goes on with its work there",
+            {
+                "talker.py": _NODE.format("on_timer", "pub") + _MAIN,
+                "worker.py": _NODE.format("on_timer", "pub").replace(
+                    "String())", "rclpy.shutdown())"
+                )
+                + _MAIN,
+            },
+            Report(
+                "talker.py:20:5",
+                "neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
+                "you mean 'destroy_rate'?",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "worker.py:20:5",
+                "neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
+                "you mean 'destroy_rate'?",
+            ),
+        ),
+        Example(
             "misspelled",
             {"talker.py": _NODE.format("on_tick", "publisher")},
-            Report("9:32", "neither Talker nor rclpy's Node has 'on_tick': AttributeError"),
+            Report("10:32", "neither Talker nor rclpy's Node has 'on_tick': AttributeError"),
             Report(
-                "12:9",
+                "13:9",
                 "neither Talker nor rclpy's Node has 'publisher': AttributeError; "
                 "did you mean 'publishers'?",
             ),
@@ -97,7 +124,10 @@ class AttributeOfNodeUnknown(RclpyRule):
             closest = _ELSEWHERE.get(name) or _closest(package, name, names)
             hint = f"; did you mean {closest!r}?" if closest else ""
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
-            yield self.report(node.facts.module.location(attribute), message)
+            module = node.facts.module
+            is_late = only_while_stopping(module, attribute)
+            severity = Severity.WARNING if is_late else Severity.ERROR
+            yield self.report(module.location(attribute), message, severity=severity)
 
 
 def _names_of_rclpy() -> Iterator[str]:

@@ -78,6 +78,20 @@ class GoalNeverCanceled(RclpyRule):
             ),
         ),
         Example(
+            "canceled before it may be",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS).replace(
+                    "        return CancelResponse",
+                    "        goal_handle.canceled()\n        return CancelResponse",
+                )
+            },
+            Report(
+                "25:9",
+                "the goal is canceled only after the cancel callback: canceled() "
+                "raises RCLError here; return CancelResponse.ACCEPT",
+            ),
+        ),
+        Example(
             "all requests are rejected",
             {"server.py": _NODE.format("", _THREADS)},
             Report(
@@ -89,6 +103,7 @@ class GoalNeverCanceled(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_too_early(file)
         if not file.module.mentions("is_cancel_requested") or file.module.in_tests:
             yield from self._check_unasked(file)
             return
@@ -109,20 +124,38 @@ class GoalNeverCanceled(RclpyRule):
                 )
                 yield self.report(file.module.location(asked), message)
 
+    def _check_too_early(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        """Check the callbacks that say whether a goal may be canceled."""
+        for server in file.action_servers if not file.module.in_tests else ():
+            given = server.argument("cancel_callback")
+            function = file.callback(given.node).function if given is not None else None
+            for call in _cancels(file, function) if function is not None else ():
+                message = (
+                    "the goal is canceled only after the cancel callback: canceled() raises "
+                    "RCLError here; return CancelResponse.ACCEPT"
+                )
+                yield self.report(file.module.location(call), message)
+
     def _check_unasked(self, file: RclpyFile) -> Iterator[Diagnostic]:
         """Check a file that never asks whether a goal is to be canceled."""
         for server in file.action_servers if not file.module.in_tests else ():
             for function in _work(file, server):
-                for call in file.calls_in(function):
-                    func = call.func
-                    if not isinstance(func, ast.Attribute) or func.attr != "canceled":
-                        continue
-                    if class_of(file, func.value) == GOAL_HANDLE:
-                        message = (
-                            "nobody asked to cancel the goal: canceled() raises RCLError; "
-                            "check is_cancel_requested, or call abort()"
-                        )
-                        yield self.report(file.module.location(call), message)
+                for call in _cancels(file, function):
+                    message = (
+                        "nobody asked to cancel the goal: canceled() raises RCLError; "
+                        "check is_cancel_requested, or call abort()"
+                    )
+                    yield self.report(file.module.location(call), message)
+
+
+def _cancels(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[ast.Call]:
+    """Yield the calls of ``canceled()`` of goals in a function."""
+    for call in file.calls_in(function):
+        func = call.func
+        if not isinstance(func, ast.Attribute) or func.attr != "canceled":
+            continue
+        if class_of(file, func.value) == GOAL_HANDLE:
+            yield call
 
 
 def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile, log_calls
 
 _NODE = (
@@ -29,6 +29,7 @@ class LogFPrefixMissing(RclpyRule):
 
     code = "ND102"
     name = "log-f-prefix-missing"
+    severity = Severity.WARNING
     examples = (
         Example("an f-string", {"talker.py": _NODE.format("f'heard {text}'")}),
         Example("braces around no variable", {"talker.py": _NODE.format("'heard {number}'")}),

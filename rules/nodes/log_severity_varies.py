@@ -35,6 +35,18 @@ class LogSeverityVaries(RclpyRule):
     examples = (
         Example("separate calls", {"talker.py": _NODE.format(_BRANCHES)}),
         Example(
+            "two names of one severity, and a severity that is chosen once",
+            {
+                "talker.py": _NODE.format(
+                    "        log = self.get_logger()\n"
+                    "        warn = log.warning if hasattr(log, 'warning') else log.warn\n"
+                    "        warn('done')\n"
+                    "\n\nlogger = rclpy.logging.get_logger('a')\n"
+                    "log = logger.debug if DEBUG else logger.info\n"
+                ),
+            },
+        ),
+        Example(
             "a conditional method",
             {"talker.py": _NODE.format(_CHOICE)},
             Report("6:15", "log statement with two severities: ValueError; write two calls"),
@@ -44,6 +56,8 @@ class LogSeverityVaries(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         module = file.module
         for node in module.walk(ast.IfExp):
+            if module.enclosing_function(node) is None:
+                continue  # chosen once, for the whole run
             chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
             if None not in chosen and len(chosen) > 1:
                 message = "log statement with two severities: ValueError; write two calls"
@@ -52,7 +66,11 @@ class LogSeverityVaries(RclpyRule):
     def _severity(self, node: ast.expr) -> str | None:
         match node:
             case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
-                return node.attr if node.attr in LOG_METHODS else None
+                method = node.attr
             case ast.Attribute(value=ast.Name(id=name)) if "log" in name.lower():
-                return node.attr if node.attr in LOG_METHODS else None
-        return None
+                method = node.attr
+            case _:
+                return None
+        if method not in LOG_METHODS:
+            return None
+        return "warning" if method == "warn" else method

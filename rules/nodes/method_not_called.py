@@ -23,6 +23,23 @@ _NODE = (
     "        self.destroy_node{}\n"
     "        rclpy.shutdown{}\n"
 )
+_HEAD = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "def main(node: Node):\n"
+    "    client = rclpy.create_node('asker').create_client(Trigger, 'reset')\n"
+)
+_VALUES = _HEAD + (
+    "    log = rclpy.create_node('talker').get_logger()\n"
+    "    say = getattr(log, 'warning', None) or log.warn\n"
+    "    call = rclpy.ok() and client.call_async\n"
+    "    say(f'{call}')\n"
+)
+_PARTS = _HEAD + (
+    "    is_ready = client.service_is_ready and rclpy.ok()\n"
+    "    if (rclpy.ok or client.service_is_ready) and not is_ready:\n"
+    "        return 'early' if client.service_is_ready else 'late'\n"
+    "    return ''\n"
+)
 
 
 class MethodNotCalled(RclpyRule):
@@ -52,6 +69,24 @@ class MethodNotCalled(RclpyRule):
             Report("13:9", "'destroy_node' is a method that is not called; write destroy_node()"),
             Report("14:9", "rclpy.shutdown is not called; add the parentheses"),
         ),
+        Example("as values, one of which is called later", {"talker.py": _VALUES}),
+        Example(
+            "in parts of conditions",
+            {"talker.py": _PARTS},
+            Report(
+                "8:16",
+                "'service_is_ready' is a method that is not called; write service_is_ready()",
+            ),
+            Report("9:9", "rclpy.ok is a function: always true; write rclpy.ok()"),
+            Report(
+                "9:21",
+                "'service_is_ready' is a method that is not called; write service_is_ready()",
+            ),
+            Report(
+                "10:27",
+                "'service_is_ready' is a method that is not called; write service_is_ready()",
+            ),
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -76,12 +111,25 @@ def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
     match file.module.parent(node):
         case ast.Attribute(attr=attr):
             return not attr.startswith("__") and attr not in _FUNCTION_HAS
-        case ast.If(test=test) | ast.While(test=test):
-            return test is node
-        case ast.UnaryOp(op=ast.Not()) | ast.BoolOp() | ast.Expr():
+        case ast.Expr():
             return True
-        case _:
-            return False
+    return _is_condition(file, node)
+
+
+def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether it only matters that a value is true.
+
+    Outside of conditions, ``or`` may choose a method: ``getattr(log, "info", None) or log.warn``.
+    """
+    match file.module.parent(node):
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
+            return test is node
+        case ast.UnaryOp(op=ast.Not()):
+            return True
+        case ast.BoolOp(op=op, values=values) as both:
+            is_tested = isinstance(op, ast.And) and values[-1] is not node
+            return is_tested or _is_condition(file, both)
+    return False
 
 
 def _is_method_of_rclpy(file: RclpyFile, node: ast.Attribute) -> bool:

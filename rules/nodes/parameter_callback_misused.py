@@ -23,7 +23,7 @@ _NODE = (
 
 
 class ParameterCallbackMisused(RclpyRule):
-    """A parameter callback is called instead of passed, or takes its list of parameters for one.
+    """A parameter callback is called, or takes its list for one, or a type for a text or a number.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
     'list' object has no attribute 'value'`` as soon as a parameter is set. Until the callback
@@ -107,6 +107,38 @@ class ParameterCallbackMisused(RclpyRule):
             Report("13:22", "'parameters' is a list of parameters, not a dict: AttributeError"),
             Report("14:28", "'parameters' is a list of parameters, not of pairs: TypeError"),
         ),
+        Example(
+            "the type of a parameter",
+            {
+                "tuner.py": "from rcl_interfaces.msg import ParameterType, SetParametersResult\n"
+                "from rclpy.node import Node\nfrom rclpy.parameter import Parameter\n\n\n"
+                "class Tuner(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('tuner')\n"
+                "        self.declare_parameter('gain', 1.0)\n"
+                "        self.add_on_set_parameters_callback(self.check)\n\n"
+                "    def check(self, parameters):\n"
+                "        for item in parameters:\n"
+                "            if item.type_ == Parameter.Type.DOUBLE:\n"
+                "                continue\n"
+                "            if item.type_ != ParameterType.PARAMETER_DOUBLE:\n"
+                "                return SetParametersResult(successful=False)\n"
+                "            if item.type_.value == 3 or item.type_ == 'double':\n"
+                "                continue\n"
+                "        return SetParametersResult(successful=True)\n"
+            },
+            Report(
+                "16:16",
+                "type_ is a Parameter.Type, which never equals "
+                "ParameterType.PARAMETER_DOUBLE; compare with "
+                "Parameter.Type.DOUBLE, for instance",
+            ),
+            Report(
+                "18:41",
+                "type_ is a Parameter.Type, which never equals 'double'; compare "
+                "with Parameter.Type.DOUBLE, for instance",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -125,6 +157,8 @@ class ParameterCallbackMisused(RclpyRule):
                     "is given",
                     severity=Severity.WARNING,
                 )
+            for compared, problem in _type_comparisons(file, function):
+                yield self.report(file.module.location(compared), problem)
             for name in file.module.index.names(argument.arg):
                 problem = _list_problem(file, name)
                 if problem and file.parameter_of(name) is argument:
@@ -188,4 +222,25 @@ def _list_problem(file: RclpyFile, name: ast.Name) -> str:
             return f"{name.id!r} is a list of parameters, not of pairs: TypeError"
         case ast.Subscript(value=value, slice=ast.Constant(value=str() as text)) if value is name:
             return f"{name.id!r} is a list of parameters, not a dict: [{text!r}] is a TypeError"
+    return ""
+
+
+def _type_comparisons(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.Compare, str]]:
+    for compared in file.module.below(function, ast.Compare):
+        value = _never_equal(file, compared)
+        if value:
+            problem = f"type_ is a Parameter.Type, which never equals {value}; compare with "
+            yield compared, f"{problem}Parameter.Type.DOUBLE, for instance"
+
+
+def _never_equal(file: RclpyFile, node: ast.Compare) -> str:
+    """Return the number or the name that the type of a parameter is compared with."""
+    match node:
+        case ast.Compare(
+            left=ast.Attribute(attr="type_"), ops=[ast.Eq() | ast.NotEq()], comparators=[value]
+        ):
+            name = file.module.qualified_name(value) or ""
+            is_plain = isinstance(value, ast.Constant) and isinstance(value.value, str | int)
+            if is_plain or name.startswith("rcl_interfaces.msg.ParameterType."):
+                return file.module.text(value)
     return ""

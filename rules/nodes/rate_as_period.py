@@ -54,6 +54,14 @@ class RateAsPeriod(RclpyRule):
     other_severities = {Severity.WARNING: "the name may be that of a period after all"}
     examples = (
         Example("a period", {"talker.py": _NODE.format("1.0 / rate")}),
+        Example("a thousand per minute", {"talker.py": _NODE.format("1000 / 60000")}),
+        Example(
+            "milliseconds of a rate",
+            {"talker.py": _NODE.format("1000.0 / rate")},
+            Report(
+                "9:40", "1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate"
+            ),
+        ),
         Example(
             "a rate",
             {"talker.py": _NODE.format("rate")},
@@ -119,6 +127,10 @@ class RateAsPeriod(RclpyRule):
             given = _seconds(file, call, name) if name in _SECONDS else None
             if given is None:
                 continue
+            if name == "create_timer" and _is_of_thousand(file, given):
+                message = "1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate"
+                yield self.report(file.module.location(given), message)
+                continue
             at = file.module.location(given)
             words = _words(file, given)
             value = file.evaluator.evaluate(given)
@@ -163,6 +175,19 @@ class RateAsPeriod(RclpyRule):
 
 _LEAST_RATE = 1.5
 """Of what is called a rate: below it may be seconds."""
+
+
+def _is_of_thousand(file: RclpyFile, given: ast.expr) -> bool:
+    """Tell whether 1000 is divided by something that is no number of that size."""
+    match given:
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            divisor = file.evaluator.evaluate(right)
+            is_large = isinstance(divisor, int | float) and divisor >= _THOUSAND
+            return file.evaluator.evaluate(left) == _THOUSAND and not is_large
+    return False
+
+
+_THOUSAND = 1000
 
 
 def _is_in_seconds(file: RclpyFile, given: ast.expr) -> bool:

@@ -38,6 +38,20 @@ class ResponseNotReturned(MessageRule):
     examples = (
         Example("returned", {"server.py": _NODE.format("        return response\n")}),
         Example(
+            "a new one that is filled, an empty one",
+            {
+                "a.py": _NODE.format(
+                    "        response = Trigger.Response()\n        response.success = False\n"
+                    "        return response\n"
+                ),
+                "b.py": _NODE.format("        return Trigger.Response(success=True)\n"),
+                "server.py": _NODE.format("        return Trigger.Response()\n"),
+            },
+            Report(
+                "server.py:12:9", "returns a new response: what was set in the given one is lost"
+            ),
+        ),
+        Example(
             "nothing",
             {"server.py": _NODE.format("")},
             Report("10:9", "report() does not return the response (service of line 8): TypeError"),
@@ -121,9 +135,26 @@ class ResponseNotReturned(MessageRule):
         for statement in returned(function):
             value = value_set_before(function, statement) or statement.value
             wrong = _wrong(types, service, value)
+            is_last = statement is function.body[-1]
+            if not wrong and is_last and _is_new(types, function, statement.value):
+                message = "returns a new response: what was set in the given one is lost"
+                yield self.report(module.location(statement), message)
             if wrong:
                 message = f"returns {wrong}, not the response {service_line}"
                 yield self.report(module.location(statement), message)
+
+
+def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
+    """Tell whether an empty response is made, although fields of the given one were set."""
+    if not isinstance(value, ast.Call) or value.args or value.keywords:
+        return False
+    given = function.args.args[-1].arg if function.args.args else ""
+    return types.type_of(value) is not None and any(
+        isinstance(node.ctx, ast.Store)
+        and isinstance(node.value, ast.Name)
+        and node.value.id == given
+        for node in types.module.below(function, ast.Attribute)
+    )
 
 
 def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str:

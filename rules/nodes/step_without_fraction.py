@@ -29,11 +29,12 @@ _BOTH = "now.sec - self.last.sec + (now.nanosec - self.last.nanosec) / 1e9"
 
 
 class StepWithoutFraction(RclpyRule):
-    """A time step is computed from ``sec`` alone, or from ``nanosec`` alone.
+    """A time is computed from ``sec`` alone, from ``nanosec`` alone, or from a sum of both.
 
     **Why.** The step is 0 within a second, and 1 from one second to the next: what is integrated
     stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec`` begins at 0
-    with every second: its difference is negative then.
+    with every second: its difference is negative then. ``sec + nanosec`` grows by a thousand
+    million within a second.
 
     **Fix.** ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``.
 
@@ -64,6 +65,15 @@ class StepWithoutFraction(RclpyRule):
             ),
         ),
         Example(
+            "the sum of both parts",
+            {
+                "odometry.py": _NODE.format(
+                    "now.sec + now.nanosec / 1e9\n            dt -= now.sec + now.nanosec"
+                )
+            },
+            Report("15:19", "nanoseconds are added to seconds: divide 'nanosec' by 1e9"),
+        ),
+        Example(
             "seconds to wait",
             {
                 "odometry.py": _NODE.format(
@@ -77,6 +87,9 @@ class StepWithoutFraction(RclpyRule):
         if not file.module.mentions(".sec", "seconds_nanoseconds", ".nanosec"):
             return
         for node in file.module.walk(ast.BinOp):
+            if isinstance(node.op, ast.Add) and _is_of_one_time(file, node.left, node.right):
+                message = "nanoseconds are added to seconds: divide 'nanosec' by 1e9"
+                yield self.report(file.module.location(node), message)
             if not isinstance(node.op, ast.Sub):
                 continue
             for part in _PARTS:
@@ -94,6 +107,14 @@ class StepWithoutFraction(RclpyRule):
                     "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9"
                 )
                 yield self.report(file.module.location(node), message)
+
+
+def _is_of_one_time(file: RclpyFile, left: ast.expr, right: ast.expr) -> bool:
+    """Tell whether two expressions are ``x.sec`` and ``x.nanosec``."""
+    match left, right:
+        case ast.Attribute(attr="sec", value=first), ast.Attribute(attr="nanosec", value=second):
+            return file.module.text(first) == file.module.text(second)
+    return False
 
 
 def _is_part(file: RclpyFile, node: ast.expr, part: str) -> bool:

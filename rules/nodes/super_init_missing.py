@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import NodeClass, RclpyFile
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -30,6 +30,7 @@ class SuperInitMissing(RclpyRule):
 
     code = "ND001"
     name = "super-init-missing"
+    other_severities = {Severity.WARNING: "nothing in the file uses it as a node"}
     examples = (
         Example("called", {"talker.py": _NODE.format("super().__init__('talker')")}),
         Example(
@@ -43,6 +44,21 @@ class SuperInitMissing(RclpyRule):
             "missing",
             {"talker.py": _NODE.format("self.count = 0")},
             Report("5:9", "Talker.__init__() does not call super().__init__(): AttributeError"),
+        ),
+        Example(
+            "a class that never is the node",
+            {
+                "talker.py": _NODE.format("self.node = node")
+                .replace("(self)", "(self, node)")
+                .replace("self.create", "self.node.create")
+                + "\n\ndef main(node):\n    talker = Talker(node)\n    print(talker.node)\n"
+            },
+            Report(
+                "5:9",
+                "Talker.__init__() does not call super().__init__(): AttributeError "
+                "as soon as it is used as a node",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "the class above Node",
@@ -71,6 +87,10 @@ class SuperInitMissing(RclpyRule):
                 continue
             at = file.module.name_location(node.constructor)
             message = f"{node.name}.__init__() does not call super().__init__(): AttributeError"
+            if not _is_used_as_node(file, node):
+                message += " as soon as it is used as a node"
+                yield self.report(at, message, severity=Severity.WARNING)
+                continue
             yield self.report(at, message)
 
 
@@ -89,3 +109,31 @@ def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
             ):
                 return call, "super() already passes self; the first argument is the node name"
     return None
+
+
+def _is_used_as_node(file: RclpyFile, node: NodeClass) -> bool:
+    """Tell whether code asks an object of a class for what Node has, or hands the object on."""
+    own = defined_by(node)
+    made_here = [
+        call
+        for call in file.module.walk(ast.Call)
+        if file.evaluator.named_class(call.func) is node.node
+    ]
+    if not made_here:
+        return True
+    for name in file.module.walk(ast.Name):
+        value = file.evaluator.self_class(name)
+        if value is None:
+            made = file.evaluator.single_value(name)
+            value = file.evaluator.named_class(made.func) if isinstance(made, ast.Call) else None
+        if value is not node.node or not isinstance(name.ctx, ast.Load):
+            continue
+        parent = file.module.parent(name)
+        if not isinstance(parent, ast.Attribute):
+            return True
+        if parent.attr not in own and has(NODE, parent.attr):
+            return True
+    return any(
+        not isinstance(file.module.parent(call), ast.Assign | ast.Expr | ast.Attribute)
+        for call in made_here
+    )

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.manifest import ConditionError, holds, misspelled
+from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule, Severity
+from scaffold.api.manifest import (
+    ConditionError,
+    Constant,
+    constants,
+    holds,
+    is_never_true,
+    misspelled,
+)
 
+_ALWAYS = {True: "always", False: "never"}
 _MANIFEST = '<package format="3">\n  <depend condition="{}">rclpy</depend>\n</package>\n'
 
 
 class ConditionMalformed(Rule):
-    """A ``condition`` does not follow the grammar, or asks for a name that is misspelled.
+    """A ``condition`` does not follow the grammar, or is the same for all distributions.
 
     **Why.** catkin_pkg, and with it colcon, refuses the manifest. A comparison with a name that no
-    distribution has is never true: the dependency is missing, without a message.
+    distribution has, or of a name without its ``$``, is never true: the dependency is missing,
+    without a message.
 
     **Fix.** Write ``$VARIABLE == value``, with ``and``, ``or`` and parentheses.
 
@@ -23,7 +33,7 @@ class ConditionMalformed(Rule):
 
     code = "PX015"
     name = "condition-malformed"
-    other_severities = {Severity.WARNING: "a name that is misspelled"}
+    other_severities = {Severity.WARNING: "a name that is misspelled; never true, or always"}
     examples = (
         Example("a comparison", {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy")}),
         Example(
@@ -45,6 +55,56 @@ class ConditionMalformed(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "true on some distributions, the next one perhaps, or for whoever builds",
+            {
+                "package.xml": _MANIFEST.format(
+                    '$ROS_VERSION == 1 and $ROS_DISTRO == noetic">roscpp</depend>\n'
+                    '  <depend condition="$ROS_VERSION == 2 and $ROS_DISTRO == mystic">a</depend>\n'
+                    '  <depend condition="$ROS_VERSION == 3 or $ROS_NEXT == 1'
+                )
+            },
+        ),
+        Example(
+            "a variable without its sign",
+            {"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and ROS_DISTRO == jazzy")},
+            Report(
+                "2:22",
+                "condition '$ROS_VERSION == 2 and ROS_DISTRO == jazzy': 'ROS_DISTRO "
+                "== jazzy' compares two texts and is never true; write $ROS_DISTRO",
+                fix="write $ROS_DISTRO",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _MANIFEST.format("$ROS_VERSION == 2 and $ROS_DISTRO == jazzy")},
+        ),
+        Example(
+            "two texts",
+            {"package.xml": _MANIFEST.format("noetic != humble")},
+            Report(
+                "2:22",
+                "condition 'noetic != humble': compares two texts and is always true",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "two distributions at once",
+            {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy and $ROS_DISTRO == kilted")},
+            Report(
+                "2:22",
+                "condition '$ROS_DISTRO == jazzy and $ROS_DISTRO == kilted': true "
+                "on no distribution: <depend> has no effect; did you mean 'or'?",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "no version",
+            {"package.xml": _MANIFEST.format("$ROS_VERSION == 3")},
+            Report(
+                "2:22",
+                "condition '$ROS_VERSION == 3': true on no distribution: <depend> has no effect",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -59,8 +119,40 @@ class ConditionMalformed(Rule):
             except ConditionError as error:
                 yield self.report(at, f"condition {condition!r}: {error.message}")
                 continue
-            for name, known in misspelled(condition):
-                message = (
-                    f"condition {condition!r}: nothing is called {name!r}; did you mean {known!r}?"
-                )
-                yield self.report(at, message, severity=Severity.WARNING)
+            yield from self._misleading(package, element.tag, condition, at.location)
+
+    def _misleading(
+        self, package: Package, tag: str, condition: str, at: Location
+    ) -> Iterator[Diagnostic]:
+        """Report a condition that asks for nothing, or for nothing that there is."""
+        reported = [
+            (_words(constant, condition), _with_sign(package, at, condition, constant))
+            for constant in constants(condition)
+        ]
+        reported += [
+            (f"nothing is called {name!r}; did you mean {known!r}?", None)
+            for name, known in misspelled(condition)
+        ]
+        if not reported and is_never_true(condition):
+            either = re.sub(r"\band\b", "or", condition)
+            hint = "" if is_never_true(either) else "; did you mean 'or'?"
+            reported = [(f"true on no distribution: <{tag}> has no effect{hint}", None)]
+        for problem, fix in reported:
+            message = f"condition {condition!r}: {problem}"
+            yield self.report(at, message, fix, severity=Severity.WARNING)
+
+
+def _words(constant: Constant, condition: str) -> str:
+    which = f"{constant.text!r} " if constant.text != condition else ""
+    hint = f"; write ${constant.variable}" if constant.variable else ""
+    return f"{which}compares two texts and is {_ALWAYS[constant.value]} true{hint}"
+
+
+def _with_sign(package: Package, at: Location, condition: str, constant: Constant) -> Fix | None:
+    """Return the fix that makes a variable of a text, where it is written as it is read."""
+    source = package.source(at.path)
+    start = source.offset(at.line, at.column)
+    if not constant.variable or not source.text.startswith(condition, start):
+        return None
+    place = start + constant.offset
+    return Fix(f"write ${constant.variable}", (Edit(at.path, place, place, "$"),))

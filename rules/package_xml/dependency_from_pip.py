@@ -42,6 +42,8 @@ class DependencyFromPip(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for dependency in package.manifest.dependencies:
-            if dependency.name.endswith("-pip") and dependency.kind != "doc_depend":
+            if dependency.kind == "doc_depend" or not dependency.may_be_active:
+                continue
+            if dependency.name.endswith("-pip"):
                 message = f"pip installs {dependency.name!r}: the package cannot be released"
                 yield self.report(dependency, message)

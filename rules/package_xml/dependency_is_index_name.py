@@ -68,7 +68,7 @@ class DependencyIsIndexName(Rule):
             module = module_of_key(dependency.name)
             if module is None or package.workspace.get(dependency.name) is not None:
                 continue
-            if dependency.kind == "doc_depend":
+            if dependency.kind == "doc_depend" or not dependency.may_be_active:
                 continue  # which rosdep does not install
             if _is_found_by_cmake(package, dependency.name):
                 continue

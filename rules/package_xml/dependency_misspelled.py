@@ -41,6 +41,26 @@ class DependencyMisspelled(Rule):
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
         ),
         Example(
+            "for another distribution, and for whoever asks for it",
+            {
+                "package.xml": "<package>\n"
+                '  <depend condition="$ROS_DISTRO == humble">std_msg</depend>\n'
+                '  <depend condition="$WITH_STAMPS == 1">builtin_interface</depend>\n'
+                "</package>\n"
+            },
+            Report(
+                "3:41",
+                "no package 'builtin_interface' is known; closest: 'builtin_interfaces'",
+                fix="write builtin_interfaces",
+            ),
+            fixed={
+                "package.xml": "<package>\n"
+                '  <depend condition="$ROS_DISTRO == humble">std_msg</depend>\n'
+                '  <depend condition="$WITH_STAMPS == 1">builtin_interfaces</depend>\n'
+                "</package>\n"
+            },
+        ),
+        Example(
             "a key of rosdep with a letter too many",
             {"package.xml": "<package>\n  <depend>python3-opencvv</depend>\n</package>\n"},
             Report(
@@ -71,6 +91,8 @@ class DependencyMisspelled(Rule):
         for dependency in package.manifest.dependencies:
             name = dependency.name
             if package.workspace.get(name) is not None or name == package.name:
+                continue
+            if not dependency.may_be_active:
                 continue
             other = OTHER_NAMES.get(name)
             if other is not None:

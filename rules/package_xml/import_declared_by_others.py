@@ -57,6 +57,8 @@ class ImportDeclaredByOthers(Rule):
                 continue
             if any(similar_package(item) == along[0] for item in there.direct):
                 continue  # misspelled, as another rule says
+            if manifest.left_out(need.keys, "run"):
+                continue  # its condition is what to look at
             tag = "run_depend" if manifest.format == 1 else "exec_depend"
             by = next(
                 (

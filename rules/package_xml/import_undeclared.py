@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.catalog import transitive_dependencies
+from scaffold.api.distributions import target
 from scaffold.api.manifest import declared, required_packages, requirements
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
@@ -21,8 +22,9 @@ class ImportUndeclared(Rule):
     **Why.** It works on the machine of its author; on a clean one rosdep does not install the
     package and the node ends with ``ModuleNotFoundError``.
 
-    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it. Each module
-    is reported at its first import, where ``# noqa: PX020`` accepts it.
+    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it; where there
+    is one whose condition leaves out the distribution, change the condition. Each module is
+    reported at its first import, where ``# noqa: PX020`` accepts it.
 
     **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
     """
@@ -31,7 +33,8 @@ class ImportUndeclared(Rule):
     name = "import-undeclared"
     other_severities = {
         Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, what comes with "
-        "these and only launch files import, and torch, which many install with pip"
+        "these and only launch files import, torch, which many install with pip, and what only "
+        "scripts in the share directory import"
     }
     examples = (
         Example(
@@ -99,6 +102,36 @@ class ImportUndeclared(Rule):
                 "</package>\n",
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom gazebo_msgs.msg import ModelState\n",
+            },
+        ),
+        Example(
+            "declared for another distribution",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                '  <exec_depend condition="$ROS_DISTRO == humble">std_msgs</exec_depend>\n'
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'std_msgs', and line 4 of package.xml declares it only if "
+                "$ROS_DISTRO == humble, which leaves out Jazzy; change the "
+                "condition, or guard the import",
+            ),
+        ),
+        Example(
+            "declared for this distribution and for another one",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                '  <exec_depend condition="$ROS_DISTRO == humble">rclpy</exec_depend>\n'
+                '  <exec_depend condition="$ROS_DISTRO != humble">rclpy</exec_depend>\n'
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\n",
             },
         ),
         Example(
@@ -181,6 +214,46 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a node of ROS 1, kept next to its successor",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "talker/__init__.py": "",
+                "talker/old.py": "import rospy\nfrom sensor_msgs.msg import Joy\n",
+            },
+        ),
+        Example(
+            "a script among the data",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "install(DIRECTORY tools DESTINATION share/${PROJECT_NAME})\n"
+                "install(PROGRAMS tools/talk.py DESTINATION lib/${PROJECT_NAME})\n"
+                "ament_package()\n",
+                "tools/draw.py": "import matplotlib\nimport yaml\n",
+                "tools/talk.py": "import yaml\n",
+            },
+            Report(
+                "tools/draw.py:1:1",
+                "imports 'matplotlib', which no dependency in package.xml provides; "
+                "add <exec_depend>python3-matplotlib</exec_depend>",
+                fix="declare python3-matplotlib",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "tools/talk.py:1:1",
+                "imports 'yaml', which no dependency in package.xml provides; add "
+                "<exec_depend>python3-yaml</exec_depend>",
+                fix="declare python3-yaml",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>python3-matplotlib</exec_depend>\n"
+                "  <exec_depend>python3-yaml</exec_depend>\n"
+                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n"
+            },
+        ),
+        Example(
             "a message package and a Python library are missing",
             {
                 "package.xml": '<package format="3">\n'
@@ -214,6 +287,18 @@ class ImportUndeclared(Rule):
                 continue
             if need.module in _INDEX and _is_required(package, need.module):
                 continue
+            comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
+            severity = Severity.WARNING if comes_otherwise else Severity.ERROR
+            purposes = ("run", "test") if need.for_tests else ("run",)
+            other = manifest.left_out(need.keys, *purposes)
+            if other is not None:
+                message = (
+                    f"imports {need.module!r}, and line {other.location.line} of package.xml "
+                    f"declares it only if {other.condition}, which leaves out "
+                    f"{target().title}; change the condition, or guard the import"
+                )
+                yield self.report(need, message, severity=severity)
+                continue
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
             message = (
@@ -221,14 +306,8 @@ class ImportUndeclared(Rule):
                 f"add <{tag}>{need.keys[0]}</{tag}>"
             )
             fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
-            comes_otherwise = _comes_with_launch(need) or need.module in _INDEX
-            yield self.report(
-                need,
-                message,
-                fix,
-                severity=Severity.WARNING if comes_otherwise else Severity.ERROR,
-                cause=f"dependency {need.keys[0]}",
-            )
+            cause = f"dependency {need.keys[0]}"
+            yield self.report(need, message, fix, severity=severity, cause=cause)
 
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:

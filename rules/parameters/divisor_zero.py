@@ -13,6 +13,7 @@ from scaffold.api.parameters import (
     own_nodes,
     place_of,
 )
+from scaffold.api.programs import KnownNode
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -49,6 +50,10 @@ class DivisorZero(Rule):
             },
         ),
         Example(
+            "zero as default that a file replaces",
+            {"talker.py": _NODE.format("0.0", "1.0 / self.rate"), "a.yaml": _FILE.format("1.0")},
+        ),
+        Example(
             "zero in a parameter file",
             {"talker.py": _NODE.format("2.0", "1.0 / self.rate"), "a.yaml": _FILE.format("0.0")},
             Report(
@@ -71,11 +76,22 @@ class DivisorZero(Rule):
             for name, place in declared_by(own, package).places.items():
                 is_number = isinstance(place.default, int | float)
                 is_zero = is_number and place.default == 0 and place.default is not False
-                if is_zero and place.divides:
+                if is_zero and place.divides and not _is_set(package, own, name):
                     message = (
                         f"{name!r} is 0 by default, and the node divides by it: ZeroDivisionError"
                     )
                     yield self.report(place.location, message)
+
+
+def _is_set(package: Package, node: KnownNode, name: str) -> bool:
+    """Tell whether a launch file or a parameter file replaces a default."""
+    declared = declared_by(node, package)
+    if any(entry.name == name and declared in of for _, entry, of in values_in_files(package)):
+        return True
+    return any(
+        started.owner(package) == node and any(given.name == name for given in started.parameters)
+        for started in started_nodes(package)
+    )
 
 
 def _zeros(package: Package) -> Iterator[tuple[str, list[Declared], Location]]:

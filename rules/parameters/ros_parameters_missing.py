@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.launch import consumers, is_loaded, use_of
 from scaffold.api.parameters import KEY, Misplaced, parameter_file, parameter_paths
 
@@ -25,6 +25,7 @@ class RosParametersMissing(Rule):
 
     code = "PF002"
     name = "ros-parameters-missing"
+    other_severities = {Severity.WARNING: "no launch file gives the file to a node"}
     examples = (
         Example("two underscores", {"config/talker.yaml": _FILE.format("ros__parameters")}),
         Example(
@@ -57,7 +58,11 @@ class RosParametersMissing(Rule):
         Example(
             "missing for one of two nodes",
             {"config/a.yaml": _FILE.format("ros__parameters") + "listener:\n  rate: 1.0\n"},
-            Report("5:3", "'rate' is not under 'ros__parameters': rcl rejects the file"),
+            Report(
+                "5:3",
+                "'rate' is not under 'ros__parameters': rcl rejects the file",
+                severity=Severity.WARNING,
+            ),
         ),
     )
 
@@ -80,7 +85,8 @@ class RosParametersMissing(Rule):
                     )
                 elif entry.node_key is None and is_read:
                     message = f"{entry.key.text!r} is not under {KEY!r}: rcl rejects the file"
-                    yield self.report(entry.key, message)
+                    severity = Severity.ERROR if is_given else Severity.WARNING
+                    yield self.report(entry.key, message, severity=severity)
 
     def _is_meant(self, misplaced: list[Misplaced]) -> bool:
         """Return whether this is a parameter file, not a file of another tool with such a key."""

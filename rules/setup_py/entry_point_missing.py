@@ -87,7 +87,8 @@ class EntryPointMissing(Rule):
         base = entry.module.replace(".", "/")
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
-            closest = get_close_matches(f"{base}.py", package.python_files, n=1)
+            modules = [path for path in package.python_files if not path.endswith("__.py")]
+            closest = get_close_matches(f"{base}.py", modules, n=1)
             hint = f"; closest: {closest[0]}" if closest else ""
             return f"there is no {base}.py{hint}"
         try:

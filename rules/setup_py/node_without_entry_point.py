@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, fact
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError, fact
 from scaffold.api.install import names_imported
+from scaffold.api.launch import launch_files
 from scaffold.api.rclpy import rclpy_file, rclpy_paths
 from scaffold.api.setup_py import SetupPy
 
@@ -24,6 +26,9 @@ _FILES = {
 }
 
 
+_TEXTS = (".md", ".rst", ".sh")
+
+
 class NodeWithoutEntryPoint(Rule):
     """A module with a node and a ``main`` is in no entry point.
 
@@ -37,6 +42,7 @@ class NodeWithoutEntryPoint(Rule):
 
     code = "SP055"
     name = "node-without-entry-point"
+    other_severities = {Severity.WARNING: "no launch file and no text names it"}
     examples = (
         Example(
             "both are",
@@ -52,8 +58,22 @@ class NodeWithoutEntryPoint(Rule):
             },
         ),
         Example(
-            "one is not",
+            "one that nothing starts",
             {"setup.py": _SETUP.format(""), **_FILES},
+            Report(
+                "setup.py:6:18",
+                "talker/other.py is a node with a main function, but no entry point "
+                "starts it; add 'other = talker.other:main'",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "one that the readme starts",
+            {
+                "setup.py": _SETUP.format(""),
+                **_FILES,
+                "README.md": "Run it:\n\n    ros2 run talker other\n",
+            },
             Report(
                 "setup.py:6:18",
                 "talker/other.py is a node with a main function, but no entry point "
@@ -83,7 +103,8 @@ class NodeWithoutEntryPoint(Rule):
                     f"{path} is a node with a main function, but no entry point starts it; "
                     f"add '{stem} = {name}:main'"
                 )
-                yield self.report(keyword, message)
+                severity = Severity.ERROR if _is_named(package, stem) else Severity.WARNING
+                yield self.report(keyword, message, severity=severity)
 
 
 def _nodes(package: Package) -> Iterator[tuple[str, tuple[str, ...], bool]]:
@@ -100,6 +121,19 @@ def _node_classes(package: Package, path: str) -> tuple[tuple[str, ...], bool]:
     file = rclpy_file(package, path)
     is_program = file.module.has_main_guard and "main" in file.module.functions
     return tuple(node.name for node in file.classes), is_program
+
+
+def _is_named(package: Package, program: str) -> bool:
+    """Tell whether a launch file or a text of the package names a program to start."""
+    texts = [path for path in package.files if path.endswith(_TEXTS)]
+    for path in {*texts, *launch_files(package)}:
+        try:
+            text = package.source(path).text
+        except ViewError:
+            continue
+        if program in text and re.search(rf"(?<![\w./]){program}(?![\w./])", text):
+            return True
+    return False
 
 
 def _is_module(name: str) -> bool:

@@ -40,6 +40,17 @@ class PackageDataMissing(Rule):
             {**_FILES, "setup.py": _SETUP.format("    package_data={'talker': ['*.txt']},\n")},
         ),
         Example(
+            "one of several places, of which the module takes one that is there",
+            {
+                **_FILES,
+                "talker/text.py": "import os\n\nPLACES = [\n"
+                "    os.path.join(os.path.dirname(__file__), 'words.txt'),\n"
+                "    '/usr/share/dict/words',\n]\n"
+                "WORDS = next(path for path in PLACES if os.path.exists(path))\n",
+                "setup.py": _SETUP.format(""),
+            },
+        ),
+        Example(
             "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
             Report(

@@ -98,6 +98,29 @@ class ShareFileNotInstalled(Rule):
             ),
         ),
         Example(
+            "a file that two packages have, named by a third one",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(""),
+                "config/talker.yaml": "",
+            },
+            Report(
+                "setup.py:7:16",
+                "data_files installs nothing of config/, for instance config/talker.yaml",
+                severity=Severity.WARNING,
+            ),
+            neighbours={
+                "other": {
+                    "package.xml": _MANIFEST.replace("talker", "other"),
+                    "config/talker.yaml": "",
+                },
+                "bringup": {
+                    "package.xml": _MANIFEST.replace("talker", "bringup"),
+                    "launch/all.launch.py": "FILE = 'talker.yaml'\n" + _LAUNCH,
+                },
+            },
+        ),
+        Example(
             "a name that the pattern does not match",
             {
                 "package.xml": _MANIFEST,

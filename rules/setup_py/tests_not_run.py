@@ -6,25 +6,36 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.distributions import target
-from scaffold.api.setup_py import SetupPy, setup_edit
+from scaffold.api.setup_py import IniFile, IniOption, SetupPy, setup_edit
 
 EXTRAS = ("test", "tests", "testing")
+_SECTION = "options.extras_require"
 _IGNORING = 72
 """The first setuptools that ignores tests_require."""
 _SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
 _NEW = "extras_require={'test': ['pytest']}"
 _EXTRA = f"    {_NEW},\n"
+_CFG = "[options]\nzip_safe = true\n{}"
+_OLD_CFG = _CFG.format(
+    "tests_require =\n    pytest\n    numpy\n[develop]\nscript_dir=$base/lib/a\n"
+)
+_NEW_CFG = _CFG.format(
+    "[develop]\nscript_dir=$base/lib/a\n\n[options.extras_require]\ntest =\n    pytest\n    numpy\n"
+)
 _TEST = "def test_talk():\n    pass\n"
 
 
 class TestsNotRun(Rule):
     """setup.py does not say that the tests need pytest, or says so with ``tests_require``.
 
+    setup.cfg may say so for it.
+
     **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
     tests ... OK``. setuptools 72 dropped ``tests_require``; the version of Ubuntu 24.04 still reads
     it.
 
-    **Fix.** Write ``extras_require={'test': ['pytest']}``.
+    **Fix.** Write ``extras_require={'test': ['pytest']}``, or in setup.cfg ``test = pytest`` below
+    ``[options.extras_require]``.
 
     **Source.** ``colcon_core/task/python/test``; colcon-core issue 678;
     ros2_documentation issue 4727.
@@ -116,12 +127,70 @@ class TestsNotRun(Rule):
             ),
             distro="lyrical",
         ),
+        Example(
+            "tests_require in setup.cfg",
+            {"setup.py": "from setuptools import setup\n\nsetup()\n", "setup.cfg": _OLD_CFG},
+            Report(
+                "setup.cfg:3:1",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
+                "add `test` to [options.extras_require]",
+                fix="move it to [options.extras_require]",
+            ),
+            fixed={"setup.cfg": _NEW_CFG},
+            distro="lyrical",
+        ),
+        Example(
+            "tests_require in setup.cfg, where it is the last of all",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup()\n",
+                "setup.cfg": _CFG.format("tests_require = pytest\n"),
+            },
+            Report(
+                "setup.cfg:3:1",
+                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; "
+                "add `test` to [options.extras_require]",
+                fix="move it to [options.extras_require]",
+            ),
+            fixed={"setup.cfg": _CFG.format("[options.extras_require]\ntest = pytest\n")},
+            distro="lyrical",
+        ),
+        Example(
+            "extras in setup.cfg",
+            {
+                "setup.py": _SETUP.format(""),
+                "setup.cfg": _NEW_CFG,
+                "test/test_talker.py": _TEST,
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "tests_require in setup.cfg, which is read",
+            {
+                "setup.py": _SETUP.format(""),
+                "setup.cfg": _CFG.format("tests_require = pytest\n"),
+                "test/test_talker.py": _TEST,
+            },
+            Report(
+                "setup.cfg:3:1",
+                "setuptools 72 and later, which Jazzy does not have, ignore "
+                "tests_require: colcon will run 0 tests; add `test` to "
+                "[options.extras_require]",
+                fix="move it to [options.extras_require]",
+                severity=Severity.INFO,
+            ),
+            fixed={"setup.cfg": _CFG.format("[options.extras_require]\ntest = pytest\n")},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
         if setup.keyword("tests_require") is not None:
             yield from self._check_tests_require(package, setup)
+            return
+        cfg = _setup_cfg(package)
+        option = cfg.option("options", "tests_require", "tests-require") if cfg else None
+        if cfg is not None and option is not None:
+            yield from self._check_option(package, cfg, option)
             return
         if package.build_type != "ament_python" or setup.call is None:
             return
@@ -150,28 +219,70 @@ class TestsNotRun(Rule):
             advice = f"add {' '.join(extra.split())} to extras_require"
         elif span is not None:
             fix = Fix(advice, (Edit("setup.py", *span, written),))
-        has_new = int(target().fact("setuptools").partition(".")[0]) >= _IGNORING
-        ignored = (
-            f"setuptools of {target().title} ignores tests_require: colcon runs 0 tests"
-            if has_new
-            else f"setuptools {_IGNORING} and later, which {target().title} does not have, ignore "
-            "tests_require: colcon will run 0 tests"
-        )
-        severity = None if has_new else Severity.INFO
-        yield self.report(old, f"{ignored}; {advice}", fix, severity=severity)
+        yield self.report(old, f"{_ignored()}; {advice}", fix, severity=_severity())
+
+    def _check_option(
+        self, package: Package, cfg: IniFile, option: IniOption
+    ) -> Iterator[Diagnostic]:
+        """Check setup.cfg, whose options go into a section of their own."""
+        if self._has_extra(package):
+            return
+        fix, advice = None, f"add `test` to [{_SECTION}]"
+        extras = cfg.sections.get(_SECTION)
+        if extras is None or not set(EXTRAS) & {*extras.options}:
+            fix = Fix(f"move it to [{_SECTION}]", (*_moved(cfg, option),))
+        yield self.report(option.key_location, f"{_ignored()}; {advice}", fix, severity=_severity())
 
     def _has_extra(self, package: Package) -> bool:
         extras = package.setup_py.keyword("extras_require")
         if extras is None:
-            return "extras_require" in self._text(package, "setup.cfg")
+            cfg = _setup_cfg(package)
+            options = [cfg.option(_SECTION, name) for name in EXTRAS] if cfg is not None else []
+            lines = [line.text for option in options if option for line in option.lines]
+            return any(line.startswith(("pytest", "file:")) for line in lines)
         if not isinstance(extras.value, dict):
             return True
         # A list without pytest is as good as none: colcon looks for that very name.
         given = [extras.value[name] for name in EXTRAS if name in extras.value]
         return any(not isinstance(item, list) or _names_pytest(item) for item in given)
 
-    def _text(self, package: Package, path: str) -> str:
-        return package.source(path).text if package.has(path) else ""
+
+def _setup_cfg(package: Package) -> IniFile | None:
+    return package.setup_cfg if package.has("setup.cfg") else None
+
+
+def _has_new_setuptools() -> bool:
+    return int(target().fact("setuptools").partition(".")[0]) >= _IGNORING
+
+
+def _severity() -> Severity | None:
+    return None if _has_new_setuptools() else Severity.INFO
+
+
+def _ignored() -> str:
+    if _has_new_setuptools():
+        return f"setuptools of {target().title} ignores tests_require: colcon runs 0 tests"
+    return (
+        f"setuptools {_IGNORING} and later, which {target().title} does not have, ignore "
+        "tests_require: colcon will run 0 tests"
+    )
+
+
+def _moved(cfg: IniFile, option: IniOption) -> Iterator[Edit]:
+    """Yield the edits that move the requirements of tests to the section of extras."""
+    newline = cfg.source.newline
+    lines = [line.text for line in option.lines]
+    separator = f"{newline}    "
+    value = f" {lines[0]}" if len(lines) == 1 else separator + separator.join(lines)
+    added = cfg.set(_SECTION, "test ", value)
+    end = option.end + len(newline)
+    if option.start <= added.start <= end:
+        # The section comes to where the option was.
+        yield Edit(added.path, option.start, option.end, added.text.lstrip())
+        return
+    gap = newline if _SECTION not in cfg.sections else ""
+    yield Edit(added.path, option.start, end, "")
+    yield Edit(added.path, added.start, added.end, f"{gap}{added.text}")
 
 
 def _names_pytest(requirements: list[object]) -> bool:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TestRule
+from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import is_test_case, methods
 
-_GONE = {
+_REMOVED_IN = (3, 12)
+_RENAMED = {
     "assertEquals": "assertEqual",
     "assertNotEquals": "assertNotEqual",
     "assertAlmostEquals": "assertAlmostEqual",
@@ -17,13 +19,17 @@ _GONE = {
     "assertRegexpMatches": "assertRegex",
     "assertNotRegexpMatches": "assertNotRegex",
     "assertRaisesRegexp": "assertRaisesRegex",
-    "assertItemsEqual": "assertCountEqual",
     "assert_": "assertTrue",
     "failUnless": "assertTrue",
     "failUnlessEqual": "assertEqual",
+    "failUnlessAlmostEqual": "assertAlmostEqual",
+    "failUnlessRaises": "assertRaises",
     "failIf": "assertFalse",
+    "failIfEqual": "assertNotEqual",
+    "failIfAlmostEqual": "assertNotAlmostEqual",
 }
-"""What Python 3.12 no longer has, and what took its place."""
+"""What Python 3.12 removed and older ones deprecate, and what takes its place."""
+_OF_PYTHON2 = {"assertItemsEqual": "assertCountEqual"}
 _TEST = (
     "import unittest\n\n\nclass TestText(unittest.TestCase):\n"
     "    def test_text(self):\n        self.{}('a'.upper(), 'A')\n"
@@ -31,9 +37,10 @@ _TEST = (
 
 
 class AssertMethodMisused(TestRule):
-    """A test calls an assert method that Python 3.12 does not have, or one that compares nothing.
+    """A test calls an assert method that Python does not have, or one that compares nothing.
 
     **Why.** ``AttributeError: 'TestText' object has no attribute 'assertEquals'``.
+    Python 3.12 removed the old names, which Python 3.10 of Humble only warns about.
     ``assertTrue(a, b)`` takes ``b`` for a message: it passes whatever ``b`` is.
 
     **Fix.** ``assertEqual``.
@@ -43,12 +50,50 @@ class AssertMethodMisused(TestRule):
 
     code = "TS071"
     name = "assert-method-misused"
+    is_fixed_for_all = True
+    other_severities = {Severity.INFO: "the method is only deprecated on the distribution"}
     examples = (
         Example("compared", {"test/test_text.py": _TEST.format("assertEqual")}),
         Example(
             "gone",
             {"test/test_text.py": _TEST.format("assertEquals")},
-            Report("6:9", "assertEquals was removed in Python 3.12; use assertEqual"),
+            Report(
+                "6:9",
+                "assertEquals was removed in Python 3.12: AttributeError; use assertEqual",
+                fix="write assertEqual",
+            ),
+            fixed={"test/test_text.py": _TEST.format("assertEqual")},
+        ),
+        Example(
+            "deprecated",
+            {"test/test_text.py": _TEST.format("failUnlessEqual")},
+            Report(
+                "6:9",
+                "failUnlessEqual is deprecated, and Python 3.12 removes it; use assertEqual",
+                severity=Severity.INFO,
+                fix="write assertEqual",
+            ),
+            fixed={"test/test_text.py": _TEST.format("assertEqual")},
+            distro="humble",
+        ),
+        Example(
+            "of Python 2",
+            {"test/test_text.py": _TEST.format("assertItemsEqual")},
+            Report(
+                "6:9",
+                "Python 3 has no assertItemsEqual: AttributeError; use assertCountEqual",
+                fix="write assertCountEqual",
+            ),
+            fixed={"test/test_text.py": _TEST.format("assertCountEqual")},
+            distro="humble",
+        ),
+        Example(
+            "a method of one's own",
+            {
+                "test/test_text.py": _TEST.format("assertItemsEqual")
+                + "\n    def assertItemsEqual(self, first, second):\n"
+                "        self.assertEqual(sorted(first), sorted(second))\n"
+            },
         ),
         Example(
             "not compared",
@@ -66,15 +111,29 @@ class AssertMethodMisused(TestRule):
         own = {method.name for method in methods(class_)}
         for node in ast.walk(class_):
             match node:
-                case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name)):
-                    if name in _GONE and name not in own:
-                        message = f"{name} was removed in Python 3.12; use {_GONE[name]}"
-                        yield self.report(module.location(node.func), message)
+                case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name) as method):
+                    if name in (_RENAMED | _OF_PYTHON2) and name not in own:
+                        yield self._old_name(module, method)
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
                         message = (
                             f"{name} checks one value, the second is a message; use assertEqual"
                         )
-                        yield self.report(module.location(node.func), message)
+                        yield self.report(module.location(method), message)
+
+    def _old_name(self, module: PythonModule, method: ast.Attribute) -> Diagnostic:
+        name, severity = method.attr, None
+        use = _RENAMED.get(name) or _OF_PYTHON2[name]
+        if name in _OF_PYTHON2:
+            message = f"Python 3 has no {name}: AttributeError"
+        elif target().python >= _REMOVED_IN:
+            message = f"{name} was removed in Python 3.12: AttributeError"
+        else:
+            message = f"{name} is deprecated, and Python 3.12 removes it"
+            severity = Severity.INFO
+        _, end = module.span(method)
+        edit = Edit(module.source.path, end - len(name), end, use)
+        fix = Fix(f"write {use}", (edit,))
+        return self.report(module.location(method), f"{message}; use {use}", fix, severity=severity)
 
 
 def _compares(given: list[ast.expr]) -> bool:

@@ -72,6 +72,17 @@ class AssertionWithoutEffect(TestRule):
             Report("6:5", "one side of this `or` is always true: compare with it as well"),
         ),
         Example(
+            "values for who reads the failure",
+            {"test/test_text.py": _ASSERTION.format("ready(), (ready(), [len('ab')])")},
+        ),
+        Example(
+            "a comma for a comparison",
+            {"test/test_text.py": _ASSERTION.format("len('ab'), 2\n    assert ready(), 'b'")},
+            Report(
+                "6:5", "what follows the comma is only the message: write == to compare with it"
+            ),
+        ),
+        Example(
             "calls without parentheses, a mock, a string",
             {
                 "test/test_a.py": _TEST.format("    pytest.skip\n"),
@@ -101,6 +112,8 @@ class AssertionWithoutEffect(TestRule):
 def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
     problem = ""
     match node:
+        case ast.Assert(msg=ast.expr() as message) if _is_value(message):
+            problem = "what follows the comma is only the message: write == to compare with it"
         case ast.Assert(test=condition):
             problem = _condition_problem(module, condition)
         case ast.Expr(value=value):
@@ -112,6 +125,16 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
                 if _drops(module, handler):
                     return handler, "this discards the AssertionError: the test always passes"
     return node, problem
+
+
+def _is_value(node: ast.expr) -> bool:
+    """Tell whether a message is written out and no text, as what one compares with is."""
+    match node:
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            return all(isinstance(item, ast.Constant) or _is_value(item) for item in items)
+        case ast.Constant(value=bool() | int() | float()):
+            return True
+    return False
 
 
 def _statement_problem(module: PythonModule, value: ast.expr) -> str:

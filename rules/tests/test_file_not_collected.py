@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api.python import PythonModule
 
 DIRECTORIES = ("test/", "tests/")
 
@@ -30,6 +32,15 @@ class TestFileNotCollected(Rule):
                 "setup.py": "",
                 "test/test_talker.py": "def test_talk():\n    pass\n",
                 "test/helpers.py": "def make():\n    pass\n",
+            },
+        ),
+        Example(
+            "files that a test copies, to run pytest on them",
+            {
+                "setup.py": "",
+                "test/examples/talking.py": "def test_talk():\n    pass\n",
+                "test/test_plugin.py": "def test_examples(pytester):\n"
+                "    pytester.copy_example('examples')\n",
             },
         ),
         Example(
@@ -61,10 +72,22 @@ class TestFileNotCollected(Rule):
                 yield self.report(package.start_of(path), message)
 
     def _is_used(self, package: Package, path: str) -> bool:
-        """Tell whether another test imports the file: then it is a helper."""
+        """Tell whether another test imports the file, or names its directory, and so runs it."""
         stem = path.rpartition("/")[2][:-3]
         return any(
-            stem in [*imported.module.split("."), *(name.name for name in imported.names)]
+            any(
+                stem in [*imported.module.split("."), *(name.name for name in imported.names)]
+                for imported in module.imports
+            )
+            or _names_directory(module, path)
             for module in package.modules()
-            for imported in module.imports
         )
+
+
+def _names_directory(module: PythonModule, path: str) -> bool:
+    """Tell whether a test names a directory next to it that a file is in."""
+    above = f"{module.path.rpartition('/')[0]}/"
+    if not module.path.startswith(DIRECTORIES) or not path.startswith(above):
+        return False
+    inside = path.removeprefix(above).split("/")[:-1]
+    return any(node.value in inside for node in module.walk(ast.Constant)) if inside else False

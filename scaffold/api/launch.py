@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.formats.xml import Attribute
 from scaffold.model.launch.actions import (
     CALLBACKS,
     HANDLERS,
@@ -9,6 +10,14 @@ from scaffold.model.launch.actions import (
     describe,
     entities,
     function_of,
+)
+from scaffold.model.launch.command_lines import (
+    PROGRAM,
+    UNSAID,
+    CommandLine,
+    Word,
+    processes,
+    static_transforms,
 )
 from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
 from scaffold.model.launch.execution_order import later_declarations, steps
@@ -55,7 +64,11 @@ __all__ = [
     "FUNCTION",
     "HANDLERS",
     "NODES",
+    "PROGRAM",
     "SHARE",
+    "UNSAID",
+    "Attribute",
+    "CommandLine",
     "Entity",
     "GivenParameter",
     "Included",
@@ -66,6 +79,7 @@ __all__ = [
     "Reference",
     "Remapped",
     "StartedNode",
+    "Word",
     "code_of",
     "consumers",
     "data_files",
@@ -94,11 +108,13 @@ __all__ = [
     "parameter_items",
     "parameters_given",
     "paths_of",
+    "processes",
     "remapped_nodes",
     "returns",
     "set_names",
     "signature",
     "started_nodes",
+    "static_transforms",
     "steps",
     "text_uses",
     "truth_tests",

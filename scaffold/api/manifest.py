@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from scaffold.model.manifest import requirements
-from scaffold.model.manifest.conditions import ConditionError, holds, misspelled
+from scaffold.model.manifest.conditions import (
+    ConditionError,
+    Constant,
+    constants,
+    holds,
+    is_never_true,
+    misspelled,
+)
 from scaffold.model.manifest.manifest import Manifest
 from scaffold.model.manifest.package_name import name_used_elsewhere
 from scaffold.model.manifest.placeholders import is_placeholder, is_placeholder_address
@@ -12,9 +19,12 @@ from scaffold.model.manifest.spdx import similar_license, spdx_of
 
 __all__ = [
     "ConditionError",
+    "Constant",
     "Manifest",
+    "constants",
     "declared",
     "holds",
+    "is_never_true",
     "is_placeholder",
     "is_placeholder_address",
     "misspelled",

@@ -24,7 +24,8 @@ from scaffold.model.rclpy.attributes import (
 )
 from scaffold.model.rclpy.callbacks import numbers_taken
 from scaffold.model.rclpy.called_functions import called_function
-from scaffold.model.rclpy.changed_names import ChangedUse, changed_calls, changed_uses
+from scaffold.model.rclpy.changed_calls import changed_calls
+from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
@@ -65,6 +66,7 @@ from scaffold.model.rclpy.parameters.objects import (
 )
 from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
 from scaffold.model.rclpy.qos import conflict_of
+from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.model.rclpy.times import clocks_of
 from scaffold.model.rclpy.transforms import (
     Lookup,
@@ -119,6 +121,7 @@ __all__ = [
     "excess_arguments",
     "given_from_outside",
     "has",
+    "is_asked_for",
     "is_listed_parameter",
     "is_method",
     "is_of_node",
@@ -140,6 +143,7 @@ __all__ = [
     "node_problem",
     "numbers_taken",
     "objects_used",
+    "only_while_stopping",
     "parameter_read",
     "parameters_set",
     "rclpy_file",

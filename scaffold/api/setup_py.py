@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.formats.ini import IniFile, IniOption
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.console_scripts import node_scripts
 from scaffold.model.setup_py.package_data import installed_data, matches, package_data
@@ -11,6 +12,8 @@ __all__ = [
     "DataFile",
     "EntryPoint",
     "FindPackages",
+    "IniFile",
+    "IniOption",
     "SetupPy",
     "installed_data",
     "matches",

@@ -415,11 +415,17 @@ class Package:
         return True
 
     def forget(self) -> None:
-        """Drop the views and the list of files: they are made again when asked for."""
+        """Drop the facts, the views and the list of files: they are made again when asked for."""
+        self._facts.clear()
+        self.forget_views()
+
+    def forget_views(self) -> None:
+        """Drop the views and the list of files, but no facts: other packages may ask for those."""
+        if self._refused:  # which the facts know of
+            self._facts.clear()
+            self._refused.clear()
         self._views.clear()
         self._reads.clear()
-        self._facts.clear()
-        self._refused.clear()
         if self._workspace is None:
             self._neighbourhood = None
         if isinstance(self.tree, DiskTree):

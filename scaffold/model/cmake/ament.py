@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import ast
+import posixpath
 from typing import TYPE_CHECKING
 
+from scaffold.model.cmake.distribution_branches import lines_not_run
+from scaffold.model.cmake.lists import CMakeLists
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
-    from scaffold.model.cmake.lists import CMakeLists, InstallItem
+    from collections.abc import Callable, Iterator
+
+    from scaffold.model.cmake.lists import InstallItem
     from scaffold.model.cmake.parser import Command
     from scaffold.model.package import Package
     from scaffold.source import Location
@@ -59,6 +64,61 @@ _SAFE = frozenset({"find_package", "ament_package", "ament_python_install_packag
 
 def _definitions(cmake: CMakeLists) -> list[Command]:
     return [command for command in cmake.find("macro", "function") if command.arguments]
+
+
+def nested(
+    package: Package, is_asked_for: Callable[[CMakeLists, Command], bool] | None = None
+) -> Iterator[CMakeLists]:
+    """Yield the files that ``add_subdirectory`` and ``include`` name, and those that they name.
+
+    Args:
+        package: The package.
+        is_asked_for: Tells whether a command is not to be followed.
+    """
+    known = {"CMakeLists.txt"}
+    modules = [*_module_directories(package.cmake)]
+    pending = [("", package.cmake)]
+    while pending:
+        directory, lists = pending.pop()
+        dead = [*lines_not_run(lists)]
+        for command in lists.find("add_subdirectory", "include"):
+            path = _named_file(package, directory, lists, command, modules)
+            if path is None or path in known:
+                continue
+            if any(first <= command.location.line <= last for first, last in dead):
+                continue
+            if is_asked_for is not None and is_asked_for(lists, command):
+                continue
+            known.add(path)
+            below = CMakeLists.parse(package.source(path))
+            is_own = command.name == "add_subdirectory"
+            pending.append((posixpath.dirname(path) if is_own else directory, below))
+            yield below
+
+
+def _named_file(
+    package: Package, directory: str, lists: CMakeLists, command: Command, modules: list[str]
+) -> str | None:
+    """Return the file of the package that a command continues with."""
+    value = lists.expand(command.arguments[0], command) if command.arguments else None
+    if value is None:
+        return None
+    if command.name == "add_subdirectory":
+        places = [posixpath.join(directory, value, "CMakeLists.txt")]
+    else:
+        # An expanded path begins at the root of the package, another one at the directory.
+        places = [posixpath.join(directory, value), value]
+        places += [posixpath.join(module, f"{value}.cmake") for module in modules]
+    paths = map(posixpath.normpath, places)
+    return next((path for path in paths if package.has(path)), None)
+
+
+def _module_directories(lists: CMakeLists) -> Iterator[str]:
+    """Yield the directories of the package in which ``include`` looks for modules."""
+    for command in lists.find("set", "list"):
+        if "CMAKE_MODULE_PATH" in command.values[:2]:
+            for argument in command.arguments[1:]:
+                yield from lists.expand_list([argument], command) or ()
 
 
 def is_only_imported(package: Package, path: str) -> bool:

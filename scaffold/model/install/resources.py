@@ -118,9 +118,17 @@ def _named_in(package: Package, module: PythonModule) -> Iterator[OwnFile]:
         if not isinstance(text, str) or not text.startswith(ROOT):
             continue
         path = _normalized(text.removeprefix(ROOT))
-        if path != module.path and path not in seen and package.has(path):
+        is_new = path != module.path and path not in seen and package.has(path)
+        if is_new and not _is_tried(module, node):
             seen.add(path)
             yield OwnFile(path, module.location(node))
+
+
+def _is_tried(module: PythonModule, node: ast.expr) -> bool:
+    """Tell whether a path is one of several, of which the module takes one that exists."""
+    holder = module.parent(node)
+    is_one_of_several = isinstance(holder, ast.List | ast.Tuple) and len(holder.elts) > 1
+    return is_one_of_several and module.mentions("exists(", "isfile(", "is_file(")
 
 
 def _dirname(text: str) -> str:

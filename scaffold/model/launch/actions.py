@@ -35,24 +35,31 @@ class Entity(NamedTuple):
 
     node: ast.expr
     holder: str
-    """What takes it, for people."""
+    """What takes it, such as ``LaunchDescription``."""
+    argument: str = ""
+    """The argument of a callback that takes it."""
     is_alone: bool = False
     """It is not an item of a list: a handler takes lists and functions as well."""
+
+    @property
+    def taker(self) -> str:
+        """What takes it, for people."""
+        return f"{self.argument!r} of {self.holder}" if self.argument else self.holder
 
 
 def entities(launch: LaunchFile) -> Iterator[Entity]:
     """Yield the items of the lists of actions that are written out."""
     seen: set[ast.expr] = set()
-    for holder, node in _lists(launch):
+    for holder, argument, node in _lists(launch):
         listed = _literal_of(launch, node)
         if not isinstance(listed, ast.List):
             if holder not in _MANY:
-                yield Entity(node, holder, is_alone=True)
+                yield Entity(node, holder, argument, is_alone=True)
             continue
         for item in listed.elts:
             if item not in seen:
                 seen.add(item)
-                yield Entity(item, holder)
+                yield Entity(item, holder, argument)
     for added in launch.module.walk(ast.Call):
         match added:
             case ast.Call(func=ast.Attribute(value=description, attr="add_action"), args=[item]):
@@ -61,17 +68,19 @@ def entities(launch: LaunchFile) -> Iterator[Entity]:
                     yield Entity(item, "add_action()")
 
 
-def _lists(launch: LaunchFile) -> Iterator[tuple[str, ast.expr]]:
-    """Yield what is given where actions are taken, and what takes it."""
+def _lists(launch: LaunchFile) -> Iterator[tuple[str, str, ast.expr]]:
+    """Yield what takes actions, the argument of a callback for it, and what is given."""
     for call in launch.calls:
         name = _LISTS.get(call.kind)
         if name is not None and name in call.given:
-            yield call.kind, call.given[name]
+            yield call.kind, "", call.given[name]
         elif call.kind in _WITH_CALLBACKS:
-            yield from ((call.kind, call.given[name]) for name in CALLBACKS if name in call.given)
+            for argument in CALLBACKS:
+                if argument in call.given:
+                    yield call.kind, argument, call.given[argument]
         elif call.kind == "OpaqueFunction":
             for value in _returned_by(launch, call.given.get("function")):
-                yield call.kind, value
+                yield call.kind, "", value
 
 
 def _returned_by(launch: LaunchFile, node: ast.expr | None) -> list[ast.expr]:

@@ -51,9 +51,22 @@ def is_named(package: Package, directory: str) -> bool:
             except ViewError:
                 continue
             named = {name for name in wanted if name in text and _is_named_in(text, name)}
-            if named - _of_other_packages(package, other, path):
+            named -= _of_other_packages(package, other, path)
+            if other.name != package.name:
+                named = {name for name in named if not _is_of_neighbor(package, name)}
+            if named:
                 return True
     return False
+
+
+def _is_of_neighbor(package: Package, name: str) -> bool:
+    """Tell whether another package has a data file of a name, so that it may be that one."""
+    return any(
+        name in _names(data_files(other, directory))
+        for other in package.workspace
+        if other.name != package.name
+        for directory in DATA_DIRECTORIES
+    )
 
 
 def _is_named_in(text: str, name: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.formats import xml_reader
@@ -72,6 +72,10 @@ class MarkupFile(NamedTuple):
     nodes: list[MarkupNode]
     paths: list[MarkupPath]
     attributes: list[Attribute]
+    commands: list[Attribute]
+    """The command lines of ``<executable cmd="…"/>``."""
+    containers: list[MarkupNode]
+    """Each ``<node_container pkg="…" exec="…"/>``."""
 
 
 def markup_files(package: Package) -> list[MarkupFile]:
@@ -97,6 +101,8 @@ def _in_tests(path: str) -> bool:
 def _read(package: Package, path: str) -> MarkupFile | None:
     nodes: list[MarkupNode] = []
     attributes: list[Attribute] = []
+    commands: list[Attribute] = []
+    containers: list[MarkupNode] = []
     try:
         elements = _elements(package, path)
     except ViewError:
@@ -105,8 +111,12 @@ def _read(package: Package, path: str) -> MarkupFile | None:
         attributes.extend(element.attributes.values())
         if element.tag == "node":
             nodes.append(_node(path, element))
+        if element.tag == "node_container":
+            containers.append(_node(path, element))
+        if element.tag == "executable" and "cmd" in element.attributes:
+            commands.append(element.attributes["cmd"])
     paths = [item for attribute in attributes for item in _paths(attribute)]
-    return MarkupFile(path, nodes, paths, attributes)
+    return MarkupFile(path, nodes, paths, attributes, commands, containers)
 
 
 def _node(path: str, element: _Element) -> MarkupNode:
@@ -159,7 +169,7 @@ def _of_xml(element: Element) -> _Element:
         element.name_location,
         element.attributes,
         parameters,
-        [given["from"] for given in remaps if "from" in given],
+        _renamed(remaps),
         any("name" not in given for given in parameters),
     )
 
@@ -176,7 +186,7 @@ def _of_yaml(tag: str, node: Mapping) -> _Element:
         node.location,
         dict(_scalars(node)),
         parameters,
-        [given["from"] for given in remaps if "from" in given],
+        _renamed(remaps),
         len(parameters) < len(children["param"])
         or any("name" not in given for given in parameters),
     )
@@ -207,3 +217,17 @@ def _paths(attribute: Attribute) -> Iterator[MarkupPath]:
             place = Location(at.path, at.line, start, at.line, at.column + item.end(2))
         path = "" if item[3] else item[2].strip("/")
         yield MarkupPath(item[1], path, place)
+
+
+def _renamed(remaps: Iterable[dict[str, Attribute]]) -> list[Attribute]:
+    pairs = [(given["from"], given.get("to")) for given in remaps if "from" in given]
+    return [
+        source
+        for source, target in pairs
+        if target is None or changes_name(source.value, target.value)
+    ]
+
+
+def changes_name(source: str, target: object) -> bool:
+    """Tell whether a remapping gives a name another one: many write the same one twice."""
+    return not isinstance(target, str) or source.lstrip("/") != target.lstrip("/")

@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
+from scaffold.model.launch.markup_file import changes_name
 from scaffold.model.launch.parameter_values import GivenValue, value_given
 from scaffold.model.launch.python_file import (
     NODES,
@@ -289,9 +290,9 @@ def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, Loc
     elements = launch.evaluator.elements(given).items if given is not None else ()
     for element in elements:
         match element.node:
-            case ast.Tuple(elts=[source, _]) | ast.List(elts=[source, _]):
+            case ast.Tuple(elts=[source, target]) | ast.List(elts=[source, target]):
                 text = launch.evaluator.text(source)
-                if isinstance(text, str):
+                if isinstance(text, str) and changes_name(text, launch.evaluator.text(target)):
                     yield text, launch.location(source)
 
 

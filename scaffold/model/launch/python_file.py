@@ -106,7 +106,7 @@ class LaunchEvaluator(Evaluator):
 
     def joined_text(self, node: ast.expr | None) -> str | Unknown:
         """Return the text of a substitution, or of a list of them, which launch joins."""
-        return _concatenated(self.evaluate(node))
+        return joined_value(self.evaluate(node))
 
     def _share(self, node: ast.expr | None) -> str | Unknown:
         name = self.joined_text(node)
@@ -116,7 +116,7 @@ class LaunchEvaluator(Evaluator):
         value = self.evaluate(node)
         if not isinstance(value, list | tuple) or not value:
             return UNKNOWN
-        parts = [_concatenated(part) for part in value]
+        parts = [joined_value(part) for part in value]
         texts = [part for part in parts if isinstance(part, str)]
         return join_paths(texts) if len(texts) == len(parts) else UNKNOWN
 
@@ -442,12 +442,12 @@ def _leaves(statement: ast.stmt) -> bool:
             return False
 
 
-def _concatenated(value: object) -> str | Unknown:
+def joined_value(value: object) -> str | Unknown:
     """Return the text of a value: substitutions in a list are joined without a separator."""
     if isinstance(value, PathValue):
         return value.text
     if isinstance(value, list | tuple):
-        parts = [_concatenated(part) for part in value]
+        parts = [joined_value(part) for part in value]
         texts = [part for part in parts if isinstance(part, str)]
         return "".join(texts) if len(texts) == len(parts) else UNKNOWN
     return value if isinstance(value, str) else UNKNOWN

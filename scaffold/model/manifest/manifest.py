@@ -12,7 +12,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location, Source
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Container, Mapping
 
     from scaffold.edits import Edit
 
@@ -71,6 +71,11 @@ class Dependency(NamedTuple):
         from scaffold.model.manifest import conditions
 
         return conditions.names_unknown(self.condition)
+
+    @property
+    def may_be_active(self) -> bool:
+        """Whether its condition holds on the target, or is up to who builds the package."""
+        return self.active or self.is_optional
 
 
 class XmlModel(NamedTuple):
@@ -222,6 +227,19 @@ class Manifest:
     def declared_names(self) -> set[str]:
         """The names of all dependencies, whatever their conditions."""
         return {dependency.name for dependency in self.dependencies}
+
+    def left_out(self, names: Container[str], *purposes: str) -> Dependency | None:
+        """Return a dependency on one of some packages that its condition leaves out on the target.
+
+        Args:
+            names: The packages.
+            purposes: As for `names_for`.
+        """
+        for dependency in self.dependencies:
+            is_for_them = not _PURPOSES[dependency.kind].isdisjoint(purposes)
+            if dependency.name in names and is_for_them and not dependency.may_be_active:
+                return dependency
+        return None
 
     @property
     def groups(self) -> list[Element]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
 _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
+_ROS1 = frozenset({"rospy", "roslib"})
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
@@ -38,6 +39,12 @@ class Requirement(NamedTuple):
     """Only tests import it."""
     for_launch: bool
     """Only launch files import it."""
+    in_data: bool
+    """Only files import it that are installed to the share directory: no command starts them."""
+
+    def is_stronger_than(self, other: Requirement) -> bool:
+        """Tell whether more depends on it: a test less than a program, data less than both."""
+        return (self.in_data, self.for_tests) < (other.in_data, other.for_tests)
 
 
 class Declared(NamedTuple):
@@ -52,21 +59,22 @@ def required_packages(package: Package) -> list[Requirement]:
     result: dict[str, Requirement] = {}
     local = _local_names(package).union(package.workspace.policy.implicit)
     for path, imports in imports_by_path(package):
-        if not is_shipped(package, path):
+        if not is_shipped(package, path) or _is_of_ros1(imports):
             continue
         for item in imports:
             keys = _keys(package, item, local)
             if not keys:
                 continue
-            requirement = result.get(item.root)
+            earlier = result.get(item.root)
             for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
             for_launch = path.endswith("launch.py") or "launch" in path.split("/")[:-1]
-            if requirement is None or (requirement.for_tests and not for_tests):
-                result[item.root] = Requirement(
-                    keys, item.root, item.location, for_tests, for_launch
-                )
-            elif not for_launch and for_tests <= requirement.for_tests:
-                result[item.root] = requirement._replace(for_launch=False)
+            need = Requirement(
+                keys, item.root, item.location, for_tests, for_launch, _is_data(package, path)
+            )
+            if earlier is None or need.is_stronger_than(earlier):
+                result[item.root] = need
+            elif not for_launch and not earlier.is_stronger_than(need):
+                result[item.root] = earlier._replace(for_launch=False)
     return sorted(result.values(), key=lambda need: need.location)
 
 
@@ -126,6 +134,29 @@ def is_shipped(package: Package, path: str) -> bool:
     return any(
         name in text or (directory and re.search(whole, text) is not None)
         for text in _builds(package)
+    )
+
+
+def _is_of_ros1(imports: Iterable[Import]) -> bool:
+    """Tell whether a file is a node of ROS 1, which does not start in ROS 2 anyway."""
+    roots = {item.root for item in imports if not item.guarded and not item.conditional}
+    return "rclpy" not in roots and not roots.isdisjoint(_ROS1)
+
+
+def _is_data(package: Package, path: str) -> bool:
+    """Tell whether a script comes along in a directory that is installed with the data."""
+    directory, _, name = path.rpartition("/")
+    if path.endswith("launch.py") or is_in_tests(path) or package.has(f"{directory}/__init__.py"):
+        return False
+    try:
+        installs = package.cmake.installs
+    except ViewError:
+        return False
+    return not any(name in text for text in _builds(package)) and any(
+        install.kind == "DIRECTORY"
+        and "share" in (install.destination or "")
+        and any(item.path and path.startswith(f"{item.path}/") for item in install.items)
+        for install in installs
     )
 
 

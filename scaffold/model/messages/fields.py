@@ -45,6 +45,9 @@ _RETURNS: Mapping[str, str] = {
     "time.monotonic": "float",
     "time.perf_counter": "float",
     "time.time_ns": "int",
+    **dict.fromkeys(
+        ("cv2.findContours", "cv2.imencode", "cv2.threshold", "divmod", "math.modf"), "results"
+    ),
 }
 _NAMES = {
     "bool": "a bool",
@@ -54,6 +57,7 @@ _NAMES = {
     "int": "an int",
     "list": "a list",
     "none": "None",
+    "results": "a tuple of several results",
     "str": "a str",
 }
 _OF_TEXT = {
@@ -256,8 +260,11 @@ class TypeMismatches:
         type_, node = item.field.type, item.value
         if not type_.is_array:
             return self._single(type_, node)
+        given = self._types.type_of(node)
+        if given is not None:
+            return f"{self._shown(node)} is one {given.name}, not a list"
         kind = self._kinds.of(node)
-        if kind in {"int", "float", "bool", "none", "dict"}:
+        if kind in {"int", "float", "bool", "none", "dict", "results"}:
             return f"{self._shown(node)} is {_NAMES[kind]}, not a list"
         if kind == "str" and type_.name not in {"byte", "char", "uint8"}:
             return f"{self._shown(node)} is a str, not a list"
@@ -269,7 +276,7 @@ class TypeMismatches:
         """Tell whether a message is given where another with the same fields is expected."""
         given = self._types.type_of(item.value)
         expected = self._types.definitions.find(item.field.type.full_name)
-        if given is None or expected is None:
+        if given is None or expected is None or item.field.type.is_array:
             return False
         fields = [(field.name, str(field.type)) for field in expected.sections[0].fields]
         return fields == [(field.name, str(field.type)) for field in given.section.fields]

@@ -18,14 +18,17 @@ if TYPE_CHECKING:
 
 _PLAIN_COMMANDS = frozenset(
     """
-    add_compile_options add_definitions add_dependencies add_executable add_library
-    ament_add_gmock ament_add_gtest ament_add_pytest_test
+    add_compile_options add_definitions add_dependencies add_executable add_launch_test add_library
+    add_test ament_add_gmock ament_add_gtest ament_add_pytest_test ament_add_test
+    ament_copyright ament_cppcheck ament_cpplint
     ament_environment_hooks ament_export_dependencies ament_export_include_directories
-    ament_export_interfaces ament_export_libraries ament_export_targets
+    ament_export_interfaces ament_export_libraries ament_export_targets ament_flake8
     ament_index_register_resource
-    ament_lint_auto_find_test_dependencies ament_package ament_python_install_package
-    ament_target_dependencies cmake_minimum_required cmake_policy else elseif endforeach endif
-    find_package foreach if include_directories install list message option
+    ament_lint_auto_find_test_dependencies ament_lint_cmake ament_mypy ament_package ament_pep257
+    ament_python_install_module ament_python_install_package
+    ament_target_dependencies ament_uncrustify ament_xmllint cmake_minimum_required cmake_policy
+    else elseif enable_testing endforeach endif find_package foreach if include_directories install
+    list math message option
     pluginlib_export_plugin_description_file
     project rclcpp_components_register_node rclcpp_components_register_nodes return
     rosidl_generate_interfaces rosidl_get_typesupport_target rosidl_target_interfaces set
@@ -99,13 +102,21 @@ def _find_imported(package: Package, path: str) -> Iterator[str]:
         else:
             names = [root + item.module.replace(".", "/") for root in dict.fromkeys(roots)]
         for stem in names:
-            if package.has(f"{stem}.py") and f"{stem}.py" != path:
-                try:
-                    known_nodes(package, f"{stem}.py")
-                except ViewError:
-                    continue
-                yield f"{stem}.py"
+            modules = (stem, *(f"{stem}/{imported.name}" for imported in item.names))
+            files = [file for file in (f"{name}.py" for name in modules) if package.has(file)]
+            readable = [file for file in files if file != path and _is_readable(package, file)]
+            yield from readable
+            if readable:
                 break
+
+
+def _is_readable(package: Package, path: str) -> bool:
+    """Tell whether a file can be parsed."""
+    try:
+        known_nodes(package, path)
+    except ViewError:
+        return False
+    return True
 
 
 def _programs(package: Package) -> Programs:

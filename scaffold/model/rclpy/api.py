@@ -140,8 +140,18 @@ def _class_made(file: RclpyFile, call: ast.Call, func: ast.Attribute, depth: int
         return None if is_own or owner.is_lifecycle else _MADE.get(func.attr)
     if func.attr == "result" and not call.args:
         return _class_of_result(file, func.value, depth)
+    if func.attr in _MADE and _is_annotated_as_node(file, func.value):
+        return _MADE[func.attr]
     inner = class_of(file, func.value, depth + 1)
     return _GIVEN.get(f"{inner}.{func.attr}")
+
+
+def _is_annotated_as_node(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether an expression is a parameter of a function, or is set to one, that is a node."""
+    argument = file.parameter_of(file.evaluator.single_value(node))
+    if argument is None or argument.annotation is None:
+        return False
+    return file.module.qualified_name(argument.annotation) == NODE
 
 
 def _class_of_result(file: RclpyFile, node: ast.expr, depth: int) -> str | None:

@@ -163,6 +163,9 @@ class Creation:
         if given is not None:
             return qos_of(self._facts.evaluator, given.node)
         if method == "Subscriber" and not created.has_unknown_arguments:
+            more = created.call.args[len(_FILTERS[method]) :]
+            if more:  # a TypeError: the value is meant as the quality of service
+                return qos_of(self._facts.evaluator, more[0])
             return Qos(created.location, None, _DEFAULT_DEPTH, *PROFILES["default"][1:])
         return None
 

@@ -35,7 +35,7 @@ def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
     quote = quote_of(setup)
     texts = [point.text for point in setup.console_scripts if "=" in point.text]
     equals = "=" if texts and not any(" = " in text for text in texts) else " = "
-    entry = f"{quote}{name}{equals}{target}{quote}"
+    entry = Text(quote, f"{name}{equals}", target)
     group = Block(f"{quote}console_scripts{quote}: [", "]", (entry,))
     word = setup.keyword("entry_points")
     if word is None:
@@ -44,7 +44,7 @@ def add_console_script(setup: SetupPy, name: str, target: str) -> Edit | None:
     return _add_to_group(setup, points, entry, group) if isinstance(points, ast.Dict) else None
 
 
-def _add_to_group(setup: SetupPy, points: ast.Dict, entry: str, group: Block) -> Edit | None:
+def _add_to_group(setup: SetupPy, points: ast.Dict, entry: Text, group: Block) -> Edit | None:
     for key, value in zip(points.keys, points.values, strict=True):
         if setup.evaluator.evaluate(key) == "console_scripts":
             scripts = _list_to_extend(setup.module, value)
@@ -113,24 +113,37 @@ def add_import(module: PythonModule, statement: str) -> Edit | None:
 # -- what is inserted
 
 
+class Text(NamedTuple):
+    """A string that is written as two, below each other, where one would be too long."""
+
+    quote: str
+    start: str
+    end: str
+
+    def render(self, indent: str, newline: str) -> str:
+        """Return the text; its first line is not indented, the other by ``indent``."""
+        whole = f"{self.quote}{self.start}{self.end}{self.quote}"
+        if len(f"{indent}{whole},") <= MAX_LINE:
+            return whole
+        parts = (f"{self.quote}{part}{self.quote}" for part in (self.start, self.end))
+        return f"{newline}{indent}".join(parts)
+
+
 class Block(NamedTuple):
     """Text that spans several lines: items between an opening and a closing bracket."""
 
     opening: str
     closing: str
-    items: tuple[str | Block, ...]
+    items: tuple[str | Block | Text, ...]
 
     def render(self, indent: str, newline: str) -> str:
         """Return the text; its first line is not indented, the others by ``indent``."""
         inner = indent + _STEP
-        lines = [self.opening]
-        for item in self.items:
-            text = item if isinstance(item, str) else item.render(inner, newline)
-            lines.append(f"{inner}{text},")
-        return newline.join([*lines, f"{indent}{self.closing}"])
+        lines = [f"{inner}{_render(item, inner, newline)}," for item in self.items]
+        return newline.join([self.opening, *lines, f"{indent}{self.closing}"])
 
 
-def _render(item: str | Block, indent: str, newline: str) -> str:
+def _render(item: str | Block | Text, indent: str, newline: str) -> str:
     return item if isinstance(item, str) else item.render(indent, newline)
 
 
@@ -175,7 +188,7 @@ def _add_keyword(setup: SetupPy, name: str, value: Block) -> Edit | None:
 
 
 def append_item(
-    module: PythonModule, holder: ast.expr, items: Sequence[ast.expr], item: str | Block
+    module: PythonModule, holder: ast.expr, items: Sequence[ast.expr], item: str | Block | Text
 ) -> Edit:
     """Return the edit that adds an item after the last one inside brackets."""
     text, newline = module.source.text, module.source.newline
@@ -205,7 +218,7 @@ def append_item(
     return Edit(module.path, end, line_end, f",{kept}{rendered},")
 
 
-def _fill(module: PythonModule, holder: ast.expr, close: int, item: str | Block) -> Edit:
+def _fill(module: PythonModule, holder: ast.expr, close: int, item: str | Block | Text) -> Edit:
     """Return the edit that adds the first item between empty brackets."""
     text, newline = module.source.text, module.source.newline
     opening = module.span(holder)[0]

@@ -484,6 +484,21 @@ def test_add_console_script(before: str, after: str, newline: str) -> None:
     assert add_console_script(view(after), "new", "demo.new:main") is None
 
 
+def test_an_entry_that_would_be_too_long_is_written_in_two_pieces() -> None:
+    before = view(
+        f"{HEAD}setup(\n    entry_points={{\n        'console_scripts': [],\n    }},\n)\n"
+    )
+    name, target = "n" * 48, f"demo.{'n' * 48}:main"
+    edit = add_console_script(before, name, target)
+    assert edit is not None
+    text = before.module.source.text
+    after = view(text[: edit.start] + edit.text + text[edit.end :])
+    assert f"\n            '{name} = '\n            '{target}',\n" in after.module.source.text
+    assert [(point.name, str(point.module)) for point in after.console_scripts] == [
+        (name, target.partition(":")[0])
+    ]
+
+
 def test_a_line_that_would_be_too_long_is_broken() -> None:
     before = (
         HEAD + "setup(entry_points={'console_scripts': ['a = b:c', 'd = e:f', 'g = hhhhhh:i']})\n"

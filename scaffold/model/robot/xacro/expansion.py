@@ -60,6 +60,11 @@ class Expansion:
         """Whether all parts are known."""
         return not self.problems.is_open and not self.problems.is_partial
 
+    @property
+    def arguments(self) -> frozenset[str]:
+        """The names that ``<xacro:arg>`` declares, in files that are included as well."""
+        return frozenset(self._arguments)
+
     def read(self) -> Expansion:
         """Expand the whole file."""
         frame = Frame(self.file, Scope(), {}, is_certain=True, depth=0)

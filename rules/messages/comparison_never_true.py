@@ -1,0 +1,114 @@
+"""MS029: fields are compared with values that they can have."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import is_for_ros1
+
+_NODE = (
+    "from diagnostic_msgs.msg import DiagnosticStatus\nfrom nav_msgs.msg import OccupancyGrid\n"
+    "from rclpy.node import Node\nfrom std_msgs.msg import Bool, Int32, String\n\n\n"
+    "class Watch(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('watch')\n"
+    "        self.create_subscription(OccupancyGrid, 'map', self.on_map, 10)\n"
+    "        self.create_subscription(DiagnosticStatus, 'status', self.on_status, 10)\n"
+    "        self.create_subscription(Bool, 'stop', self.on_stop, 10)\n"
+    "        self.create_subscription(Int32, 'mode', self.on_mode, 10)\n\n"
+    "    def on_map(self, msg):\n"
+    "        return msg.data[0] == {}, [cell for cell in msg.data if cell == {}]\n\n"
+    "    def on_status(self, msg):\n"
+    "        return msg.level == {}\n\n"
+    "    def on_stop(self, msg):\n"
+    "        return msg.data == {}\n\n"
+    "    def on_mode(self, msg):\n"
+    "        return msg.data in {}\n"
+)
+
+
+class ComparisonNeverTrue(MessageRule):
+    """A field of a message is compared with a value that its type never has.
+
+    **Why.** ``==`` is false whatever arrives, and nothing complains: ``'1'`` is not ``1``, a cell
+    of a map is an int8 and never 255, the level of a diagnostic status is ``bytes``.
+
+    **Fix.** Compare with a value of the type, best with a constant of the message:
+    ``DiagnosticStatus.OK``.
+
+    **Source.** ``ros2 interface show``; https://github.com/ros2/rcl_interfaces/issues/158.
+    """
+
+    code = "MS029"
+    name = "comparison-never-true"
+    examples = (
+        Example(
+            "values of the types",
+            {
+                "watch.py": _NODE.format(
+                    "-1", "100", "DiagnosticStatus.OK", "True or msg.data == 1", "(1, 2)"
+                )
+            },
+        ),
+        Example(
+            "out of range, a number for bytes, texts for a truth and for a number",
+            {"watch.py": _NODE.format("255", "200", "0", "'true'", "('1', '2')")},
+            Report("16:16", "msg.data[0] is of int8, -128 to 127: it never equals 255"),
+            Report("16:66", "cell is of int8, -128 to 127: it never equals 200"),
+            Report("19:16", "msg.level is of type bytes, which never equals 0"),
+            Report("22:16", "msg.data is of type bool, which never equals 'true'"),
+            Report("25:16", "msg.data is of type int, which never equals '1'"),
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for node in types.module.walk(ast.Compare):
+            if len(node.ops) != 1 or is_for_ros1(types.module, node):
+                continue
+            left, right = node.left, node.comparators[0]
+            problem = ""
+            if isinstance(node.ops[0], ast.In | ast.NotIn):
+                problems = [_problem(types, left, item) for item in _items(right)]
+                problem = problems[0] if problems and all(problems) else ""
+            elif isinstance(node.ops[0], ast.Eq | ast.NotEq):
+                problem = _problem(types, left, right) or _problem(types, right, left)
+            if problem:
+                yield self.report(types.module.location(node), problem)
+
+
+def _items(node: ast.expr) -> list[ast.expr]:
+    return node.elts if isinstance(node, ast.List | ast.Tuple | ast.Set) else []
+
+
+def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
+    """Return why a field never equals a value; empty if it may."""
+    type_ = types.field_type_of(field)
+    value = types.facts.evaluator.evaluate(other)
+    is_plain = type_ is not None and type_.is_primitive and not type_.is_array
+    if type_ is None or not is_plain or not isinstance(value, bool | int | float | str | bytes):
+        return ""
+    text = types.module.text(field)
+    allowed = _allowed(type_)
+    if not isinstance(value, allowed):
+        kind = allowed[0].__name__
+        return f"{text} is of type {kind}, which never equals {value!r}"
+    if type_.name in INTEGER_RANGES and isinstance(value, int | float):
+        low, high = INTEGER_RANGES[type_.name]
+        if not low <= value <= high:
+            return f"{text} is of {type_.name}, {low} to {high}: it never equals {value}"
+    return ""
+
+
+def _allowed(type_: FieldType) -> tuple[type, ...]:
+    """Return the Python types of what a field may equal, its own first."""
+    if type_.name == "byte":
+        return (bytes,)
+    if type_.name in TEXTS:
+        return (str,)
+    if type_.name in FLOATS:
+        return (float, int)
+    return (bool, int, float) if type_.name == "bool" else (int, float)

@@ -1,0 +1,148 @@
+"""MS030: markers have a color that can be seen, and an id of their own."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import is_known
+
+_MARKER = "visualization_msgs/msg/Marker"
+_ADDING = frozenset({"Marker.ADD", "Marker.MODIFY", "0"})
+_NODE = (
+    "from rclpy.node import Node\nfrom visualization_msgs.msg import Marker, MarkerArray\n\n\n"
+    "class Show(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('show')\n"
+    "        self.publisher = self.create_publisher(MarkerArray, 'markers', 10)\n\n"
+    "    def show(self, places):\n"
+    "        array = MarkerArray()\n"
+    "        for number, place in enumerate(places):\n"
+    "            marker = Marker()\n"
+    "            marker.header.frame_id = 'map'\n"
+    "            marker.type = Marker.SPHERE\n"
+    "            marker.id = {}\n"
+    "            marker.pose.position = place\n"
+    "            marker.scale.x = marker.scale.y = marker.scale.z = 0.1\n"
+    "            marker.color.{} = 1.0\n"
+    "            {}\n"
+    "            array.markers.append(marker)\n"
+    "        self.publisher.publish(array)\n"
+)
+
+
+class MarkerNotShown(MessageRule):
+    """A marker has no alpha, or all markers of a loop have the same id.
+
+    **Why.** ``color.a`` is 0 unless it is set: RViz draws nothing. A marker replaces the one of
+    the same ``ns`` and ``id``: of a whole array, the last one is left.
+
+    **Fix.** ``marker.color.a = 1.0``; ``marker.id = number`` of ``enumerate(...)``.
+
+    **Source.** ``visualization_msgs/msg/Marker``; RViz User Guide, "Marker Display".
+    """
+
+    code = "MS030"
+    name = "marker-not-shown"
+    examples = (
+        Example("colored, numbered", {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")}),
+        Example(
+            "possibly set elsewhere",
+            {"show.py": _NODE.format("number", "r", "self.paint(marker)")},
+        ),
+        Example(
+            "one that is removed, one of a namespace of its own",
+            {
+                "show.py": _NODE.format("number", "r", "marker.action = Marker.DELETE"),
+                "b.py": _NODE.format("0", "a", "marker.ns = f'place{number}'"),
+            },
+        ),
+        Example(
+            "no alpha, one id",
+            {"show.py": _NODE.format("7", "r", "marker.action = Marker.ADD")},
+            Report(
+                "13:22",
+                "all markers of this loop have the id 7: RViz shows the last one; count them",
+            ),
+            Report(
+                "13:22", "nothing sets color.a, which is 0 then: RViz does not show this marker"
+            ),
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for assignment in types.module.walk(ast.Assign):
+            match assignment:
+                case ast.Assign(targets=[ast.Name() as name], value=ast.Call(args=[]) as made):
+                    class_ = types.class_of(made.func)
+                    if class_ is not None and class_.name == _MARKER and not made.keywords:
+                        for problem in _problems(types, assignment, name):
+                            yield self.report(types.module.location(made), problem)
+
+
+def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator[str]:
+    uses = _uses(types, name)
+    if uses is None:
+        return
+    actions = {types.module.text(value) for value in _given(types, uses, "action")}
+    fields = {types.module.text(use).partition(".")[2] for use in uses}
+    if actions <= _ADDING and fields.isdisjoint(_COLORS):
+        yield "nothing sets color.a, which is 0 then: RViz does not show this marker"
+    loop = next((p for p in types.module.parents(made) if isinstance(p, ast.For)), None)
+    if loop is None or not actions <= _ADDING or _ends_early(loop):
+        return
+    ids, spaces = (list(_given(types, uses, key)) for key in ("id", "ns"))
+    values = [types.facts.evaluator.evaluate(value) for value in (*ids, *spaces)]
+    if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):
+        shown = f"the id {values[0]}" if ids else "the id 0"
+        yield f"all markers of this loop have {shown}: RViz shows the last one; count them"
+
+
+_COLORS = frozenset({"color", "color.a", "colors", "mesh_use_embedded_materials"})
+
+
+def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None:
+    """Return the fields of a marker that are used; ``None`` if anything else is done with it."""
+    module = types.module
+    scope = module.index.lookup(name.id, name)
+    if scope is None or len(scope[1]) != 1:
+        return None
+    result: list[ast.Attribute] = []
+    is_sent = False
+    for use in module.index.names(name.id):
+        if not isinstance(use.ctx, ast.Load) or module.index.lookup(use.id, use) != scope:
+            continue
+        above = module.parent(use)
+        match above:
+            case ast.Attribute():
+                field: ast.Attribute = above
+                while isinstance(outer := module.parent(field), ast.Attribute):
+                    field = outer
+                if isinstance(outer, ast.Call) and outer.func is field:
+                    field = above  # such as points.append()
+                if isinstance(field.ctx, ast.Load) and above.attr == "color":
+                    return None
+                result.append(field)
+            case ast.Call(func=ast.Attribute(attr="append" | "publish"), args=[only]) if (
+                only is use
+            ):
+                is_sent = True
+            case ast.List():
+                is_sent = True
+            case _:
+                return None
+    return result if is_sent else None
+
+
+def _given(types: MessageTypes, uses: Sequence[ast.Attribute], field: str) -> Iterator[ast.expr]:
+    """Yield what is assigned to a field."""
+    for use in uses:
+        above = types.module.parent(use)
+        if use.attr == field and isinstance(above, ast.Assign) and isinstance(use.ctx, ast.Store):
+            yield above.value
+
+
+def _ends_early(loop: ast.For) -> bool:
+    return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))

@@ -1,0 +1,127 @@
+"""The command lines of programs that launch files start, word by word."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from scaffold.model.launch.markup_file import markup_files
+from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile, joined_value
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.formats.xml import Attribute
+    from scaffold.model.package import Package
+    from scaffold.source import Location
+
+PROGRAM = "static_transform_publisher"
+UNSAID = "$"
+"""Stands for a value that is not known; an option is always written as it is."""
+_PROCESSES = ("ExecuteProcess", "ExecuteLocal")
+_RUN = ["ros2", "run"]
+_WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
+"""Matches a word of a command line; launch takes a substitution for a part of one."""
+
+
+class Word(NamedTuple):
+    """An argument of the program."""
+
+    text: str
+    location: Location
+    node: ast.expr | None = None
+    """The expression of it; the same for several words that one expression gives."""
+    span: tuple[int, int] | None = None
+    """Where it is in the value of an attribute."""
+
+    @property
+    def is_no_number(self) -> bool:
+        """Whether ``std::stod`` refuses it, which only looks at how a text begins."""
+        begins = r"\s*[-+]?(?:\.?[0-9]|inf|nan)"
+        return UNSAID not in self.text and not re.match(begins, self.text, re.IGNORECASE)
+
+
+class CommandLine(NamedTuple):
+    """The words that a program is started with, all of them."""
+
+    location: Location
+    """The place of the action."""
+    given: Location
+    """The place of the words."""
+    words: Sequence[Word]
+    launch: LaunchFile | None = None
+    expression: ast.expr | None = None
+    """What gives the words in Python."""
+    attribute: Attribute | None = None
+    """What holds them in XML and YAML."""
+
+
+def static_transforms(package: Package) -> Iterator[CommandLine]:
+    """Yield what the launch files of a package give static_transform_publisher.
+
+    The words between ``--ros-args`` and ``--`` are left out.
+    """
+    for launch in LaunchFile.of_package(package):
+        for call in launch.find(*NODES):
+            if launch.text(call, "executable") == PROGRAM:
+                for line in _in_python(launch, call, "arguments"):
+                    yield line._replace(words=_own(line.words))
+    for file in markup_files(package):
+        for node in file.nodes:
+            given = node.arguments
+            if node.executable is not None and node.executable.value == PROGRAM and given:
+                words = _own(_split(given))
+                yield CommandLine(given.location, given.location, words, attribute=given)
+    for line in processes(package):
+        texts = [word.text for word in line.words[:4]]
+        if texts[:2] == _RUN and texts[3:] == [PROGRAM]:
+            yield line._replace(words=_own(line.words[4:]))
+
+
+def processes(package: Package) -> Iterator[CommandLine]:
+    """Yield the command lines that are started as they are, ``ros2 run ...`` among them."""
+    for launch in LaunchFile.of_package(package):
+        for call in launch.find(*_PROCESSES):
+            yield from _in_python(launch, call, "cmd")
+    for file in markup_files(package):
+        for command in file.commands:
+            at = command.location
+            yield CommandLine(at, at, _split(command), attribute=command)
+
+
+def _in_python(launch: LaunchFile, call: LaunchCall, keyword: str) -> Iterator[CommandLine]:
+    expression = call.given.get(keyword)
+    elements = launch.evaluator.elements(expression) if expression is not None else None
+    if expression is None or elements is None or not elements.complete or not elements.items:
+        return
+    words: list[Word] = []
+    is_shell = launch.evaluator.evaluate(call.given.get("shell")) is True
+    for item in elements.items:
+        text = joined_value(item.value)
+        texts = [UNSAID] if not isinstance(text, str) else text.split() if is_shell else [text]
+        node = item.node if len(texts) == 1 else None
+        words += [Word(part, launch.location(item.node), node) for part in texts]
+    yield CommandLine(call.location, launch.location(expression), words, launch, expression)
+
+
+def _split(attribute: Attribute) -> list[Word]:
+    at = attribute.location
+    return [
+        Word(UNSAID if "$(" in match[0] else match[0], at, span=match.span())
+        for match in _WORD.finditer(attribute.value)
+    ]
+
+
+def _own(words: Sequence[Word]) -> Sequence[Word]:
+    """Return the words that are for the program, not for ROS."""
+    result: list[Word] = []
+    is_for_ros = False
+    for word in words:
+        if word.text == "--ros-args":
+            is_for_ros = True
+        elif not is_for_ros:
+            result.append(word)
+        elif word.text == "--":
+            is_for_ros = False
+    return result
