@@ -7,6 +7,7 @@ is called with, as plainly as an annotation. What is added is on the line of the
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 
 _WORDS = (
@@ -27,7 +28,10 @@ _CALLBACK = re.compile(r"(?:self\.)?([^\W\d]\w*)")
 _SEGMENT = re.compile(r"^(?=class )", re.MULTILINE)
 _PARAMETER = r"\w+(?:\s*:\s*[\w.\[\]\"']+)?"
 _SELF = r"self(?:\s*:\s*[\w.\"']+)?"
-_END = r"(\s*,?\s*\)\s*(?:->[^\n]*)?:)"
+_DEFINITION = re.compile(
+    rf"(\bdef (\w+)\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER}"
+    rf"(?:\s*,\s*{_PARAMETER}){{0,8}})(\s*(?:,\s*)?\)\s*(?:->[^\n]*)?:)"
+)
 _REBOUND = (
     r"(?:^|[;:])[ \t]*{0}[ \t]*(?::[^=\n]*)?=(?!=)[^\n]*(?<!,)$"
     r"|\b(?:for|as)[ \t]+{0}\b|\b{0}[ \t]*:="
@@ -86,21 +90,24 @@ def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its
         if given[0].startswith(_FUTURE) and not has_ros_futures:
             continue
         types[name] = () if types.get(name, given) != given else given
-    for name, given in types.items():
-        pattern = (
-            rf"(\bdef {name}\(\s*(?:{_SELF}\s*,\s*)?)(?!self\b)({_PARAMETER}"
-            rf"(?:\s*,\s*{_PARAMETER}){{0,8}}){_END}"
-        )
-        matches = list(re.finditer(pattern, segment))
-        if len(matches) == 1 and given:
-            start, end = matches[0].span()
-            typed = _typed(matches[0], given, _body(segment, start, end))
+    for definition in reversed(_defined_once(segment)) if any(types.values()) else ():
+        given = types.get(definition[2])
+        if given:
+            start, end = definition.span()
+            typed = _typed(definition, given, _body(segment, start, end))
             segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 
 
+def _defined_once(segment: str) -> list[re.Match[str]]:
+    """Return the definitions whose names no other has, in their order."""
+    definitions = [*_DEFINITION.finditer(segment)]
+    times = Counter(definition[2] for definition in definitions)
+    return [definition for definition in definitions if times[definition[2]] == 1]
+
+
 def _typed(definition: re.Match[str], given: tuple[str, ...], body: str) -> str:
-    head, parameters, tail = definition.groups()
+    head, _, parameters, tail = definition.groups()
     result: list[str] = []
     for at, part in enumerate(parameters.split(",")):
         bare = part.strip()
