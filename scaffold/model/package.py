@@ -130,7 +130,16 @@ class Package:
 
     def glob(self, pattern: str) -> list[str]:
         """Return the files that match, where ``*`` matches anything but ``/``."""
-        return filter_names(self._by_depth.get(pattern.count("/"), ()), pattern)
+        files = self._by_depth.get(pattern.count("/"), ())
+        head, star, tail = pattern.partition("*")
+        if not star or any(wildcard in head + tail for wildcard in "*?["):
+            return filter_names(files, pattern)
+        shortest = len(head) + len(tail)
+        return [
+            path
+            for path in files
+            if len(path) >= shortest and path.startswith(head) and path.endswith(tail)
+        ]
 
     def is_executable(self, path: str) -> bool:
         """Tell whether a file has an executable bit."""

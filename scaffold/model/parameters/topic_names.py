@@ -24,7 +24,7 @@ def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
     if parameter is None:
         return True
     for path in parameter_paths(package):
-        file = parameter_file(package, path)
+        file = parameter_file(package, path) if _may_name(package, path, parameter) else None
         for section in file.sections if file else ():
             for entry in section.entries:
                 if entry.name == parameter and not _is_same(entry.value, endpoint):
@@ -32,6 +32,14 @@ def keeps_default_name(package: Package, endpoint: NamedEndpoint) -> bool:
     return not package.remember(
         ("named in launch files", parameter), lambda: _is_named(package, parameter)
     )
+
+
+def _may_name(package: Package, path: str, name: str) -> bool:
+    """Tell whether the last part of a name is a key in a file; this costs less than to parse it."""
+    key = re.escape(name.rpartition(".")[2])
+    with suppress(ViewError):
+        return re.search(rf"\b{key}\b['\"]?\s*:", package.source(path).text) is not None
+    return False
 
 
 def _is_named(package: Package, name: str) -> bool:
