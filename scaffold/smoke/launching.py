@@ -15,6 +15,8 @@ from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.together import Group
 
 _ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+_GRACE = 12.0
+"""Seconds from SIGINT to the end: launch gives its nodes five, and five more after SIGTERM."""
 _CODE = """\
 import sys
 from launch import LaunchDescription, LaunchService
@@ -79,6 +81,7 @@ def groups(package: str, python: str, variables: Mapping[str, str]) -> list[Grou
                 str(path.relative_to(share)),
                 f"{package}/launch/{number}",
                 {path.name: [python, "-c", _CODE, str(path)]},
+                _GRACE,
             )
             for number, path in enumerate(files)
         ]

@@ -18,6 +18,7 @@ from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.observe import ANSWER_TIMEOUT, LAST_ANSWER_TIMEOUT, ObserverError
 from scaffold.smoke.processes import output, process, table
 from scaffold.smoke.processes.process import Origin
+from scaffold.smoke.processes.remains import remains
 from scaffold.smoke.processes.usage import Meter, measuring
 from scaffold.smoke.result import Answer, Observation, Problem, Stop
 from scaffold.smoke.scenario.model import FILE
@@ -191,12 +192,8 @@ class _Run:
                 await self._stop(running)
             else:
                 self._ended_by_itself(running)
-            for child in await running.finish():
-                self._report(f"leaves a process running: {child}")
-            for path in running.leaked:
-                self._report(f"leaves shared memory behind: {path}")
-            if running.lost_supervisor:
-                self._report("killed the process that started it")
+            for item in await remains({label: running}):
+                self._report(item.message)
         finally:
             await running.close()
 
@@ -297,12 +294,7 @@ class _Run:
         self._trial.stop = Stop(done.sent[-1], running.exit_code, done.seconds, trace)
         where = tuple(output.short(trace)) if trace else ()
         if done.was_ignored:
-            last = "a second one" if done.was_missed else done.sent[-1]
-            self._report(
-                f"ignored {done.asked}: it was still running after {process.GRACE:g} s, "
-                f"{last} ended it",
-                doubtful=done.was_missed,
-            )
+            self._report(done.of_ignored, doubtful=done.was_missed)
         if self._hangs:
             # The traceback of the interrupted program shows where it was.
             self._report(self._hangs, said + where)

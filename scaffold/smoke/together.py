@@ -16,6 +16,7 @@ from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.lifecycle import problems as failed
 from scaffold.smoke.observe import LAST_ANSWER_TIMEOUT, Observer, ObserverError
 from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.remains import remains
 from scaffold.smoke.result import Endpoint, Executable, Observation, Problem, Topic
 from scaffold.smoke.run import SETTLING, RunSettings, ending
 from scaffold.smoke.scenario.model import NOTHING, Scenario
@@ -27,6 +28,13 @@ _DIED = re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)"
 )
 """What launch says of a node that has ended."""
+_ASKED = "user interrupted with ctrl-c (SIGINT)"
+"""What it says when it gets the signal that it passes on."""
+_IGNORED = re.compile(
+    r"\[ERROR\] \[(?P<name>[^\]]+)\]: process\[[^\]]+\] failed to terminate '(?P<seconds>[\d.]+)' "
+    r"seconds after receiving '(?P<signal>SIGINT)'"
+)
+"""What launch says of a node that it has asked to end."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +47,8 @@ class Group:
     """Names the run, as a relative path."""
     commands: Mapping[str, Sequence[str]]
     """By name for people."""
+    grace: float = process.GRACE
+    """Seconds that they have to obey SIGINT."""
 
 
 def of_executables(package: str, paths: Sequence[Path], scenarios: Mapping[str, Scenario]) -> Group:
@@ -65,12 +75,13 @@ async def run_together(
         async with plan.stations.one(plan.variables) as station, AsyncExitStack() as stack:
             variables = station.variables(plan.variables)
             runs: dict[str, process.Running] = {}
+            stack.push_async_callback(_close, runs)
             for name, words in group.commands.items():
                 label = f"{group.label}/{name}"
                 directory = plan.scratch / "runs" / label
-                running = await process.start(words, variables, directory, plan.origin.below(label))
-                stack.push_async_callback(running.close)
-                runs[name] = running
+                runs[name] = await process.start(
+                    words, variables, directory, plan.origin.below(label)
+                )
             observer = station.observer
             every = _All([*runs.values()])
             lifecycles = Lifecycles(observer, every, plan.timeout)
@@ -85,10 +96,9 @@ async def run_together(
             await lifecycles.lead(NOTHING.transitions_down)
             seen = replace(seen, transitions=tuple(lifecycles.transitions))
             observer.dismiss()
-            problems = (*ended(runs), *connections(seen), *failed(seen.transitions))
-            for running in runs.values():
-                await _stop(running)
-            result = Executable(group.name, seen, problems=problems)
+            problems = [*ended(runs), *connections(seen), *failed(seen.transitions)]
+            problems += [Problem(text) for text in await _stop(runs, group.grace)]
+            result = Executable(group.name, seen, problems=tuple(problems))
     except (ObserverError, OSError) as error:
         result = Executable(group.name, problems=(Problem(str(error)),))
     finally:
@@ -119,21 +129,52 @@ class _All:
             await running.wait()
 
 
-async def _stop(running: process.Running) -> None:
-    if running.exit_code is None:
-        await process.end(running, signal.SIGINT)
-    await running.finish()
+async def _stop(runs: Mapping[str, process.Running], grace: float) -> list[str]:
+    """Interrupt all at once, as ^C in a terminal does; return what is wrong with the end of it."""
+    running = {name: item for name, item in runs.items() if item.exit_code is None}
+    endings = await asyncio.gather(
+        *(process.end(item, signal.SIGINT, grace) for item in running.values())
+    )
+    # Interrupted once more, a program that ends may have been one whose signal rclpy has lost.
+    ignored = [
+        ((name,), done.of_ignored)
+        for name, done in zip(running, endings, strict=True)
+        if done.was_ignored and not done.was_missed
+    ]
+    left = [(item.commands, item.message) for item in await remains(runs)]
+    return [
+        *below_launch(runs),
+        *(
+            message if len(runs) == 1 else f"{' or '.join(names)} {message}"
+            for names, message in (*ignored, *left)
+        ),
+    ]
+
+
+def below_launch(runs: Mapping[str, process.Running]) -> Iterator[str]:
+    """Yield which nodes died before they were asked to end, and which did not obey."""
+    for running in runs.values():
+        written = output.read(running.out) + output.read(running.err)
+        for died in _DIED.finditer(written.partition(_ASKED)[0]):
+            yield f"{died['name']} died, {ending(int(died['code']))}"
+        for node in _IGNORED.finditer(written):
+            yield (
+                f"{node['name']} ignored {node['signal']}: it was still running after "
+                f"{node['seconds']} s"
+            )
+
+
+async def _close(runs: Mapping[str, process.Running]) -> None:
+    await asyncio.gather(*(running.close() for running in runs.values()))
 
 
 def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
-    """Yield what ended before it was stopped, also below launch."""
+    """Yield what ended before it was stopped."""
     for name, running in runs.items():
-        written = output.read(running.out) + output.read(running.err)
         if running.exit_code:
+            written = output.read(running.out) + output.read(running.err)
             lines = tuple(output.tail(written))
             yield Problem(f"{name} ended among the others, {ending(running.exit_code)}", lines)
-        for died in _DIED.finditer(written):
-            yield Problem(f"{died['name']} died, {ending(int(died['code']))}")
 
 
 def connections(seen: Observation) -> Iterator[Problem]:

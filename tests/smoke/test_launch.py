@@ -40,14 +40,24 @@ def test_launch_files_are_those_that_are_installed(tmp_path: Path) -> None:
     assert launching.groups("absent", "python3", prefixes) == []
 
 
-def test_a_node_that_dies_below_launch_is_a_problem(tmp_path: Path) -> None:
-    (tmp_path / "out").write_text("[INFO] [launch]: all is well\n")
-    (tmp_path / "err").write_text(
+def test_what_nodes_below_launch_do_wrong(tmp_path: Path) -> None:
+    """What ends after launch was interrupted has not died."""
+    (tmp_path / "err").touch()
+    (tmp_path / "out").write_text(
         "[ERROR] [talker-1]: process has died [pid 7, exit code 1, cmd '/x/talker'].\n"
+        "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)\n"
+        "[ERROR] [listener-2]: process has died [pid 8, exit code -2, cmd '/x/listener'].\n"
+        "[ERROR] [deaf-3]: process[deaf-3] failed to terminate '5' seconds after receiving "
+        "'SIGINT', escalating to 'SIGTERM'\n"
+        "[ERROR] [deaf-3]: process[deaf-3] failed to terminate '10.0' seconds after receiving "
+        "'SIGTERM', escalating to 'SIGKILL'\n"
+        "[ERROR] [deaf-3]: process has died [pid 9, exit code -9, cmd '/x/deaf'].\n"
     )
-    running = SimpleNamespace(out=tmp_path / "out", err=tmp_path / "err", exit_code=None)
-    (problem,) = together.ended(cast("Any", {"a.launch.py": running}))
-    assert problem.message == "talker-1 died, exit code 1"
+    running = SimpleNamespace(out=tmp_path / "out", err=tmp_path / "err", exit_code=0)
+    assert list(together.below_launch({"a.launch.py": cast("Any", running)})) == [
+        "talker-1 died, exit code 1",
+        "deaf-3 ignored SIGINT: it was still running after 5 s",
+    ]
 
 
 @NEEDS_ROS

@@ -11,8 +11,8 @@ import pytest
 
 from scaffold.smoke.result import Endpoint, Observation, Topic
 from scaffold.smoke.together import connections
-from tests.smoke.smoke_packages import ONCE, python_package, talker
-from tests.smoke.smoke_runs import NEEDS_ROS, command_line, variables
+from tests.smoke.smoke_packages import IGNORES_SIGINT, ONCE, PARENT, python_package, talker
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variables
 
 STRING = "std_msgs/msg/String"
 
@@ -134,3 +134,46 @@ def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
             "transient local"
         )
     ]
+
+
+KEEPS = talker(
+    "/keeps",
+    node="keeps",
+    imports="import os\nfrom multiprocessing import resource_tracker, shared_memory",
+    begin="""\
+    self.block = shared_memory.SharedMemory('scaffold_test_keeps', create=True, size=4096)
+    resource_tracker.unregister(self.block._name, 'shared_memory')
+    """,
+    tick="if self.count == 15:\n    os.kill(os.getpid(), 9)",
+)
+
+
+@pytest.mark.build
+@NEEDS_ROS
+def test_what_nodes_together_leave_behind_is_named(tmp_path: Path) -> None:
+    """As of each of them alone: a process, and the shared memory of one that was killed."""
+    modules = {"keeps": KEEPS, "parent": PARENT, "ignores": IGNORES_SIGINT}
+    package = python_package(tmp_path / "src", "litter", modules)
+    tmp = tmp_path / "tmp"
+    tmp.mkdir()
+    done = subprocess.run(
+        command_line(package, "--together", "--duration", "3", "--format", "json"),
+        env=variables(tmp),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (1, "")
+    (result,) = json.loads(done.stdout)["packages"]
+    problems = [problem.splitlines()[0] for problem in result["together"]["problems"]]
+    memory = "leaves shared memory behind: /dev/shm/scaffold_test_keeps"
+    assert problems[:2] == [
+        "keeps ended among the others, killed by SIGKILL",
+        "ignores ignored SIGINT: it was still running after 5 s, SIGKILL ended it",
+    ]
+    assert problems[2].startswith("parent leaves a process running: ")
+    assert problems[3:] == [f"keeps {memory}"]
+    alone = {item["name"]: item["problems"] for item in result["executables"]}
+    assert memory in alone["keeps"]
+    assert processes_of(tmp) == []
+    assert not Path("/dev/shm/scaffold_test_keeps").exists()  # noqa: S108  where it would be

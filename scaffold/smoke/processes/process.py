@@ -82,7 +82,9 @@ class Running:
         self._events, self._requests = control
         self._left: list[str] = []
         self.leaked: Sequence[str] = ()
-        """Shared memory that it has made and left, known once it is finished."""
+        """Paths of shared memory that it has made and left, known once it is finished."""
+        self.used: Sequence[str] = ()
+        """Names of shared memory that it has used and not found there, known likewise."""
         self._is_closing = False
         self._is_started = asyncio.Event()
         self._is_ended = asyncio.Event()
@@ -198,7 +200,7 @@ class Running:
             self.exit_code = event["ended"]
             self._is_ended.set()
         else:
-            self._left, self.leaked = event["left"], event["leaked"]
+            self._left, self.leaked, self.used = event["left"], event["leaked"], event["used"]
 
 
 async def start(
@@ -359,6 +361,8 @@ class Ending:
     sent: tuple[str, ...]
     """All of them: one if it was obeyed."""
     seconds: float
+    grace: float = GRACE
+    """Seconds that it had to obey the first one."""
 
     @property
     def was_ignored(self) -> bool:
@@ -370,10 +374,16 @@ class Ending:
         """Tell whether it did not react once, and then did."""
         return self.sent == (self.asked, self.asked)
 
+    @property
+    def of_ignored(self) -> str:
+        """Say what ended it instead of the first signal."""
+        last = "a second one" if self.was_missed else self.sent[-1]
+        return f"ignored {self.asked}: it was still running after {self.grace:g} s, {last} ended it"
+
 
 async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:
     """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
-    begun = time.monotonic()
+    begun, seconds = time.monotonic(), grace
     sent: list[str] = []
     for item in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
         sent.append(item.name)
@@ -381,7 +391,7 @@ async def end(running: Running, number: signal.Signals, grace: float = GRACE) ->
         if await running.ended_within(grace):
             break
         grace = GRACE_OF_NEXT
-    return Ending(number.name, tuple(sent), time.monotonic() - begun)
+    return Ending(number.name, tuple(sent), time.monotonic() - begun, seconds)
 
 
 def marked(mark: str) -> dict[int, str]:

@@ -11,7 +11,7 @@ then ``{"signal": number}`` for the process group of the command, and ``{"finish
 the command has ended: so long its children may live on. With ``finish`` in the first of them, the
 end of the command is the end. Lines of JSON go out: ``{"started": pid}``
 or ``{"errno": number}``, ``{"ended": status}``, and last ``{"left": [command lines], "leaked":
-[paths]}``.
+[paths], "used": [names of segments]}``.
 """
 
 from __future__ import annotations
@@ -120,7 +120,8 @@ class Supervisor:
         leaked = [
             path for path in removed if not shared_memory.is_of_middleware(os.path.basename(path))
         ]
-        self._tell({"left": left, "leaked": sorted(leaked)})
+        used = [name for name in self._segments if not shared_memory.is_of_middleware(name)]
+        self._tell({"left": left, "leaked": sorted(leaked), "used": sorted(used)})
 
     # -- what smoke asks for
 
