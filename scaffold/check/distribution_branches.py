@@ -12,6 +12,7 @@ from scaffold.model.cmake.lists import CMakeLists
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
 from scaffold.model.python import distribution_branches as of_python
+from scaffold.model.python.distribution_conditions import ASKED
 from scaffold.source import ViewError
 
 CMAKE_LISTS = "CMakeLists.txt"
@@ -53,6 +54,6 @@ def _in_cmake(package: Package, path: str) -> Sequence[Stretch]:
 @fact
 def _in_python(package: Package, path: str) -> Sequence[Stretch]:
     with suppress(ViewError):
-        if VARIABLE in package.source(path).text:
+        if any(word in package.source(path).text for word in ASKED):
             return tuple(of_python.stretches_not_run(package.module(path)))
     return ()

@@ -9,6 +9,8 @@ from functools import cached_property
 from typing import TypeVar
 
 from scaffold.model.package import Package
+from scaffold.model.python.distribution_conditions import open_parts
+from scaffold.model.python.guards import Condition, all_conditions
 from scaffold.model.python.module import PythonModule, last_names
 from scaffold.source import Location
 from scaffold.types import origins
@@ -17,11 +19,14 @@ from scaffold.types.ty import TyDiagnostic
 Node = TypeVar("Node", bound=ast.AST)
 
 _DECIDING = re.compile(
-    r"\b(?:hasattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
-    r"|(?:^|[^a-z])version|distro|_AVAILABLE\b|\b(?:HAS|HAVE)_(?!next\b)",
+    r"\b(?:hasattr|getattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
+    r"|\bin dir\(|signature|find_spec|(?:^|[^a-z]|hex)version|distro|_AVAILABLE\b"
+    r"|\b(?:HAS|HAVE)_(?!next\b)",
     re.IGNORECASE,
 )
 """Matches conditions that ask what there is: for a version, a module, or a kind of object."""
+_LEAVING = re.compile(r"version_info|hexversion|__version__|(?i:distro)|find_spec|importorskip")
+"""Matches those that ask for a version or a module, and may end a block."""
 _PROBED = frozenset(
     {"AttributeError", "ImportError", "ModuleNotFoundError", "NameError", "TypeError"}
 )
@@ -123,19 +128,15 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node):
             return False
+        if any(self._asks_what_there_is(item) for item in all_conditions(self.module, node)):
+            return False
         child = node
         for parent in self.module.parents(node):
             match parent:
-                case ast.If() | ast.IfExp() | ast.While() if child is not parent.test:
-                    if self._asks_what_there_is(parent.test):
-                        return False
                 case ast.Try() if self._is_tried(parent, child):
                     return False
                 case ast.With(items=items) | ast.AsyncWith(items=items):
                     if any(_expects(item.context_expr) for item in items):
-                        return False
-                case ast.BoolOp() if child is not parent.values[0]:
-                    if self._asks_what_there_is(parent):
                         return False
             child = parent
         return child not in self.module.passed_over
@@ -152,11 +153,16 @@ class TypeFinding:
             called = [node]
         return any(origins.is_of_several(self.module, it) for it in called or [node])
 
-    def _asks_what_there_is(self, test: ast.expr) -> bool:
+    def _asks_what_there_is(self, condition: Condition) -> bool:
         """Tell whether a condition asks for a version, a kind of object, or what was imported."""
-        if _DECIDING.search(ast.unparse(test)):
+        parts = [*open_parts(self.module, condition.test)]
+        texts = [ast.unparse(part) for part in parts]
+        if condition.is_of_leaving:
+            return any(map(_LEAVING.search, texts))
+        if any(map(_DECIDING.search, texts)):
             return True
-        names = {node.id for node in ast.walk(test) if isinstance(node, ast.Name)}
+        nodes = (node for part in parts for node in ast.walk(part))
+        names = {node.id for node in nodes if isinstance(node, ast.Name)}
         return not names.isdisjoint(self._imported)
 
     @cached_property

@@ -13,7 +13,7 @@ from scaffold.model.cmake.distribution_branches import lines_not_run
 from scaffold.model.package import Package
 
 _NODE = """\
-import os
+import os, sys
 
 from rclpy.node import Node
 
@@ -47,7 +47,7 @@ def found(
         ("os.getenv('ROS_DISTRO') not in ['humble', 'jazzy']", [11]),
         ("'ROS_DISTRO' in os.environ and not distro == 'humble'", [11]),
         ("self.is_old and distro != 'lyrical'", [13]),
-        ("self.is_old or distro == 'humble'", []),
+        ("self.is_old or distro == 'humble'", [11, 13]),
         ("self.is_old", [11, 13]),
         ("distro > 'k'", [11]),
         ("distro.startswith(('h', 'j'))", [13]),
@@ -56,6 +56,22 @@ def found(
         ("is_old(distro)", []),
         ("distro in RELEASES", []),
         ("RELEASES[distro]", []),
+        ("distro == 'humble' and self.is_old", [13]),
+        ("not (distro == 'lyrical' and self.is_old)", [11, 13]),
+        ("distro != 'humble' and is_old(distro)", []),
+        ("'humble' <= distro < 'lyrical'", [13]),
+        ("sys.version_info >= (3, 12)", [11]),
+        ("sys.version_info[:2] == (3, 10) and self.is_old", [13]),
+        ("(3, 12) > sys.version_info", [13]),
+        ("sys.version_info >= (3, 14, 0)", [11]),
+        ("sys.version_info >= (3, 14, 2)", []),
+        ("sys.version_info[-1] == 14", []),
+        ("sys.version_info.minor < 14 or sys.version_info.major < 3", [13]),
+        ("sys.hexversion >= 0x030c0000", [11]),
+        ("sys.hexversion < 0x030e02f0", []),
+        ("callable(getattr(self.get_logger(), 'warn', None))", []),
+        ("'warn' in dir(self.get_logger())", []),
+        ("'port' in dir(self)", [11, 13]),
     ],
 )
 def test_python(
@@ -124,6 +140,82 @@ _FORMS = {
         "class C:\n    a = D < 'k'\n    def f(self):\n        self.a = b\n        if self.a: {}\n",
         [],
     ),
+    "a test that is skipped": (
+        (
+            "@pytest.mark.skipif(D >= 'lyrical', reason='gone')\ndef test_a():\n    {}\n"
+            "@pytest.mark.skipif(D < 'lyrical', reason='new')\ndef test_b():\n    {}\n"
+        ),
+        [10],
+    ),
+    "a mark with a name": (
+        (
+            "OLD = pytest.mark.skipif(D > 'k' and A, reason='gone')\n@OLD\ndef test_a():\n    {}\n"
+            "NEW = pytest.mark.skipif(condition=D > 'k', reason='gone')\n@NEW\n"
+            "def test_b():\n    {}\n"
+        ),
+        [8],
+    ),
+    "a mark that is not known": ("@pytest.mark.skipif(is_new(D))\ndef test_a():\n    {}\n", []),
+    "a mark about something else": ("@pytest.mark.skipif(WINDOWS)\ndef test_a():\n    {}\n", [7]),
+    "a mark in a text": (
+        "@pytest.mark.skipif('sys.version_info > (3, 12)')\ndef test_a():\n    {}\n",
+        [],
+    ),
+    "a mark that asks for the name": (
+        "@pytest.mark.skipif(not hasattr(L, 'warn'), reason='')\ndef test_a():\n    {}\n",
+        [],
+    ),
+    "a test that fails there": (
+        "@pytest.mark.xfail(D > 'k', reason='')\ndef test_a():\n    {}\n",
+        [],
+    ),
+    "the marks of a file": (
+        (
+            "pytestmark = [pytest.mark.slow, pytest.mark.skipif(D > 'k', reason='')]\n{}\n"
+            "def test_a():\n    {}\n"
+        ),
+        [6],
+    ),
+    "the marks of a class": (
+        (
+            "class TestA:\n    pytestmark = pytest.mark.skipif(D > 'k', reason='')\n"
+            "    def test_a(self):\n        {}\nclass TestB:\n    def test_b(self):\n        {}\n"
+        ),
+        [11],
+    ),
+    "a class that is skipped": (
+        (
+            "@unittest.skipIf(D > 'k', '')\nclass A(unittest.TestCase):\n    def test_a(self): {}\n"
+            "@unittest.skipUnless(D > 'k', '')\nclass B(unittest.TestCase):\n"
+            "    def test_b(self): {}\n"
+        ),
+        [10],
+    ),
+    "a test that skips itself": (
+        (
+            "def test_a():\n    if D > 'k':\n        pytest.skip('gone')\n    {}\n"
+            "class A(unittest.TestCase):\n    def test_b(self):\n        if D > 'k':\n"
+            "            self.skipTest('gone')\n        {}\n    def test_c(self):\n"
+            "        if D < 'k':\n            self.skipTest('new')\n        {}\n"
+        ),
+        [17],
+    ),
+    "a test that asks for the name and skips itself": (
+        "def test_a():\n    if not hasattr(L, 'warn'):\n        pytest.skip('gone')\n    {}\n",
+        [],
+    ),
+    "a file that skips itself": (
+        "{}\nif D > 'k':\n    pytest.skip('gone', allow_module_level=True)\n{}\n",
+        [5],
+    ),
+    "an error that is expected": (
+        (
+            "def test_a(self):\n    with pytest.raises(AttributeError): {}\n"
+            "    with self.assertRaises((TypeError, AttributeError)): {}\n"
+            "    with pytest.raises(TypeError): {}\n"
+        ),
+        [8],
+    ),
     "a name of itself": ("def talk():\n    D = D.lower()\n    if D == 'jazzy':\n        {}\n", [8]),
 }
 
@@ -131,12 +223,35 @@ _FORMS = {
 @pytest.mark.parametrize("name", _FORMS)
 def test_forms_of_python(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     form, lines = _FORMS[name]
-    head = "import os\nfrom rclpy.logging import get_logger\nL = get_logger('talker')\n"
-    head += "D = os.environ['ROS_DISTRO']\n"
+    head = "import os, pytest, unittest\nfrom rclpy.logging import get_logger\n"
+    head += "L = get_logger('talker')\nD = os.environ['ROS_DISTRO']\n"
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
     (tmp_path / "talker.py").write_text(head + form.replace("{}", "L.warn('here')"))
     expected = [("IM050", line, ["lyrical"]) for line in lines]
     assert found(capsys, tmp_path, "lyrical") == expected
+
+
+_MODULE = "import pytest\nfrom importlib.util import find_spec\nfrom typing import TYPE_CHECKING\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "lines"),
+    [
+        ("import rclpy.qos_event\n", [4]),
+        ("if TYPE_CHECKING:\n    import rclpy.qos_event\nelse:\n    import rclpy.qos_event\n", [7]),
+        ("if find_spec('rclpy.qos_event') is not None:\n    import rclpy.qos_event\n", []),
+        ("if find_spec('rclpy'):\n    import rclpy.qos_event\n", []),
+        ("if find_spec('numpy'):\n    import rclpy.qos_event\n", [5]),
+        ("pytest.importorskip('rclpy.qos_event')\nimport rclpy.qos_event\n", []),
+        ("pytest.importorskip('rclpy.event_handler')\nimport rclpy.qos_event\n", [5]),
+    ],
+)
+def test_modules_that_are_asked_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], code: str, lines: list[int]
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "talker.py").write_text(_MODULE + code)
+    assert found(capsys, tmp_path, "lyrical") == [("IM050", line, ["lyrical"]) for line in lines]
 
 
 def test_several_distributions_and_a_chain(

@@ -5,10 +5,19 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.model.python.module import PythonModule, last_names
+from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, expected_errors, last_names
+from scaffold.model.python.skips import skip_conditions
+from scaffold.record import NamedTuple
 
-LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
+_LEAVING = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 """Statements after which the rest of a block is not run."""
+_ENDING = frozenset(
+    {"sys.exit", "exit", "quit", "os._exit"}
+    | {"pytest.skip", "pytest.fail", "pytest.xfail", "pytest.exit"}
+)
+"""Functions that do not return."""
+_ENDING_METHODS = frozenset({"skipTest", "fail"})
+"""Methods of a ``TestCase`` that do not return."""
 _ALL = frozenset({"Exception", "BaseException"})
 
 
@@ -28,6 +37,8 @@ def is_handled(
     for parent in module.parents(node):
         if child in module.passed_over or _is_never_evaluated(module, child, parent):
             return True
+        if expecting & _expected_in(parent, child):
+            return True
         if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
             for handler in parent.handlers:
                 is_any = handler.type is None
@@ -39,9 +50,18 @@ def is_handled(
     return False
 
 
+def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
+    """Return what a ``with`` expects of a statement in it: ``with pytest.raises(TypeError):``."""
+    if not isinstance(parent, ast.With) or child not in parent.body:
+        return set()
+    return set().union(*map(expected_errors, parent.items))
+
+
 def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
-    """Tell whether a node is an annotation in a file where those stay text."""
+    """Tell whether a node is for type checkers, or an annotation in a file where those are text."""
     match parent:
+        case ast.If(test=ast.Name() | ast.Attribute() as test, body=body):
+            return node in body and module.text(test).rpartition(".")[2] == "TYPE_CHECKING"
         case ast.arg(annotation=written) | ast.AnnAssign(annotation=written):
             is_annotation = written is node
         case ast.FunctionDef(returns=written) | ast.AsyncFunctionDef(returns=written):
@@ -85,14 +105,20 @@ def caught_around(module: PythonModule, node: ast.AST) -> frozenset[str]:
         if isinstance(parent, ast.Try) and module.index.place(child)[0] == "body":
             for handler in parent.handlers:
                 result |= last_names(handler.type) if handler.type else _ALL
-        if isinstance(parent, ast.With):
-            for item in parent.items:
-                if "suppress" in last_names(item.context_expr):
-                    result |= last_names(item.context_expr)
+        result |= _expected_in(parent, child)
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
             break
         child = parent
     return frozenset(result)
+
+
+class Condition(NamedTuple):
+    """A condition, and what it must be for something to run."""
+
+    test: ast.expr
+    needed: bool
+    is_of_leaving: bool = False
+    """Of an earlier branch that leaves."""
 
 
 def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
@@ -104,41 +130,66 @@ def conditions_on(module: PythonModule, node: ast.AST) -> list[ast.expr]:
     result: list[ast.expr] = []
     child = node
     for parent in module.parents(node):
-        if isinstance(parent, ast.If | ast.IfExp | ast.While) and child is not parent.test:
-            result.append(parent.test)
-        if isinstance(parent, ast.BoolOp) and isinstance(child, ast.expr):
-            result += parent.values[: parent.values.index(child)]
-        result += _left_before(module, child, parent)
+        result += (item.test for item in _conditions_of(module, child, parent))
         if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
             break
         child = parent
     return result
 
 
-def conditions_of_leaving(module: PythonModule, node: ast.AST) -> list[ast.expr]:
-    """Return the conditions of branches that leave before a node is reached.
+def all_conditions(module: PythonModule, node: ast.AST) -> Iterator[Condition]:
+    """Yield the conditions that decide whether a node is run, those of skipped tests too.
 
     Args:
         module: The file.
-        node: What runs if the branches do not; those of functions around its own count too.
+        node: What runs; the conditions around its function count as well.
     """
-    result: list[ast.expr] = []
     child = node
     for parent in module.parents(node):
-        result += _left_before(module, child, parent)
+        yield from _conditions_of(module, child, parent)
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef) and child in parent.body:
+            for skip in skip_conditions(module, parent):
+                yield Condition(skip.test, skip.needed)
         child = parent
-    return result
 
 
-def _left_before(module: PythonModule, child: ast.AST, parent: ast.AST) -> Iterator[ast.expr]:
+def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
+    """Tell whether what follows a statement in its block is never reached."""
+    match statement:
+        case ast.Expr(value=ast.Call(func=func)):
+            name = func.id if isinstance(func, ast.Name) else ""
+            if isinstance(func, ast.Attribute) and module.text(func.value) == "self":
+                return func.attr in _ENDING_METHODS
+            return (module.qualified_name(func) or name) in _ENDING
+    return isinstance(statement, _LEAVING)
+
+
+def _conditions_of(module: PythonModule, child: ast.AST, parent: ast.AST) -> Iterator[Condition]:
+    """Yield the conditions that decide in a node whether one right below it is run."""
+    match parent:
+        case ast.If(test=test) | ast.While(test=test) if child is not test:
+            yield Condition(test, child in parent.body)
+        case ast.IfExp(test=test) if child is not test:
+            yield Condition(test, child is parent.body)
+        case ast.BoolOp(op=op, values=values) if isinstance(child, ast.expr):
+            for value in values[: values.index(child)]:
+                yield Condition(value, isinstance(op, ast.And))
+    yield from _left_before(module, child, parent)
+
+
+def _left_before(module: PythonModule, child: ast.AST, parent: ast.AST) -> Iterator[Condition]:
     """Yield the conditions of earlier statements in the same block that may leave it."""
     if not isinstance(child, ast.stmt):
         return
     field, number = module.index.place(child)
     block = getattr(parent, field, None)
     for earlier in block[:number] if isinstance(block, list) else ():
-        if isinstance(earlier, ast.If) and isinstance(earlier.body[-1], LEAVING):
-            yield earlier.test
+        match earlier:
+            case ast.If(test=test, body=[*_, last]) if leaves_block(module, last):
+                yield Condition(test, needed=False, is_of_leaving=True)
+            case ast.Expr(value=ast.Call() as call) | ast.Assign(value=ast.Call() as call):
+                if module.qualified_name(call.func) == IMPORT_OR_SKIP:
+                    yield Condition(call, needed=True, is_of_leaving=True)
 
 
 def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:

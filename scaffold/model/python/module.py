@@ -22,7 +22,11 @@ MAX_DEPTH = 300
 _IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
 _EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
 """What an exception is expected with: ``with pytest.raises(ImportError):``."""
-_PLATFORM_NAMES = ("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform.")
+_PLATFORM_NAMES = (
+    *("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform."),
+    *("importlib.util.find_spec", "pkgutil.find_loader"),
+)
+IMPORT_OR_SKIP = "pytest.importorskip"
 _LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 MODULE_ATTRIBUTES = frozenset(
     {"__name__", "__file__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__"}
@@ -54,7 +58,8 @@ class Import(NamedTuple):
     """Whether it is at the top level of the module, under no condition."""
     in_function: bool
     guarded: bool
-    """May fail or be skipped: ``try`` with ImportError, TYPE_CHECKING, platform, version."""
+    """May fail or be skipped: ``try`` with ImportError, TYPE_CHECKING, platform, version, and
+    ``find_spec`` or ``importorskip``."""
     type_checking: bool
     """For type checkers alone; not run."""
     conditional: bool
@@ -440,7 +445,8 @@ class PythonModule:
 
     def _context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool, bool]:
         """Return top_level, in_function, guarded, type_checking, conditional, in_tests."""
-        in_function = guarded = type_checking = conditional = False
+        in_function = type_checking = conditional = False
+        guarded = self._is_skipped_without(node)
         child: ast.AST = node
         for parent in self.parents(node):
             match parent:
@@ -449,7 +455,7 @@ class PythonModule:
                 case ast.Try() if _catches_import_errors(parent):
                     guarded = guarded or self.index.place(child)[0] != "finalbody"
                 case ast.With(items=items):
-                    guarded = guarded or any(_suppresses_import_errors(i) for i in items)
+                    guarded = guarded or any(_IMPORT_ERRORS & expected_errors(i) for i in items)
                 case ast.If() if not _is_main_test(parent.test):
                     if "TYPE_CHECKING" in self.text(parent.test):
                         guarded = True
@@ -462,6 +468,25 @@ class PythonModule:
             child = parent
         top_level = self.parent(node) is self.tree
         return top_level, in_function, guarded, type_checking, conditional, self.in_tests
+
+    def _is_skipped_without(self, node: ast.AST) -> bool:
+        """Tell whether the tests of the file are skipped where an imported module is missing."""
+        match node:
+            case ast.Import(names=[ast.alias(name=module)]) | ast.ImportFrom(module=str(module)):
+                return module.partition(".")[0] in self._needed_by_tests
+        return False
+
+    @cached_property
+    def _needed_by_tests(self) -> frozenset[str]:
+        """The packages that ``pytest.importorskip`` asks for."""
+        if not self.mentions("importorskip"):
+            return frozenset()
+        return frozenset(
+            str(call.args[0].value).partition(".")[0]
+            for call in self.walk(ast.Call)
+            if call.args and isinstance(call.args[0], ast.Constant)
+            if self.qualified_name(call.func) == IMPORT_OR_SKIP
+        )
 
     def _asks_platform(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
@@ -500,12 +525,12 @@ def _catches_import_errors(node: ast.Try) -> bool:
     )
 
 
-def _suppresses_import_errors(item: ast.withitem) -> bool:
+def expected_errors(item: ast.withitem) -> set[str]:
+    """Return the last parts of the names of what ``suppress``, ``raises`` and the like expect."""
     match item.context_expr:
         case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
-            return any(not _IMPORT_ERRORS.isdisjoint(last_names(arg)) for arg in args)
-        case _:
-            return False
+            return set().union(*map(last_names, args))
+    return set()
 
 
 def last_names(node: ast.expr) -> set[str]:

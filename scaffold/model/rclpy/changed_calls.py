@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from scaffold import distributions
 from scaffold.changes import Change, of_kind
-from scaffold.model.python.distribution_branches import holds
-from scaffold.model.python.guards import caught_around, conditions_of_leaving
+from scaffold.model.python.distribution_branches import is_run
+from scaffold.model.python.guards import caught_around
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.api_signatures import OBJECTS
@@ -96,24 +96,6 @@ def _runs_on_both(module: PythonModule, call: ast.Call, name: str) -> bool:
     origin = distributions.origin() or distributions.target()
     for distribution in (distributions.target(), origin):
         with distributions.targeting(distribution, distributions.origin(), distributions.kept()):
-            if not _is_run(module, call):
+            if not is_run(module, module.location(call)):
                 return False
     return True
-
-
-def _is_run(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether no condition that asks for the distribution keeps a node from running."""
-    child = node
-    for parent in module.parents(node):
-        match parent:
-            case ast.If(test=test) | ast.While(test=test) if child is not test:
-                is_body = module.index.place(child)[0] == "body"
-            case ast.IfExp(test=test) if child is not test:
-                is_body = child is parent.body
-            case _:
-                child = parent
-                continue
-        if holds(module, test) is (not is_body):
-            return False
-        child = parent
-    return not any(holds(module, test) for test in conditions_of_leaving(module, node))

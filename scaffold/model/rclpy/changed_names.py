@@ -8,9 +8,10 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.changes import Change
 from scaffold.edits import Edit
-from scaffold.model.python.distribution_branches import asks, cases, holds, is_unsure
-from scaffold.model.python.guards import conditions_of_leaving, is_handled
-from scaffold.model.python.module import PythonModule, last_names
+from scaffold.model.python.distribution_branches import cases
+from scaffold.model.python.distribution_conditions import asks, holds, open_parts
+from scaffold.model.python.guards import all_conditions, is_handled
+from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
 from scaffold.record import NamedTuple
@@ -24,6 +25,8 @@ _VERSION = re.compile(
     r"|(?i:ros|rclpy|numpy|np|python)_?version"
 )
 """Matches conditions that ask for a version of Python, of ROS or of a package."""
+_FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_OR_SKIP})
+"""Functions that ask whether there is a module."""
 _CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
@@ -206,7 +209,7 @@ def _mentions(body: Sequence[ast.stmt], attribute: str) -> bool:
 
 
 def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: str = "") -> bool:
-    """Tell whether a node is below a condition that asks for a version, or for a name.
+    """Tell whether conditions that ask for a version, or for a name, decide that a node runs.
 
     Args:
         module: The file.
@@ -214,46 +217,49 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
         name: The full name.
         replacement: What takes its place.
     """
-    asked = _Asked(module, name.partition(".")[0], {name.rpartition(".")[2], replacement})
-    child = node
-    for parent in module.parents(node):
-        match parent:
-            case ast.If(test=test) | ast.IfExp(test=test) | ast.While(test=test) if (
-                child is not test
-            ):
-                if is_unsure(module, test) or (asked.decides(test) and holds(module, test) is None):
-                    return True
-            case ast.BoolOp(values=[*values]) if any(
-                is_unsure(module, value) for value in values if value is not child
-            ):
+    asked = _Asked(module, name, {name.rpartition(".")[2], replacement})
+    for condition in all_conditions(module, node):
+        if holds(module, condition.test) is (not condition.needed):
+            return True
+        for part in open_parts(module, condition.test):
+            if asks(module, part) or asked.names_it(part) or asked.asks_for_version(part):
                 return True
-            case ast.Match(subject=subject) if isinstance(child, ast.match_case):
-                number = parent.cases.index(child)
-                if cases(module, parent)[number] is None and asks(module, subject):
-                    return True
-        child = parent
-    return any(
-        asked.names_it(test) or is_unsure(module, test)
-        for test in conditions_of_leaving(module, node)
-    )
+            if not condition.is_of_leaving and asked.is_for_import(part):
+                return True
+    return any(_is_unsure_case(module, parent, child) for parent, child in _around(module, node))
+
+
+def _around(module: PythonModule, node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
+    """Yield the nodes around another, each with the one in it."""
+    for parent in module.parents(node):
+        yield parent, node
+        node = parent
+
+
+def _is_unsure_case(module: PythonModule, parent: ast.AST, child: ast.AST) -> bool:
+    if not isinstance(parent, ast.Match) or not isinstance(child, ast.match_case):
+        return False
+    is_run = cases(module, parent)[parent.cases.index(child)]
+    return is_run is None and asks(module, parent.subject)
 
 
 class _Asked(NamedTuple):
     """What a condition asks for that decides whether a name is used."""
 
     module: PythonModule
-    root: str
-    """The package of the name."""
+    name: str
+    """The full name."""
     words: set[str]
     """The last parts of the name, and of what takes its place."""
 
-    def decides(self, test: ast.expr) -> bool:
-        text = self.module.text(test)
-        if _VERSION.search(text):
-            return True
-        if self.names_it(test):
-            return True
-        return any(map(self._is_of_import, filter(_is_flag, _CONSTANT.findall(text))))
+    def asks_for_version(self, test: ast.expr) -> bool:
+        """Tell whether a condition asks for a version of Python, of ROS or of a package."""
+        return bool(_VERSION.search(self.module.text(test)))
+
+    def is_for_import(self, test: ast.expr) -> bool:
+        """Tell whether a condition asks whether something of the package was imported."""
+        flags = filter(_is_flag, _CONSTANT.findall(self.module.text(test)))
+        return any(map(self._is_of_import, flags))
 
     def names_it(self, test: ast.expr) -> bool:
         """Tell whether a condition, or what a name in it is set to, asks for one of the words."""
@@ -266,18 +272,28 @@ class _Asked(NamedTuple):
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
             match node:
-                case ast.Call(func=ast.Name(id="hasattr"), args=[_, ast.Constant(value=str(word))]):
+                case ast.Call(
+                    func=ast.Name(id="hasattr" | "getattr"), args=[_, ast.Constant(value=word), *_]
+                ):
                     if word in self.words:
                         return True
                 case ast.Call(func=ast.Name(id="hasattr")):
                     return True
+                case ast.Compare(left=ast.Constant(value=word), ops=[ast.In() | ast.NotIn()]) if (
+                    word in self.words
+                ):  # 'warn' in dir(logger)
+                    return True
+                case ast.Call(func=func, args=[ast.Constant(value=str(word)), *_]):
+                    is_of_it = f"{self.name}.".startswith(f"{word}.")
+                    if is_of_it and self.module.qualified_name(func) in _FINDERS:
+                        return True
         return False
 
     def _is_of_import(self, flag: str) -> bool:
         """Tell whether a flag says that something of the package was imported."""
         setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
         return not setting or any(
-            item.module.partition(".")[0] == self.root
+            item.root == self.name.partition(".")[0]
             for node in setting
             for item in self.module.imports
             if node.lineno <= item.location.line <= (node.end_lineno or 0)

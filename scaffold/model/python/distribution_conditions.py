@@ -1,0 +1,235 @@
+"""Conditions on the distribution: what they are worth on the target, and what stays open."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from typing import Any
+
+from scaffold.distributions import VARIABLE, target
+from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.running_version import SWAPPED, RunningVersion
+from scaffold.model.python.values import COMPARISONS, UNKNOWN, is_known
+
+_GETTERS = frozenset({"os.environ.get", "os.getenv"})
+_ORDERS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+}
+ASKED = (VARIABLE, "version_info", "hexversion")
+"""What a file mentions that asks for the distribution, or for the Python that it brings."""
+_DEEPEST = 20
+"""The most names that a condition is followed through."""
+
+
+def holds(module: PythonModule, test: ast.expr, depth: int = 0) -> bool | None:
+    """Return whether a condition is true on the target; ``None`` if that is not known.
+
+    Args:
+        module: The file.
+        test: The condition.
+        depth: The names that it was followed through.
+    """
+    match test:
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            inner = holds(module, operand, depth)
+            return None if inner is None else not inner
+        case ast.BoolOp(op=op, values=values):
+            deciding = isinstance(op, ast.Or)
+            parts = {holds(module, value, depth) for value in values}
+            if deciding in parts:
+                return deciding
+            return None if None in parts else not deciding
+    value, notes = _DistributionEvaluator(module).trace(test)
+    if notes and is_known(value):
+        return bool(value)
+    named = _only_value(module, test) if depth < _DEEPEST else None
+    return None if named is None else holds(module, named, depth + 1)
+
+
+def open_parts(module: PythonModule, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
+    """Yield the parts of a condition that the target leaves open.
+
+    Of ``distro == 'humble' and self.ready`` that is ``self.ready`` on Humble, and nothing
+    elsewhere.
+
+    Args:
+        module: The file.
+        test: The condition.
+        depth: The names that it was followed through.
+    """
+    if holds(module, test) is not None:
+        return
+    parts: list[ast.expr] = []
+    match test:
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            parts = [operand]
+        case ast.BoolOp(values=values):
+            parts = values
+        case ast.Name():
+            named = _only_value(module, test) if depth < _DEEPEST else None
+            if isinstance(named, ast.BoolOp | ast.UnaryOp | ast.Name) and asks(module, named):
+                parts = [named]
+    for part in parts:
+        yield from open_parts(module, part, depth + 1)
+    if not parts:
+        yield test
+
+
+def asks(module: PythonModule, value: ast.expr) -> bool:
+    """Tell whether the distribution decides what an expression is worth."""
+    if not module.mentions(*ASKED):
+        return False
+    evaluator = _DistributionEvaluator(module)
+    nodes = (node for node in ast.walk(value) if isinstance(node, ast.expr))
+    return any(evaluator.trace(node)[1] for node in nodes)
+
+
+def text_on_target(module: PythonModule, value: ast.expr) -> str | None:
+    """Return the text that the distribution makes of an expression; ``None`` if it does not."""
+    text, notes = _DistributionEvaluator(module).trace(value)
+    return text if notes and isinstance(text, str) else None
+
+
+def _only_value(module: PythonModule, test: ast.expr) -> ast.expr | None:
+    """Return what a name is set to, if that happens once."""
+    found = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
+    match found:
+        case (_, [binding]) if binding.kind == "assignment":
+            return binding.value
+    return None
+
+
+class _DistributionEvaluator(Evaluator):
+    """Knows the variable ROS_DISTRO and the version of Python, and notes what comes from them."""
+
+    def call(self, node: ast.Call) -> object:
+        """Return the value of the variable, or what a method says of a text."""
+        match node:
+            case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if (
+                key == VARIABLE and self.module.qualified_name(func) in _GETTERS
+            ):
+                return self._asked()
+            case ast.Call(
+                func=ast.Attribute(attr="startswith" | "endswith" as method, value=holder),
+                args=[argument],
+                keywords=[],
+            ):
+                text, part = self.evaluate(holder), self.evaluate(argument)
+                parts = part if isinstance(part, tuple) else (part,)
+                words = [item for item in parts if isinstance(item, str)]
+                if isinstance(text, str) and len(words) == len(parts):
+                    begins = method == "startswith"
+                    return any(
+                        text.startswith(word) if begins else text.endswith(word) for word in words
+                    )
+            case ast.Call(func=ast.Name(id=name), args=[], keywords=[]):
+                return self._returned(name, node.func)
+        for argument in node.args:
+            self.evaluate(argument)  # for its notes
+        return UNKNOWN
+
+    def _returned(self, name: str, at: ast.expr) -> object:
+        """Return what a function of the file without arguments does, if that is all that it is."""
+        found = self.module.index.lookup(name, at)
+        match [item.node for item in (found[1] if found else ())]:
+            case [ast.FunctionDef(body=[*_, ast.Return(value=value)] as body, decorator_list=[])]:
+                is_all = all(isinstance(one, ast.Expr) for one in body[:-1])
+                return self.evaluate(value) if is_all else UNKNOWN
+        return UNKNOWN
+
+    def attribute(self, node: ast.Attribute) -> object:
+        """Return the value of an attribute of ``self`` that is set once."""
+        index = self.module.index
+        class_ = next((one for one in index.parents(node) if isinstance(one, ast.ClassDef)), None)
+        if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
+            return UNKNOWN
+        values = [binding.value for binding in index.bindings(class_).get(node.attr, ())]
+        for store in index.attributes(node.attr):
+            if not isinstance(store.ctx, ast.Load):
+                above = index.parent(store)
+                values.append(above.value if isinstance(above, ast.Assign) else None)
+        known = [self.evaluate(value) for value in values]  # each has notes
+        return known[0] if len(known) == 1 else UNKNOWN
+
+    def _imported(self, node: ast.expr) -> object:
+        python = target().python
+        match self.module.qualified_name(node):
+            case "sys.version_info" | "sys.hexversion":
+                value: object = RunningVersion(python)
+            case "sys.version_info.major":
+                value = python[0]
+            case "sys.version_info.minor":
+                value = python[1]
+            case _:
+                return super()._imported(node)
+        self.note("sys.version_info")
+        return value
+
+    def _asked(self) -> str:
+        self.note(VARIABLE)
+        return target().name
+
+    def _subscript(self, node: ast.Subscript) -> object:
+        match node:
+            case ast.Subscript(value=value, slice=ast.Constant(value=key)) if key == VARIABLE:
+                if self.module.qualified_name(value) == "os.environ":
+                    return self._asked()
+            case ast.Subscript(
+                value=holder,
+                slice=ast.Slice(lower=None, upper=ast.Constant(value=int(end)), step=None),
+            ) if end in {1, 2}:
+                version = self.evaluate(holder)
+                if isinstance(version, RunningVersion):
+                    return tuple(version[:end])
+            case ast.Subscript(value=holder, slice=ast.UnaryOp()) if isinstance(
+                self.evaluate(holder), RunningVersion
+            ):
+                return UNKNOWN  # the end of it is not known
+        return super()._subscript(node)
+
+    def _comparison(self, node: ast.Compare) -> object:
+        operands = [node.left, *node.comparators]
+        results: list[object] = []
+        for left, operator_, right in zip(operands, node.ops, operands[1:], strict=False):
+            results.append(self._pair(left, operator_, right))
+        if False in results:
+            return False
+        return all(results) if all(map(is_known, results)) else UNKNOWN
+
+    def _pair(self, left: ast.expr, compare: ast.cmpop, right: ast.expr) -> object:
+        """Return what a comparison of two expressions is worth."""
+        if isinstance(compare, ast.In | ast.NotIn):
+            if self.module.qualified_name(right) == "os.environ":
+                return self._is_set(left, compare)
+            return self._contained(self.evaluate(left), compare, self.evaluate(right))
+        first, second, kind = self.evaluate(left), self.evaluate(right), type(compare)
+        result: object = None
+        if isinstance(second, RunningVersion):
+            result = second.compare(SWAPPED.get(kind, kind), first)
+        elif isinstance(first, RunningVersion):
+            result = first.compare(kind, second)
+        elif is_known(first) and is_known(second):
+            with suppress(TypeError):  # of 3 < 'x'
+                compared = COMPARISONS.get(kind) or _ORDERS.get(kind)
+                result = None if compared is None else compared(first, second)
+        return UNKNOWN if result is None else result
+
+    def _is_set(self, name: ast.expr, compare: ast.cmpop) -> object:
+        """Return whether a variable is in the environment."""
+        if not isinstance(name, ast.Constant) or name.value != VARIABLE:
+            return UNKNOWN
+        self.note(VARIABLE)
+        return isinstance(compare, ast.In)
+
+    def _contained(self, item: object, op: ast.cmpop, holder: object) -> object:
+        if not isinstance(item, str) or not isinstance(holder, str | tuple | list | set | dict):
+            return UNKNOWN
+        if not isinstance(holder, str) and not all(isinstance(one, str) for one in holder):
+            return UNKNOWN
+        return (item in holder) == isinstance(op, ast.In)

@@ -1,0 +1,68 @@
+"""Conditions under which tests are skipped, or expected to fail: marks of pytest and unittest."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.model.python.module import PythonModule
+from scaffold.model.python.scopes import FunctionNode
+from scaffold.record import NamedTuple
+
+_NEEDED = {
+    "pytest.mark.skipif": False,
+    "pytest.mark.xfail": False,
+    "unittest.skipIf": False,
+    "unittest.skipUnless": True,
+    "unittest.case.skipIf": False,
+    "unittest.case.skipUnless": True,
+}
+"""What the condition of a mark must be for the test to run, and to pass."""
+_OF_BLOCK = "pytestmark"
+"""The name of the marks of all tests in a module or a class."""
+_DEEPEST = 5
+
+
+class SkipCondition(NamedTuple):
+    """A condition of a mark."""
+
+    test: ast.expr
+    needed: bool
+    """What it must be for the test to run."""
+
+
+def skip_conditions(module: PythonModule, function: FunctionNode) -> Iterator[SkipCondition]:
+    """Yield the conditions that decide whether a test runs: its own, of its class and file.
+
+    Args:
+        module: The file.
+        function: The test, or a method of its class.
+    """
+    if not module.mentions("skipif", "skipIf", "skipUnless", "xfail"):
+        return
+    marks: list[ast.expr] = [*function.decorator_list]
+    for parent in module.parents(function):
+        if isinstance(parent, ast.ClassDef):
+            marks += parent.decorator_list
+        if isinstance(parent, ast.ClassDef | ast.Module):
+            bindings = module.index.bindings(parent).get(_OF_BLOCK, ())
+            marks += (binding.value for binding in bindings if binding.value is not None)
+    for mark in marks:
+        yield from _conditions(module, mark, 0)
+
+
+def _conditions(module: PythonModule, mark: ast.expr, depth: int) -> Iterator[SkipCondition]:
+    match mark:
+        case ast.List(elts=parts) | ast.Tuple(elts=parts):
+            for part in parts:
+                yield from _conditions(module, part, depth + 1)
+        case ast.Name(id=name) if depth < _DEEPEST:
+            found = module.index.lookup(name, mark)
+            for binding in found[1] if found and len(found[1]) == 1 else ():
+                if binding.kind == "assignment" and binding.value is not None:
+                    yield from _conditions(module, binding.value, depth + 1)
+        case ast.Call(func=func, args=args, keywords=words):
+            needed = _NEEDED.get(module.qualified_name(func) or "")
+            given = [*args[:1], *(word.value for word in words if word.arg == "condition")]
+            if needed is not None and given:
+                yield SkipCondition(given[0], needed)
