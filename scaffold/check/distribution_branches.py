@@ -10,6 +10,8 @@ from scaffold.distributions import VARIABLE
 from scaffold.model.cmake import distribution_branches as of_cmake
 from scaffold.model.cmake.lists import CMakeLists
 from scaffold.model.facts import fact
+from scaffold.model.launch import distribution_branches as of_launch
+from scaffold.model.launch.markup_file import ENDINGS as LAUNCH_ENDINGS
 from scaffold.model.package import Package
 from scaffold.model.python import distribution_branches as of_python
 from scaffold.model.python.distribution_conditions import ASKED
@@ -40,14 +42,17 @@ def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterat
 def _not_run(package: Package, path: str) -> Sequence[Stretch]:
     if path.rpartition("/")[2] == CMAKE_LISTS or path.endswith(".cmake"):
         return package.remember(("lines not run", path), lambda: _in_cmake(package, path))
+    if path.endswith(LAUNCH_ENDINGS):
+        return package.remember(("lines not run", path), lambda: _in_launch(package, path))
     return _in_python(package, path) if path in package.python_files else ()
 
 
 def _in_cmake(package: Package, path: str) -> Sequence[Stretch]:
     with suppress(ViewError):  # which is reported
-        if VARIABLE in package.source(path).text:
-            lists = CMakeLists.parse(package.source(path))
-            return tuple((first, 0, last + 1, 0) for first, last in of_cmake.lines_not_run(lists))
+        source = package.source(path)
+        if any(word in source.text for word in of_cmake.WORDS):
+            lines = of_cmake.lines_not_run(CMakeLists.parse(source))
+            return tuple((first, 0, last + 1, 0) for first, last in lines)
     return ()
 
 
@@ -55,5 +60,14 @@ def _in_cmake(package: Package, path: str) -> Sequence[Stretch]:
 def _in_python(package: Package, path: str) -> Sequence[Stretch]:
     with suppress(ViewError):
         if any(word in package.source(path).text for word in ASKED):
-            return tuple(of_python.stretches_not_run(package.module(path)))
+            in_python = of_python.stretches_not_run(package.module(path))
+            return (*in_python, *_in_launch(package, path))
+    return ()
+
+
+def _in_launch(package: Package, path: str) -> Sequence[Stretch]:
+    """Return the places of actions whose conditions are false on the target."""
+    with suppress(ViewError):
+        if VARIABLE in package.source(path).text and of_launch.has_conditions(package, path):
+            return tuple(of_launch.stretches_not_run(package, path))
     return ()

@@ -216,6 +216,20 @@ _FORMS = {
         ),
         [8],
     ),
+    "a substitution of launch": (
+        (
+            "from launch.substitutions import EnvironmentVariable as V\nE = V('ROS_DISTRO')\n"
+            "if E.perform(context) == 'humble':\n    {}\nelse:\n    {}\n"
+        ),
+        [10],
+    ),
+    "another substitution of launch": (
+        (
+            "from launch.substitutions import EnvironmentVariable as V\nE = V('HOME')\n"
+            "if E.perform(context) == 'humble':\n    {}\n"
+        ),
+        [8],
+    ),
     "a name of itself": ("def talk():\n    D = D.lower()\n    if D == 'jazzy':\n        {}\n", [8]),
 }
 
@@ -299,12 +313,117 @@ endif()
         ('WIN32 AND "$ENV{ROS_DISTRO}" STREQUAL "jazzy"', [(3, 3)]),
         ('WIN32 OR "$ENV{ROS_DISTRO}" STREQUAL "jazzy"', []),
         ('$ENV{ROS_DISTRO} MATCHES "*"', []),
+        ('"$ENV{ROS_DISTRO}" MATCHES "^(humble|jazzy)$"', [(3, 3)]),
+        ('"$ENV{ROS_DISTRO}" STRLESS "kilted"', [(3, 3)]),
+        ('"$ENV{ROS_DISTRO}" STRGREATER_EQUAL "kilted"', [(5, 5), (7, 7)]),
+        ('NOT ("jazzy" STRGREATER_EQUAL "$ENV{ROS_DISTRO}")', [(5, 5), (7, 7)]),
+        ("rclcpp_VERSION VERSION_LESS 29", [(3, 3)]),
+        ('"${rclcpp_VERSION}" VERSION_GREATER_EQUAL "28.1.5"', [(5, 5), (7, 7)]),
+        ("ament_cmake_VERSION VERSION_LESS 2.8.0", [(3, 3)]),
+        ("ament_cmake_VERSION VERSION_GREATER_EQUAL 2.8", [(5, 5), (7, 7)]),
+        ("ament_cmake_VERSION VERSION_LESS 2.8.9", []),
+        ("rclcpp_VERSION_MAJOR LESS 28", [(3, 3)]),
+        ("OpenCV_VERSION VERSION_LESS 4.0", []),
+        ("WIN32 AND rclcpp_VERSION VERSION_LESS 29", [(3, 3)]),
+        ("rclcpp_VERSION VERSION_LESS ${minimum}", []),
     ],
 )
 def test_cmake(condition: str, lines: list[tuple[int, int]]) -> None:
     package = Package.of({"CMakeLists.txt": _LISTS.format(condition)})
     with targeting(named("lyrical")):
         assert list(lines_not_run(package.cmake)) == lines
+
+
+_D = '"$ENV{ROS_DISTRO}"'
+_FORMS_OF_CMAKE = {
+    "a list": (
+        f"set(OLD humble jazzy)\nif({_D} IN_LIST OLD)\n  HERE\nelse()\n  there()\nendif()\n",
+        [4],
+    ),
+    "a list that grows": (
+        (
+            "set(OLD humble)\nlist(APPEND OLD lyrical)\n"
+            f"if({_D} IN_LIST OLD)\n  here()\nelse()\n  HERE\nendif()\n"
+        ),
+        [7],
+    ),
+    "a list that nobody knows": (
+        f"set(OLD ${{RELEASES}})\nif({_D} IN_LIST OLD)\n  a()\nelse()\n  b()\nendif()\n",
+        [],
+    ),
+    "a copy": (
+        (
+            "if(DEFINED ENV{ROS_DISTRO})\n  set(distro $ENV{ROS_DISTRO})\nelse()\n  HERE\nendif()\n"
+            'if(${distro} STREQUAL "humble")\n  HERE\nendif()\n'
+        ),
+        [5, 8],
+    ),
+    "a comparison": (
+        f'string(COMPARE EQUAL {_D} "jazzy" is_old)\nif(is_old)\n  HERE\nendif()\n',
+        [4],
+    ),
+    "a comparison with what nobody knows": (
+        f"string(COMPARE EQUAL {_D} ${{CHOSEN}} is_old)\nif(is_old)\n  here()\nendif()\n",
+        [],
+    ),
+    "lower case": (
+        f"string(TOLOWER {_D} name)\nif(NOT name STREQUAL lyrical)\n  HERE\nendif()\n",
+        [4],
+    ),
+    "a switch": (
+        f"if({_D} STREQUAL jazzy)\n  set(OLD TRUE)\nendif()\nif(OLD)\n  HERE\nendif()\n",
+        [3, 6],
+    ),
+    "a switch that others set": (
+        (
+            f"if({_D} STREQUAL jazzy)\n  set(OLD TRUE)\nendif()\n"
+            "if(WIN32)\n  set(OLD ON)\nendif()\nif(OLD)\n  here()\nendif()\n"
+        ),
+        [3],
+    ),
+    "an option": ("option(OLD ON)\nset(NEW OFF)\nif(OLD OR NEW)\n  here()\nendif()\n", []),
+    "an early return": (
+        f"if({_D} STRGREATER k)\n  return()\nendif()\nHERE\nHERE\n",
+        [*range(4, 8)],
+    ),
+    "an early return for others": (f"if({_D} STRLESS k)\n  HERE\nendif()\nhere()\n", [3]),
+    "a return that nobody knows": (
+        f"if({_D} STRGREATER k AND WIN32)\n  return()\nendif()\nhere()\n",
+        [],
+    ),
+    "a return of a function": (
+        (
+            f"function(do)\n  if({_D} STRGREATER k)\n    return()\n  endif()\n  HERE\n"
+            "endfunction()\nhere()\n"
+        ),
+        [5, 6],
+    ),
+    "the end of the configuration": (
+        f"if(NOT {_D} STREQUAL jazzy)\n  message(FATAL_ERROR no)\nendif()\nHERE\n",
+        [4, 5, 6],
+    ),
+    "a return in a loop": (
+        f"foreach(a ${{b}})\n  if({_D} STRGREATER k)\n    return()\n  endif()\nendforeach()\nx()\n",
+        [],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", _FORMS_OF_CMAKE)
+def test_forms_of_cmake(name: str) -> None:
+    form, lines = _FORMS_OF_CMAKE[name]
+    text = "project(talker)\n" + form.replace("HERE", "here()")
+    with targeting(named("lyrical")):
+        found = lines_not_run(Package.of({"CMakeLists.txt": text}).cmake)
+        assert [line for first, last in found for line in range(first, last + 1)] == lines
+
+
+def test_rolling_may_be_later_than_what_is_known_of_it() -> None:
+    text = "if(rclcpp_VERSION VERSION_LESS {})\n  here()\nendif()\n"
+    for version, lines in (("29", [(2, 2)]), ("40", [])):
+        package = Package.of({"CMakeLists.txt": text.format(version)})
+        with targeting(named("rolling")):
+            assert list(lines_not_run(package.cmake)) == lines
 
 
 def test_a_command_in_a_branch_for_older_distributions(
@@ -325,3 +444,160 @@ def test_a_command_in_a_branch_for_older_distributions(
     (tmp_path / "src" / "CMakeLists.txt").write_text(f"# the same, a line below\n{text}")
     removed = [("CM110", line, ["lyrical"]) for line in (5, 6)]
     assert found(capsys, tmp_path, "lyrical") == removed
+
+
+_LAUNCH = """\
+import os
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction, SetLaunchConfiguration
+from launch.conditions import (
+    IfCondition, LaunchConfigurationEquals, LaunchConfigurationNotEquals, UnlessCondition)
+from launch.substitutions import (
+    AndSubstitution, AnySubstitution, EnvironmentVariable, EqualsSubstitution, LaunchConfiguration,
+    NotEqualsSubstitution, NotSubstitution, OrSubstitution, PythonExpression)
+from launch_ros.actions import Node
+
+D = EnvironmentVariable('ROS_DISTRO')
+
+
+def generate_launch_description():
+    simulated = LaunchConfiguration('simulated')
+    return LaunchDescription([
+        DeclareLaunchArgument('simulated', default_value='false'),
+        DeclareLaunchArgument('distro', default_value=EnvironmentVariable('ROS_DISTRO')),
+        Node(package='tf2_ros', executable='static_transform_publisher',
+             arguments=['1', '0', '0', '0', '0', '0', 'base', 'laser'],
+             condition={}),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "runs"),
+    [
+        ("IfCondition(PythonExpression([\"'\", D, \"' == 'jazzy'\"]))", False),
+        ("IfCondition(PythonExpression([\"'\", D, \"' in ('jazzy', 'lyrical')\"]))", True),
+        ("UnlessCondition(PythonExpression([\"'\", D, \"' > 'k'\"]))", False),
+        ("IfCondition(EqualsSubstitution(EnvironmentVariable('ROS_DISTRO'), 'jazzy'))", False),
+        ("IfCondition(EqualsSubstitution(EnvironmentVariable('HOME'), 'jazzy'))", True),
+        ("IfCondition(NotEqualsSubstitution(D, 'lyrical'))", False),
+        ("UnlessCondition(NotEqualsSubstitution(D, 'lyrical'))", True),
+        ("IfCondition(NotSubstitution(EqualsSubstitution(D, 'lyrical')))", False),
+        ("IfCondition(AndSubstitution(simulated, EqualsSubstitution(D, 'jazzy')))", False),
+        ("IfCondition(OrSubstitution(simulated, EqualsSubstitution(D, 'jazzy')))", True),
+        ("IfCondition(AnySubstitution(EqualsSubstitution(D, 'humble')))", False),
+        ("IfCondition(simulated)", True),
+        ("UnlessCondition('true')", True),
+        ("IfCondition(LaunchConfiguration('distro'))", True),
+        ("LaunchConfigurationEquals('distro', 'jazzy')", False),
+        ("LaunchConfigurationNotEquals('distro', 'jazzy')", True),
+        ("LaunchConfigurationEquals('simulated', 'jazzy')", True),
+        ("IfCondition(str(os.environ['ROS_DISTRO'] == 'jazzy'))", False),
+        ("IfCondition('true' if os.environ.get('ROS_DISTRO') == 'jazzy' else 'false')", False),
+        ("IfCondition(PythonExpression([simulated, \" and '\", D, \"' == 'jazzy'\"]))", False),
+        ("IfCondition(PythonExpression([simulated, \" or '\", D, \"' == 'jazzy'\"]))", True),
+        ("IfCondition(PythonExpression(\"os.environ['ROS_DISTRO'] < 'k'\", ['os']))", False),
+        ('IfCondition(PythonExpression(["\'", D, "\' == \'", simulated, "\'"]))', True),
+        ("IfCondition(PythonExpression(['not a $ condition', D]))", True),
+    ],
+)
+def test_conditions_of_launch(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, *, runs: bool
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "launch").mkdir()
+    (tmp_path / "launch" / "a.launch.py").write_text(_LAUNCH.replace("{}", condition))
+    assert found_in_launch(capsys, tmp_path) == ([20] if runs else [])
+
+
+def found_in_launch(capsys: pytest.CaptureFixture[str], package: Path) -> list[int]:
+    """Return the lines of transforms with arguments that Lyrical refuses."""
+    main(["check", str(package), "--distro", "lyrical", "--format", "json", "--select", "LF080"])
+    return [item["line"] for item in json.loads(capsys.readouterr().out)["diagnostics"]]
+
+
+def test_a_group_with_a_condition(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "launch").mkdir()
+    node = _LAUNCH.partition("        Node(")[2].partition(",\n             condition")[0]
+    text = (
+        _LAUNCH.partition("    return")[0]
+        + f"""\
+    first = Node({node})
+    shared = Node({node})
+    group = GroupAction(
+        [first, shared, Node({node})],
+        condition=IfCondition(EqualsSubstitution(D, 'jazzy')))
+    return LaunchDescription([group, shared])
+"""
+    )
+    (tmp_path / "launch" / "a.launch.py").write_text(text)
+    assert found_in_launch(capsys, tmp_path) == [19]
+
+
+_ARGUMENTS = "1 0 0 0 0 0 base laser"
+_MARKUP = [
+    ("""if="$(eval '\\'$(env ROS_DISTRO)\\' == \\'jazzy\\'')\"""", False),
+    ("""if="$(eval &quot;'$(env ROS_DISTRO)' == 'jazzy'&quot;)\"""", False),
+    ("""if="$(eval &quot;'$(env ROS_DISTRO)' in ['jazzy', 'lyrical']&quot;)\"""", True),
+    ("""unless="$(eval &quot;'$(env ROS_DISTRO)' > 'k'&quot;)\"""", False),
+    ("""if="$(equals $(env ROS_DISTRO) jazzy)\"""", False),
+    ("""if="$(equals $(env HOME) jazzy)\"""", True),
+    ("""unless="$(not-equals $(env ROS_DISTRO '') jazzy)\"""", False),
+    ("""if="$(and $(var simulated) $(equals $(env ROS_DISTRO) jazzy))\"""", False),
+    ("""if="$(or $(var simulated) $(equals $(env ROS_DISTRO) jazzy))\"""", True),
+    ("""if="$(not $(equals $(env ROS_DISTRO) lyrical))\"""", False),
+    ("""if="$(var simulated)\"""", True),
+    ("""if="$(equals $(var distro) jazzy)\"""", False),
+    ("""if="$(equals $(var simulated) jazzy)\"""", True),
+    ("""if="$(var is_old)\"""", False),
+    ("""if="$(equals $(env ROS_DISTRO\"""", True),
+    ('if="false"', True),
+]
+
+
+@pytest.mark.parametrize("place", ["node", "group"])
+@pytest.mark.parametrize(("condition", "runs"), _MARKUP)
+def test_conditions_of_launch_in_xml(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, place: str, *, runs: bool
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "launch").mkdir()
+    of_group, of_node = (condition, "") if place == "group" else ("", condition)
+    (tmp_path / "launch" / "a.launch.xml").write_text(
+        "<launch>\n"
+        '<arg name="simulated" default="false"/>\n'
+        '<arg name="distro" default="$(env ROS_DISTRO)"/>\n'
+        '<let name="is_old" value="$(equals $(var distro) humble)"/>\n'
+        f"<group {of_group}>\n"
+        f'<node pkg="tf2_ros" exec="static_transform_publisher" args="{_ARGUMENTS}" {of_node}/>\n'
+        "</group>\n</launch>\n"
+    )
+    assert found_in_launch(capsys, tmp_path) == ([6] if runs else [])
+
+
+@pytest.mark.parametrize(
+    ("condition", "runs"),
+    [
+        ("""if: '$(eval "''$(env ROS_DISTRO)'' == ''jazzy''")'""", False),
+        ("""if: $(equals $(env ROS_DISTRO) jazzy)""", False),
+        ("""unless: $(equals $(env ROS_DISTRO) lyrical)""", False),
+        ("""if: $(equals $(var distro) lyrical)""", True),
+        ("""if: $(var simulated)""", True),
+        ("""if: false""", True),
+    ],
+)
+def test_conditions_of_launch_in_yaml(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, *, runs: bool
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
+    (tmp_path / "launch").mkdir()
+    node = f'pkg: tf2_ros\n    exec: static_transform_publisher\n    args: "{_ARGUMENTS}"\n'
+    (tmp_path / "launch" / "a.launch.yaml").write_text(
+        "launch:\n- arg: {name: simulated, default: 'false'}\n"
+        "- let: {name: distro, value: $(env ROS_DISTRO)}\n"
+        f"- node:\n    {node}    {condition}\n"
+        f"- group:\n  - node:\n      {node.replace('    ', '      ')}"
+    )
+    lines = found_in_launch(capsys, tmp_path)
+    assert len(lines) == 1 + runs

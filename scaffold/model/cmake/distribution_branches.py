@@ -1,115 +1,210 @@
-"""Branches of CMakeLists.txt that are for other distributions: they ask for ROS_DISTRO."""
+"""Branches of CMakeLists.txt that are for other distributions.
+
+They ask for ROS_DISTRO, or for the version of a package that every distribution has one of.
+"""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from scaffold.distributions import VARIABLE, target
+from scaffold.distributions import VARIABLE
+from scaffold.model.cmake.conditions import (
+    UNKNOWN,
+    Condition,
+    Decision,
+    Known,
+    Scope,
+    Word,
+    compare,
+)
 from scaffold.model.cmake.lists import CMakeLists
-from scaffold.model.cmake.parser import Command
+from scaffold.model.cmake.parser import Argument, Command
+from scaffold.model.cmake.variables import HARMLESS
 
-_VALUE = frozenset({f"$ENV{{{VARIABLE}}}", f"${{{VARIABLE}}}", VARIABLE})
-"""How a condition names the distribution; the last two are common copies of the variable."""
-_DEFINED = f"ENV{{{VARIABLE}}}"
-_OPENING = frozenset({"if", "elseif", "else"})
+WORDS = (VARIABLE, "_VERSION")
+"""Files without any of them have no such branches."""
+_CONDITIONS = frozenset({"if", "elseif", "else", "endif"})
+_BODIES = frozenset({"function", "macro", "foreach", "while"})
+"""What opens a block that runs never, once or many times."""
+_CASES = {"TOLOWER": str.lower, "TOUPPER": str.upper}
 
 Lines = tuple[int, int]
 
 
 def lines_not_run(lists: CMakeLists) -> Iterator[Lines]:
     """Yield the first and last lines of what does not run on the target distribution."""
-    opened: list[_Chain] = []
-    for command in lists.commands:
-        if command.name in _OPENING or command.name == "endif":
-            line = lists.source.location(command.start, command.start).line
-            if command.name == "if":
-                opened.append(_Chain())
-            elif opened and opened[-1].is_dead:
-                yield opened[-1].line + 1, line - 1
-            if command.name == "endif":
-                if opened:
-                    opened.pop()
-            elif opened:
-                opened[-1].enter(command, line)
+    return _Walk(lists).run()
 
 
-class _Chain:
-    """An ``if`` with what follows it, up to the branch that is read."""
+class _Block:
+    """A block: an ``if`` up to the branch that is read, or the body of a function or loop."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str) -> None:
+        self.name = name
         self.line = 0
+        """Of the command that opened the branch."""
         self.is_dead = False
+        self.is_sure = False
+        """Whether the distribution decides that the branch runs."""
+        self.left_at = 0
+        """The line of a function after which nothing runs."""
         self._is_decided = False
+        self._is_open = False
 
-    def enter(self, command: Command, line: int) -> None:
-        """Read the condition of a branch."""
+    def enter(self, decision: Decision, line: int) -> None:
+        """Go on with a branch.
+
+        Args:
+            decision: Of its condition; that of an ``else`` always holds.
+            line: Where it begins.
+        """
+        holds = decision.holds if decision.is_asked else None
         self.line = line
-        holds = command.name == "else" or _Condition(command.values).holds()
         self.is_dead = self._is_decided or holds is False
-        self._is_decided = self._is_decided or (holds is True and command.name != "else")
+        self.is_sure = not self.is_dead and not self._is_open and holds is True
+        self._is_decided = self._is_decided or holds is True
+        self._is_open = self._is_open or holds is None
+
+    def enter_last(self, line: int) -> None:
+        """Go on with the ``else``, which runs if nothing before it does."""
+        self.enter(Decision(holds=True, is_asked=True), line)
 
 
-class _Condition:
-    """The condition of an ``if``; what is not about the distribution is not known."""
+class _Walk:
+    """Reads a file from the top to the bottom, with the values of its variables."""
 
-    def __init__(self, words: Sequence[str]) -> None:
-        self._words = list(words)
+    def __init__(self, lists: CMakeLists) -> None:
+        self._lists = lists
+        self._scope = Scope()
+        self._blocks: list[_Block] = []
 
-    def holds(self) -> bool | None:
-        """Return whether it is true on the target; ``None`` if that is not known."""
-        result = self._all()
-        while self._take("OR"):
-            result = _either(result, self._all())
-        return result
+    def run(self) -> Iterator[Lines]:
+        for command in self._lists.commands:
+            if command.name in _CONDITIONS:
+                yield from self._branch(command, self._line(command))
+            elif command.name in _BODIES:
+                self._blocks.append(_Block(command.name))
+                self._forget(command)
+            elif command.name.startswith("end") and command.name[3:] in _BODIES:
+                yield from self._close(command)
+            elif _leaves(command) and self._is_sure:
+                holder = self._function
+                if holder is None:
+                    yield self._line(command) + 1, len(self._lists.source.lines)
+                    return
+                holder.left_at = holder.left_at or self._line(command)
+            else:
+                self._follow(command)
 
-    def _all(self) -> bool | None:
-        result = self._single()
-        while self._take("AND"):
-            result = _not(_either(_not(result), _not(self._single())))
-        return result
+    # -- blocks
 
-    def _single(self) -> bool | None:
-        if self._take("NOT"):
-            return _not(self._single())
-        if self._take("("):
-            inner = self.holds()
-            self._take(")")
-            return inner
-        words: list[str] = []
-        while self._words and self._words[0] not in {"AND", "OR", ")"}:
-            words.append(self._words.pop(0))
-        return _compared(words)
+    def _branch(self, command: Command, line: int) -> Iterator[Lines]:
+        block = self._blocks[-1] if self._blocks and self._blocks[-1].name == "if" else None
+        if command.name == "if":
+            block = _Block("if")
+            self._blocks.append(block)
+        elif block is None:
+            return  # which is reported
+        elif block.is_dead:
+            yield block.line + 1, line - 1
+        if command.name == "endif":
+            self._blocks.pop()
+        elif command.name == "else":
+            block.enter_last(line)
+        else:
+            words = [_word(argument) for argument in command.arguments]
+            block.enter(Condition(words, self._scope).decide(), line)
 
-    def _take(self, word: str) -> bool:
-        if self._words[:1] == [word]:
-            del self._words[0]
-            return True
-        return False
+    def _close(self, command: Command) -> Iterator[Lines]:
+        names = [block.name for block in self._blocks]
+        if command.name[3:] not in names:
+            return
+        while self._blocks:
+            block = self._blocks.pop()
+            if block.name == command.name[3:]:
+                if block.left_at:
+                    yield block.left_at + 1, self._line(command) - 1
+                return
+
+    @property
+    def _function(self) -> _Block | None:
+        """The function around the command."""
+        return next((one for one in reversed(self._blocks) if one.name == "function"), None)
+
+    @property
+    def _is_sure(self) -> bool:
+        """Whether a command is in a branch of its function that runs, as the distribution says."""
+        around: list[_Block] = []
+        for block in reversed(self._blocks):
+            if block.name == "function":
+                break
+            around.append(block)
+        return bool(around) and all(block.is_sure for block in around)
+
+    # -- variables
+
+    def _follow(self, command: Command) -> None:
+        match command.name, [argument.value for argument in command.arguments]:
+            case "set", [name, *rest] if not {"CACHE", "PARENT_SCOPE"} & {*rest}:
+                self._set(name, self._joined(command.arguments[1:]))
+            case "unset", [name]:
+                self._set(name, Known(""))
+            case "list", ["APPEND", name, *_]:
+                before, added = self._scope.lookup(name), self._joined(command.arguments[2:])
+                self._set(name, _listed(before, added))
+            case "string", ["COMPARE", operator, _, _, name]:
+                left, right = (self._scope.expand(one.text) for one in command.arguments[2:4])
+                decision = compare(operator, left, right)
+                value = None if decision.holds is None else str(int(decision.holds))
+                self._set(name, Known(value, decision.is_asked))
+            case "string", ["TOLOWER" | "TOUPPER" as case, _, name]:
+                known = self._scope.expand(command.arguments[1].text)
+                value = None if known.value is None else _CASES[case](known.value)
+                self._set(name, known._replace(value=value))
+            case _ if command.name not in HARMLESS:
+                self._forget(command)
+
+    def _set(self, name: str, known: Known) -> None:
+        """Give a variable a value, if the command that does so runs."""
+        if any(block.is_dead for block in self._blocks):
+            before = self._scope.lookup(name) if self._scope.is_set(name) else Known("")
+            self._scope.set(name, before._replace(is_asked=True))
+        elif all(block.is_sure for block in self._blocks):
+            self._scope.set(name, known._replace(is_asked=known.is_asked or bool(self._blocks)))
+        else:
+            self._scope.set(name, UNKNOWN)
+
+    def _forget(self, command: Command) -> None:
+        """Take variables for unknown that a command may write to."""
+        for argument in command.arguments:
+            if not argument.quoted and self._scope.is_set(argument.value):
+                self._scope.set(argument.value, UNKNOWN)
+
+    def _joined(self, arguments: list[Argument]) -> Known:
+        known = [
+            Known(one.text) if one.bracket else self._scope.expand(one.text) for one in arguments
+        ]
+        values = [one.value for one in known if one.value is not None]
+        is_all = len(values) == len(known)
+        return Known(";".join(values) if is_all else None, any(one.is_asked for one in known))
+
+    def _line(self, command: Command) -> int:
+        return self._lists.source.location(command.start, command.start).line
 
 
-def _compared(words: Sequence[str]) -> bool | None:
-    name = target().name
-    match words:
-        case ["DEFINED", variable] if variable == _DEFINED:
-            return True
-        case [left, "STREQUAL", right] if left in _VALUE:
-            return right == name
-        case [left, "STREQUAL", right] if right in _VALUE:
-            return left == name
-        case [left, "MATCHES", pattern] if left in _VALUE:
-            try:
-                return re.search(pattern, name) is not None
-            except re.error:
-                return None
-    return None
+def _word(argument: Argument) -> Word:
+    return Word(argument.text, is_quoted=argument.quoted or argument.bracket)
 
 
-def _either(left: bool | None, right: bool | None) -> bool | None:  # noqa: FBT001  three values
-    if left or right:
-        return True
-    return None if left is None or right is None else False
+def _leaves(command: Command) -> bool:
+    """Tell whether nothing of the file runs after a command."""
+    return command.name == "return" or (
+        command.name == "message" and command.values[:1] == ["FATAL_ERROR"]
+    )
 
 
-def _not(value: bool | None) -> bool | None:  # noqa: FBT001  three values
-    return None if value is None else not value
+def _listed(before: Known, added: Known) -> Known:
+    if before.value is None or added.value is None:
+        return UNKNOWN
+    value = ";".join(filter(None, (before.value, added.value)))
+    return Known(value, before.is_asked or added.is_asked)

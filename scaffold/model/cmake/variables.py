@@ -20,7 +20,7 @@ _LONGEST_VALUE = 20_000
 _MOST_ENTRIES = 16  # that are examined for one value
 _DEEPEST = 200  # blocks around a command; a deeper one is taken for unknown
 
-_HARMLESS = frozenset(
+HARMLESS = frozenset(
     """
     add_compile_definitions add_compile_options add_custom_command add_custom_target
     add_definitions add_dependencies add_executable add_library add_subdirectory add_test
@@ -35,6 +35,7 @@ _HARMLESS = frozenset(
     ament_python_install_module ament_target_dependencies rosidl_generate_interfaces
     """.split()  # noqa: SIM905  fifty quoted names would hide them
 )
+"""Commands that set no variable."""
 _GNU_DIRECTORIES = {
     "CMAKE_INSTALL_BINDIR": "bin",
     "CMAKE_INSTALL_SBINDIR": "sbin",
@@ -208,7 +209,7 @@ class Variables:
 
     def _follow(self, command: Command) -> None:
         name = command.name
-        if name in _HARMLESS:
+        if name in HARMLESS:
             return
         if name == "include" and command.values == ["GNUInstallDirs"]:
             self._fixed.update(_GNU_DIRECTORIES)

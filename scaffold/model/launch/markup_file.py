@@ -35,7 +35,7 @@ class _Element(NamedTuple):
 
 _ARGUMENTS = frozenset({"args", "ros_args"})
 """Attributes that may hold parameters."""
-_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
+ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
 
 
 class MarkupNode(NamedTuple):
@@ -82,7 +82,7 @@ def markup_files(package: Package) -> list[MarkupFile]:
     """Return the launch files in XML and YAML that can be read; tests are skipped."""
 
     def read() -> list[MarkupFile]:
-        paths = [path for path in package.files if path.endswith(_ENDINGS)]
+        paths = [path for path in package.files if path.endswith(ENDINGS)]
         result = [_read(package, path) for path in paths if not _in_tests(path)]
         return [file for file in result if file is not None]
 

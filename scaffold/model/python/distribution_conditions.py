@@ -15,6 +15,7 @@ from scaffold.model.python.running_version import SWAPPED, RunningVersion
 from scaffold.model.python.values import COMPARISONS, UNKNOWN, is_known
 
 _GETTERS = frozenset({"os.environ.get", "os.getenv"})
+_SUBSTITUTION = "launch.substitutions.EnvironmentVariable"
 _ORDERS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Lt: operator.lt,
     ast.LtE: operator.le,
@@ -27,29 +28,32 @@ _DEEPEST = 20
 """The most names that a condition is followed through."""
 
 
-def holds(module: PythonModule, test: ast.expr, depth: int = 0) -> bool | None:
+def holds(
+    module: PythonModule, test: ast.expr, depth: int = 0, *, is_asked: bool = False
+) -> bool | None:
     """Return whether a condition is true on the target; ``None`` if that is not known.
 
     Args:
         module: The file.
         test: The condition.
         depth: The names that it was followed through.
+        is_asked: Whether the distribution is known to decide it.
     """
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            inner = holds(module, operand, depth)
+            inner = holds(module, operand, depth, is_asked=is_asked)
             return None if inner is None else not inner
         case ast.BoolOp(op=op, values=values):
             deciding = isinstance(op, ast.Or)
-            parts = {holds(module, value, depth) for value in values}
+            parts = {holds(module, value, depth, is_asked=is_asked) for value in values}
             if deciding in parts:
                 return deciding
             return None if None in parts else not deciding
     value, notes = _DistributionEvaluator(module).trace(test)
-    if notes and is_known(value):
+    if (is_asked or notes) and is_known(value):
         return bool(value)
     named = _only_value(module, test) if depth < _DEEPEST else None
-    return None if named is None else holds(module, named, depth + 1)
+    return None if named is None else holds(module, named, depth + 1, is_asked=is_asked)
 
 
 def open_parts(module: PythonModule, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
@@ -96,6 +100,12 @@ def text_on_target(module: PythonModule, value: ast.expr) -> str | None:
     return text if notes and isinstance(text, str) else None
 
 
+def worth(module: PythonModule, value: ast.expr) -> tuple[object, bool]:
+    """Return what an expression is worth on the target, and whether the distribution decides it."""
+    found, notes = _DistributionEvaluator(module).trace(value)
+    return found, bool(notes)
+
+
 def _only_value(module: PythonModule, test: ast.expr) -> ast.expr | None:
     """Return what a name is set to, if that happens once."""
     found = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
@@ -130,9 +140,20 @@ class _DistributionEvaluator(Evaluator):
                     )
             case ast.Call(func=ast.Name(id=name), args=[], keywords=[]):
                 return self._returned(name, node.func)
+            case ast.Call(func=ast.Attribute(attr="perform", value=holder)) if (
+                self._is_substitution(holder)
+            ):
+                return self._asked()
         for argument in node.args:
             self.evaluate(argument)  # for its notes
         return UNKNOWN
+
+    def _is_substitution(self, node: ast.expr) -> bool:
+        """Tell whether an expression is the substitution of launch for the variable."""
+        match _only_value(self.module, node) or node:
+            case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if key == VARIABLE:
+                return self.module.qualified_name(func) == _SUBSTITUTION
+        return False
 
     def _returned(self, name: str, at: ast.expr) -> object:
         """Return what a function of the file without arguments does, if that is all that it is."""

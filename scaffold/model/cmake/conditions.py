@@ -1,0 +1,269 @@
+"""The condition of an ``if()`` of CMake with three values, where the distribution decides it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+
+from scaffold.distributions import ALIASES, VARIABLE, target
+from scaffold.model.cmake.parser import unescape
+from scaffold.model.cmake.variables import split_list
+from scaffold.record import NamedTuple
+
+OF_DISTRIBUTION = frozenset({f"ENV{{{VARIABLE}}}", f"$ENV{{{VARIABLE}}}"})
+_FALSE = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"})
+_TRUE = frozenset({"1", "ON", "YES", "TRUE", "Y"})
+_TEXTS: Mapping[str, Callable[[str, str], bool]] = {
+    "EQUAL": lambda left, right: left == right,
+    "LESS": lambda left, right: left < right,
+    "GREATER": lambda left, right: left > right,
+    "LESS_EQUAL": lambda left, right: left <= right,
+    "GREATER_EQUAL": lambda left, right: left >= right,
+}
+"""What follows ``STR`` and ``VERSION_``."""
+_VERSION = re.compile(r"\d+(?:\.\d+){0,3}")
+_FIXED_PARTS = 2
+"""The numbers of a version that releases of one distribution share; the third one moves."""
+
+
+class Known(NamedTuple):
+    """What a variable or a word is worth on the target."""
+
+    value: str | None
+    """``None`` if that is not known."""
+    is_asked: bool = False
+    """Whether the distribution decides it."""
+
+
+UNKNOWN = Known(None)
+
+
+class Decision(NamedTuple):
+    """Whether a condition is true on the target."""
+
+    holds: bool | None
+    """``None`` if that is not known."""
+    is_asked: bool = False
+    """Whether the distribution decides it."""
+
+
+UNDECIDED = Decision(None)
+
+
+class Word(NamedTuple):
+    """An argument of a condition."""
+
+    text: str
+    """As it is written, without quotes."""
+    is_quoted: bool
+
+
+class Scope:
+    """The variables of a file, as far as they are followed; see `expand` and `lookup`."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_asked=True)}
+
+    def set(self, name: str, known: Known) -> None:
+        """Give a variable another value."""
+        self._known[name] = known
+
+    def lookup(self, name: str) -> Known:
+        """Return the value of a variable; the distribution's of ``rclcpp_VERSION_MAJOR``."""
+        if name in self._known:
+            return self._known[name]
+        package, _, part = name.rpartition("_VERSION_")
+        released = target().fact("released").get(package)
+        if part != "MAJOR" or released is None or target().name in ALIASES:
+            return UNKNOWN
+        return Known(released.partition(".")[0], is_asked=True)
+
+    def is_set(self, name: str) -> bool:
+        """Tell whether the file gives a variable a value that is followed."""
+        return name in self._known
+
+    def expand(self, text: str) -> Known:
+        """Return a text with the variables in it replaced."""
+        is_asked = False
+        parts: list[str] = []
+        for piece in re.split(r"(\$(?:ENV|CACHE)?\{[^{}$]*\})", text):  # linear: nothing nests
+            if not piece.endswith("}") or not piece.startswith("$"):
+                parts.append(unescape(piece))
+                continue
+            known = self._value(piece)
+            if known.value is None:
+                return UNKNOWN
+            is_asked |= known.is_asked
+            parts.append(known.value)
+        value = "".join(parts)
+        return UNKNOWN if re.search(r"\$\w*[{<]", value) else Known(value, is_asked)
+
+    def _value(self, reference: str) -> Known:
+        if reference in OF_DISTRIBUTION:
+            return Known(target().name, is_asked=True)
+        return self.lookup(reference[2:-1]) if reference.startswith("${") else UNKNOWN
+
+
+class Condition:
+    """The arguments of an ``if()``.
+
+    Args:
+        words: The arguments.
+        scope: The variables.
+    """
+
+    def __init__(self, words: Sequence[Word], scope: Scope) -> None:
+        self._words = list(words)
+        self._scope = scope
+
+    def decide(self) -> Decision:
+        """Return whether it is true on the target."""
+        result = self._all()
+        while self._take("OR"):
+            result = _either(result, self._all())
+        return result
+
+    def _all(self) -> Decision:
+        result = self._single()
+        while self._take("AND"):
+            result = _not(_either(_not(result), _not(self._single())))
+        return result
+
+    def _single(self) -> Decision:
+        if self._take("NOT"):
+            return _not(self._single())
+        if self._take("("):
+            inner = self.decide()
+            self._take(")")
+            return inner
+        words: list[Word] = []
+        while self._words and self._words[0].text not in {"AND", "OR", ")"}:
+            words.append(self._words.pop(0))
+        return _test(words, self._scope)
+
+    def _take(self, text: str) -> bool:
+        if self._words[:1] == [Word(text, is_quoted=False)]:
+            del self._words[0]
+            return True
+        return False
+
+
+def _test(words: Sequence[Word], scope: Scope) -> Decision:
+    match [word.text for word in words]:
+        case ["DEFINED", variable] if variable in OF_DISTRIBUTION:
+            return Decision(holds=True, is_asked=True)
+        case [_]:
+            return _truth(words[0], scope)
+        case [name, operator, _] if operator.startswith("VERSION_"):
+            return _version(name, operator.removeprefix("VERSION_"), words, scope)
+        case [_, operator, _]:
+            return _compared(words[0], operator, words[2], scope)
+    return UNDECIDED
+
+
+def _compared(first: Word, operator: str, second: Word, scope: Scope) -> Decision:
+    left = _operand(first, scope)
+    if operator == "IN_LIST":
+        return _contained(left, scope.lookup(second.text))
+    if operator == "MATCHES":
+        return _matched(left, scope.expand(second.text))
+    right = _operand(second, scope)
+    if operator.startswith("STR"):
+        return compare(operator.removeprefix("STR"), left, right)
+    return _numeric(operator, left, right)
+
+
+def _numeric(operator: str, left: Known, right: Known) -> Decision:
+    values = [one.value for one in (left, right) if one.value is not None and one.value.isdigit()]
+    if len(values) < len((left, right)):
+        return UNDECIDED
+    longest = max(map(len, values))
+    padded = [
+        one._replace(value=value.rjust(longest, "0"))
+        for one, value in zip((left, right), values, strict=True)
+    ]
+    return compare(operator, *padded)
+
+
+def compare(operator: str, left: Known, right: Known) -> Decision:
+    """Return what ``STRLESS`` and the like say of two texts; ``LESS`` is what they end with."""
+    if left.value is None or right.value is None or operator not in _TEXTS:
+        return UNDECIDED
+    is_asked = left.is_asked or right.is_asked
+    return Decision(_TEXTS[operator](left.value, right.value), is_asked)
+
+
+def _operand(word: Word, scope: Scope) -> Known:
+    """Return what a comparison compares: the value of a variable of that name, or the word."""
+    known = UNKNOWN if word.is_quoted else scope.lookup(word.text)
+    is_variable = not word.is_quoted and (scope.is_set(word.text) or known.value is not None)
+    return known if is_variable else scope.expand(word.text)
+
+
+def _truth(word: Word, scope: Scope) -> Decision:
+    known = _operand(word, scope)
+    if known.value is None or not known.is_asked:
+        return UNDECIDED
+    value = known.value.upper()
+    if value in _FALSE or value.endswith("-NOTFOUND"):
+        return Decision(holds=False, is_asked=True)
+    return Decision(holds=True, is_asked=True) if value in _TRUE else UNDECIDED
+
+
+def _contained(item: Known, listed: Known) -> Decision:
+    if item.value is None or listed.value is None:
+        return UNDECIDED
+    return Decision(item.value in split_list(listed.value), item.is_asked or listed.is_asked)
+
+
+def _matched(text: Known, pattern: Known) -> Decision:
+    if text.value is None or pattern.value is None or "[:" in pattern.value:
+        return UNDECIDED
+    try:
+        found = re.search(pattern.value, text.value) is not None
+    except (re.error, RecursionError, OverflowError):
+        return UNDECIDED
+    return Decision(found, text.is_asked or pattern.is_asked)
+
+
+def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> Decision:
+    """Return what a comparison with the version of a package says that is released for ROS 2."""
+    wanted = scope.expand(words[2].text).value
+    name = left.removeprefix("${").removesuffix("}")
+    package = name.removesuffix("_VERSION")
+    if wanted is None or package == name or scope.is_set(name):
+        return UNDECIDED
+    released = target().fact("released").get(package)
+    if released is None or not _VERSION.fullmatch(wanted) or operator not in _TEXTS:
+        return UNDECIDED
+    ours, theirs = _numbers(released), _numbers(wanted)
+    if ours[:_FIXED_PARTS] == theirs[:_FIXED_PARTS]:
+        return _between_releases(operator, theirs)
+    if ours < theirs and target().name in ALIASES:  # which may be later than what is known of it
+        return UNDECIDED
+    order = (ours > theirs) - (ours < theirs)
+    return Decision(_TEXTS[operator](chr(1 + order), chr(1)), is_asked=True)
+
+
+def _between_releases(operator: str, wanted: tuple[int, ...]) -> Decision:
+    """Return what is sure of any release that a version shares the first numbers with."""
+    if any(wanted[_FIXED_PARTS:]) or operator not in {"LESS", "GREATER_EQUAL"}:
+        return UNDECIDED
+    return Decision(operator == "GREATER_EQUAL", is_asked=True)
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    numbers = [int(part) for part in version.split(".")]
+    return (*numbers, *[0] * (4 - len(numbers)))
+
+
+def _either(left: Decision, right: Decision) -> Decision:
+    is_asked = left.is_asked or right.is_asked
+    if left.holds or right.holds:
+        return Decision(holds=True, is_asked=is_asked)
+    is_open = left.holds is None or right.holds is None
+    return Decision(None if is_open else False, is_asked)
+
+
+def _not(decision: Decision) -> Decision:
+    return decision._replace(holds=None if decision.holds is None else not decision.holds)

@@ -1,0 +1,117 @@
+"""What conditions of launch are worth on the target, where they ask for ROS_DISTRO.
+
+What is not known, such as a launch argument, stays a hole in a text; a condition that has some may
+still be decided by the rest of it.
+"""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from collections.abc import Iterable, Sequence
+
+from scaffold.distributions import VARIABLE, target
+from scaffold.model.python.distribution_conditions import asks, holds, worth
+from scaffold.model.python.module import PythonModule
+from scaffold.record import NamedTuple
+from scaffold.source import Source, ViewError
+
+HOLE = "__unknown__"
+"""Stands in texts for what is not known; a name of Python, as expressions are texts too."""
+_TRUE = frozenset({"true", "1"})
+_FALSE = frozenset({"false", "0"})
+_LONGEST = 1000
+
+
+class Text(NamedTuple):
+    """What a substitution gives."""
+
+    value: str
+    """With `HOLE` for each part that is not known."""
+    is_asked: bool = False
+    """Whether the distribution decides it."""
+
+
+UNKNOWN = Text(HOLE)
+
+
+def truth(text: Text) -> bool | None:
+    """Return whether a condition is true on the target; ``None`` if it does not decide that."""
+    return _holds(text) if text.is_asked else None
+
+
+def _holds(text: Text) -> bool | None:
+    value = text.value.strip().lower()
+    return True if value in _TRUE else False if value in _FALSE else None
+
+
+def said(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  three values
+    """Return the text of a decision."""
+    return Text(HOLE if decision is None else str(decision).lower(), is_asked)
+
+
+def joined(parts: Iterable[Text]) -> Text:
+    """Return texts one after the other, as launch joins lists of substitutions."""
+    listed = [*parts]
+    return Text("".join(one.value for one in listed), any(one.is_asked for one in listed))
+
+
+def of_environment(name: str) -> Text:
+    """Return the value of a variable of the environment."""
+    return Text(target().name, is_asked=True) if name == VARIABLE else UNKNOWN
+
+
+def applied(kind: str, operands: Sequence[Text]) -> Text:
+    """Return what a substitution gives.
+
+    Args:
+        kind: What XML calls it, such as ``equals``.
+        operands: Its arguments.
+    """
+    is_asked = any(one.is_asked for one in operands)
+    values = [_holds(one) for one in operands]
+    match kind, operands:
+        case "env", [name, *_]:
+            return of_environment(name.value)
+        case "eval", [expression]:
+            return _evaluated(expression)
+        case "equals" | "not-equals", [left, right]:
+            is_open = HOLE in left.value + right.value
+            is_same = (left.value == right.value) == (kind == "equals")
+            return said(None if is_open else is_same, is_asked=is_asked)
+        case "not", [_]:
+            return said(None if values[0] is None else not values[0], is_asked=is_asked)
+        case ("and" | "all") | ("or" | "any"), [_, *_]:
+            deciding = kind in {"or", "any"}
+            decided = None if None in values else not deciding
+            return said(deciding if deciding in values else decided, is_asked=is_asked)
+    return UNKNOWN
+
+
+def _evaluated(expression: Text) -> Text:
+    """Return what an expression of Python gives; nothing of it is run."""
+    if len(expression.value) > _LONGEST:
+        return UNKNOWN
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = _Holes().visit(ast.parse(expression.value.strip(), mode="eval"))
+            module = PythonModule.parse(Source("condition", f"import os\n{ast.unparse(tree)}\n"))
+    except (SyntaxError, ValueError, RecursionError, MemoryError, ViewError):
+        return UNKNOWN
+    statement = module.tree.body[-1]
+    if not isinstance(statement, ast.Expr):
+        return UNKNOWN
+    is_asked = expression.is_asked or asks(module, statement.value)
+    value, _ = worth(module, statement.value)
+    if isinstance(value, str):
+        return Text(value, is_asked)
+    return said(holds(module, statement.value, is_asked=True), is_asked=is_asked)
+
+
+class _Holes(ast.NodeTransformer):
+    """Makes texts with holes in them names, whose values are not known."""
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        is_open = isinstance(node.value, str) and HOLE in node.value
+        return ast.Name(HOLE, ast.Load()) if is_open else node
