@@ -1,20 +1,23 @@
-"""PF001: parameter files are valid YAML."""
+"""PF001: parameter files and launch files are valid YAML."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.launch import markup_paths
 from scaffold.api.parameters import mistake, parameter_paths
 
+_LAUNCH = "launch:\n- node: {{pkg: talker, exec: talker{}\n- node: {{pkg: talker, exec: ear}}\n"
 _FILE = "talker:\n  ros__parameters:\n{}"
 
 
 class YamlMalformed(Rule):
-    """A parameter file cannot be read as YAML.
+    """A parameter file or a launch file cannot be read as YAML.
 
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
-    file ... Error parsing a event near line 2``.
+    file ... Error parsing a event near line 2``. Nor does a launch file: ``The launch file may have
+    a syntax error, or its format is unknown``.
 
     **Fix.** Correct the syntax; indent with spaces.
 
@@ -39,10 +42,22 @@ class YamlMalformed(Rule):
             ),
             Report("config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"),
         ),
+        Example(
+            "launch files",
+            {
+                "launch/a.launch.yaml": _LAUNCH.format("}"),
+                "launch/b.launch.yaml": _LAUNCH.format(""),
+            },
+            Report(
+                "launch/b.launch.yaml:3:1",
+                "not YAML: did not find expected ',' or '}' while parsing a flow mapping",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for path in parameter_paths(package):
+        launched = [path for path in markup_paths(package) if not path.endswith(".xml")]
+        for path in dict.fromkeys([*parameter_paths(package), *launched]):
             error = mistake(package, path)
             if error is not None:
                 yield self.report(error.location, error.message)

@@ -23,7 +23,7 @@ from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
 from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
-from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files
+from scaffold.model.launch.markup_file import MarkupNode, is_known, markup_files, markup_paths
 from scaffold.model.launch.nodes import (
     GivenParameter,
     StartedNode,
@@ -98,6 +98,7 @@ __all__ = [
     "launch_files",
     "launch_paths",
     "markup_files",
+    "markup_paths",
     "may_be_set_elsewhere",
     "meant_package",
     "names_alike",

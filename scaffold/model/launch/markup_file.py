@@ -82,11 +82,15 @@ def markup_files(package: Package) -> list[MarkupFile]:
     """Return the launch files in XML and YAML that can be read; tests are skipped."""
 
     def read() -> list[MarkupFile]:
-        paths = [path for path in package.files if path.endswith(ENDINGS)]
-        result = [_read(package, path) for path in paths if not _in_tests(path)]
+        result = [_read(package, path) for path in markup_paths(package)]
         return [file for file in result if file is not None]
 
     return package.remember("launch_markup", read)
+
+
+def markup_paths(package: Package) -> list[str]:
+    """Return the launch files in XML and YAML, also those that cannot be read."""
+    return [path for path in package.files if path.endswith(ENDINGS) and not _in_tests(path)]
 
 
 def is_known(attribute: Attribute | None) -> bool:
