@@ -545,6 +545,45 @@ def test_a_node_stops_with_0_while_it_is_created(
     assert (done.returncode, done.stderr) == (0, "")
 
 
+LOST = dedent("""\
+    import sys
+    from threading import Timer
+
+    from minimal_publisher import main, MinimalPublisher
+    import rclpy
+
+
+    def fail(self):
+        if sys.argv[1] == 'signal':  # what a signal does, whose KeyboardInterrupt rclpy has lost
+            Timer(0.1, rclpy.try_shutdown).start()
+        raise RuntimeError('Unable to convert call argument')
+
+
+    MinimalPublisher.publish_message = fail
+    main()
+""")
+
+
+@pytest.mark.build
+@needs_ros
+@pytest.mark.parametrize(("cause", "code"), [("signal", 0), ("defect", 1)])
+def test_a_node_waits_for_rclpy_to_say_whether_a_signal_made_it_fail(
+    combinations: Path, variables: dict[str, str], tmp_path: Path, cause: str, code: int
+) -> None:
+    package = combinations / "cmake_brief_string" / "cmake_brief_string"
+    script = tmp_path / "lost.py"
+    script.write_text(LOST)
+    done = subprocess.run(
+        [sys.executable, str(script), cause],
+        env={**variables, "PYTHONPATH": str(package)},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+    )
+    assert (done.returncode, "RuntimeError" in done.stderr) == (code, bool(code))
+
+
 class running:  # noqa: N801  reads as a statement
     """A process whose messages are read, and which does not outlive the block."""
 

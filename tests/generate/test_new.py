@@ -141,6 +141,7 @@ def test_brief_node() -> None:
         """
 
         import signal
+        import time
 
         from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
         import rclpy
@@ -187,7 +188,8 @@ def test_brief_node() -> None:
                 get_logger('minimal_publisher').fatal(str(error))
                 raise SystemExit(1) from None
             except RuntimeError:
-                if rclpy.ok():  # otherwise a signal ended the context while the node was using it
+                time.sleep(0.5)  # after a signal, rclpy takes a moment to end the context
+                if rclpy.ok():  # otherwise the signal came while the node was using it
                     raise
             finally:
                 if node is not None:
