@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from scaffold import distributions
 from scaffold.check import conflicts
 from scaffold.check.engine_rules import (
     FileTooLarge,
@@ -16,12 +18,16 @@ from scaffold.check.engine_rules import (
 from scaffold.check.session import Session
 from scaffold.check.several import without_distribution
 from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.model.python.distribution_branches import is_run
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.check.result import Result
     from scaffold.check.rule import Rule
+    from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
+    from scaffold.model.package import Package
 
     Known = Collection[tuple[str, str, str, str]]
 
@@ -57,13 +63,18 @@ class Consequences(NamedTuple):
     """What could be read neither before nor now."""
 
     @classmethod
-    def of(cls, result: Result, rules: Iterable[type[Rule]], known: Known) -> Consequences:
+    def of(
+        cls, result: Result, rules: Iterable[type[Rule]], known: Known, origin: Distribution
+    ) -> Consequences:
         """Sort what is found in a package; advice that is about no deprecation is left out.
+
+        What a branch for the target does was never done otherwise, so that it is no change.
 
         Args:
             result: What is found.
             rules: Those that looked; see `Rule.is_removal` and `Rule.is_deprecation`.
             known: What is found in it where it comes from.
+            origin: Where that is.
         """
         directory = result.package.directory
         before = {
@@ -86,7 +97,7 @@ class Consequences(NamedTuple):
                 breaks.append(item)
             elif item.code in deprecations:
                 deprecated.append(item)
-            elif item.severity is Severity.WARNING:
+            elif item.severity is Severity.WARNING and _ran_on(origin, result.package, item):
                 changes.append(item)
         return cls(result, breaks, changes, deprecated, unexamined)
 
@@ -99,6 +110,14 @@ class Consequences(NamedTuple):
     def is_done(self) -> bool:
         """Whether the package runs there as it did before, as far as is known."""
         return not (self.breaks or self.changes or self.unexamined)
+
+
+def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
+    """Tell whether no condition keeps the place of a finding from running where it comes from."""
+    if item.location.path in package.python_files:
+        with suppress(ViewError), distributions.targeting(origin):
+            return is_run(package.module(item.location.path), item.location)
+    return True
 
 
 class MigratingSession(Session):

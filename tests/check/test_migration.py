@@ -437,6 +437,20 @@ def test_a_call_for_one_distribution_alone_does_not_change(
         assert found["changes"] == ["IM052"] * count
 
 
+def test_a_branch_for_the_target_is_no_change(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module = workspace / "twenty" / "twenty" / "node.py"
+    module.write_text(
+        "import os\n\nimport rclpy\nfrom rclpy.node import Node\n\n"
+        "IS_NEW = os.environ.get('ROS_DISTRO', '') >= 'lyrical'\n\n\n"
+        "def main():\n    rclpy.init()\n    node = Node('talker')\n"
+        "    if IS_NEW:\n        rclpy.spin(node)\n"
+    )
+    found, _ = migrate(capsys)
+    assert found["changes"] == []
+
+
 def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
     package = workspace / "twenty" / "twenty"
     ordered = "from rclpy.node import Node\nfrom rclpy.qos_event import QoSEventHandler\n"

@@ -175,7 +175,9 @@ def _moved(options: argparse.Namespace, choices: Choices, move: Move) -> Moved:
     if results:
         results = _with_kept(options, choices, move, session, results)
     written = [item.package.directory for item in fixed]
-    consequences = [Consequences.of(result, choices.rules, session.known) for result in results]
+    consequences = [
+        Consequences.of(result, choices.rules, session.known, origin) for result in results
+    ]
     done = {
         item.result.package.directory
         for item in consequences
