@@ -36,6 +36,8 @@ class Change(NamedTuple):
     """Where it was decided: a repository and the number of a pull request, or a release."""
     having: str = ""
     """The keyword with which a call is meant."""
+    value: str = ""
+    """What that keyword is given, as it is written; empty if that does not matter."""
     without: str = ""
     """The keyword without which a call is meant."""
     raises: str = ""
@@ -152,6 +154,7 @@ def _change(entry: dict[str, Any]) -> Change:
         entry.get("advice", ""),
         entry["source"],
         entry.get("having", ""),
+        entry.get("value", ""),
         entry.get("without", ""),
         entry.get("raises", ""),
     )

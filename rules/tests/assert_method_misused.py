@@ -29,6 +29,8 @@ _RENAMED = {
     "failIfAlmostEqual": "assertNotAlmostEqual",
 }
 """What Python 3.12 removed and older ones deprecate, and what takes its place."""
+_WITHOUT_NAME = {"assertDictContainsSubset": "assertLessEqual(part.items(), whole.items())"}
+"""What Python 3.12 removed, and how to write it now."""
 _OF_PYTHON2 = {"assertItemsEqual": "assertCountEqual"}
 _TEST = (
     "import unittest\n\n\nclass TestText(unittest.TestCase):\n"
@@ -77,6 +79,15 @@ class AssertMethodMisused(TestRule):
             distro="humble",
         ),
         Example(
+            "gone, and no other has its arguments",
+            {"test/test_text.py": _TEST.format("assertDictContainsSubset")},
+            Report(
+                "6:9",
+                "assertDictContainsSubset was removed in Python 3.12: "
+                "AttributeError; use assertLessEqual(part.items(), whole.items())",
+            ),
+        ),
+        Example(
             "of Python 2",
             {"test/test_text.py": _TEST.format("assertItemsEqual")},
             Report(
@@ -112,7 +123,7 @@ class AssertMethodMisused(TestRule):
         for node in ast.walk(class_):
             match node:
                 case ast.Call(func=ast.Attribute(value=ast.Name(id="self"), attr=name) as method):
-                    if name in (_RENAMED | _OF_PYTHON2) and name not in own:
+                    if name in (_RENAMED | _WITHOUT_NAME | _OF_PYTHON2) and name not in own:
                         yield self._old_name(module, method)
                     elif name in {"assertTrue", "assertFalse"} and _compares(node.args):
                         message = (
@@ -122,7 +133,7 @@ class AssertMethodMisused(TestRule):
 
     def _old_name(self, module: PythonModule, method: ast.Attribute) -> Diagnostic:
         name, severity = method.attr, None
-        use = _RENAMED.get(name) or _OF_PYTHON2[name]
+        use = (_RENAMED | _WITHOUT_NAME | _OF_PYTHON2)[name]
         if name in _OF_PYTHON2:
             message = f"Python 3 has no {name}: AttributeError"
         elif target().python >= _REMOVED_IN:
@@ -130,9 +141,11 @@ class AssertMethodMisused(TestRule):
         else:
             message = f"{name} is deprecated, and Python 3.12 removes it"
             severity = Severity.INFO
-        _, end = module.span(method)
-        edit = Edit(module.source.path, end - len(name), end, use)
-        fix = Fix(f"write {use}", (edit,))
+        fix = None
+        if name not in _WITHOUT_NAME:
+            _, end = module.span(method)
+            edit = Edit(module.source.path, end - len(name), end, use)
+            fix = Fix(f"write {use}", (edit,))
         return self.report(module.location(method), f"{message}; use {use}", fix, severity=severity)
 
 
