@@ -43,6 +43,13 @@ _TRIED = (
     "        except TimeoutError:\n"
     "            return None\n"
 )
+_ANY = (
+    "        try:\n"
+    "            answer = self.reset.call(Trigger.Request(), timeout_sec=1.0)\n"
+    "        except Exception:\n"
+    "            {}\n"
+    "        return answer\n"
+)
 _PASSED = (
     _CLIENT.format(_CALL.format("timeout_sec=1.0"))
     .replace("class Asker(Node)", "class Asker")
@@ -142,6 +149,42 @@ class BehaviorChanged(PythonRule):
         Example(
             "a timeout that is caught",
             {"asker.py": _CLIENT.format(_TRIED)},
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a timeout that a handler of any exception takes: nothing is lost",
+            {
+                "asker.py": _CLIENT.format(_ANY.format("return None")),
+                "other.py": _CLIENT.format("        answer = None\n" + _ANY.format("pass")),
+            },
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a timeout that a handler of any exception raises again, or leaves without an answer",
+            {
+                "asker.py": _CLIENT.format(_ANY.format("raise")),
+                "other.py": _CLIENT.format(_ANY.format("print('none')")),
+            },
+            Report("asker.py:12:22", f"{_LATER} (rclpy 1271)"),
+            Report("other.py:12:22", f"{_LATER} (rclpy 1271)"),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "an array that is not to be copied",
+            {
+                "area.py": "import numpy as np\n\n\ndef area(values):\n"
+                "    first = np.array(values, copy=False)\n"
+                "    return first, np.array(values, copy=True), np.asarray(values)\n"
+            },
+            Report(
+                "5:13",
+                "from Lyrical on, copy=False raises ValueError where a copy is "
+                "needed, as it is for a list, and copied before: use numpy.asarray "
+                "(NumPy 2.0)",
+            ),
             distro="lyrical",
             moved_from="jazzy",
         ),

@@ -164,11 +164,54 @@ class NameRemoved(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "got by other means where anything fails, and not",
+            {
+                "area.py": "import numpy as np\n\n\ndef area(values, widths):\n    try:\n"
+                "        return np.product(values)\n    except Exception:\n"
+                "        return sum(values)\n",
+                "other.py": "import numpy as np\n\n\ndef area(values, widths):\n    try:\n"
+                "        return np.msort(values)\n    except Exception:\n"
+                "        return None\n",
+            },
+            Report(
+                "other.py:6:16",
+                "numpy.msort was removed in Lyrical: AttributeError; use "
+                "numpy.sort(values, axis=0) (NumPy 2.0)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "what NumPy 2 removed, and no name replaces",
             {"area.py": "import numpy as np\n\nleast = np.NINF\n"},
             Report(
                 "3:9",
                 "numpy.NINF was removed in Lyrical: AttributeError; use -numpy.inf (NumPy 2.0)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "methods of arrays, and methods of the same name",
+            {
+                "area.py": "import numpy as np\n\nvalues = np.array([1, 2])\n"
+                "width = values.ptp()\nvalues.itemset(0, 3)\n"
+                "other = np.zeros(3, '<f4').newbyteorder()\n"
+                "kind = np.dtype('<f4').newbyteorder()\n\n\n"
+                "def area(shape):\n    return shape.ptp()\n"
+            },
+            Report(
+                "4:9",
+                "numpy.ndarray.ptp was removed in Lyrical: AttributeError; use "
+                "numpy.ptp(values) (NumPy 2.0)",
+            ),
+            Report(
+                "5:1",
+                "numpy.ndarray.itemset was removed in Lyrical: AttributeError; "
+                "assign to values[index] (NumPy 2.0)",
+            ),
+            Report(
+                "6:9",
+                "numpy.ndarray.newbyteorder was removed in Lyrical: AttributeError; "
+                "use values.view(values.dtype.newbyteorder(order)) (NumPy 2.0)",
             ),
             distro="lyrical",
         ),

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, signature
+from scaffold.api.rclpy import is_tried
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import TimerAction\n"
@@ -64,7 +65,7 @@ class ArgumentsDoNotFit(LaunchRule):
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
             parameters = signature(call.kind)
-            if parameters is None or call.is_open:
+            if parameters is None or call.is_open or is_tried(launch.module, call.call, ""):
                 continue
             count, most = len(call.call.args), len(parameters.positional)
             if count > most and call.kind != "LaunchDescription":

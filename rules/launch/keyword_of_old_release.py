@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
 from scaffold.api.launch import NODES, LaunchFile
+from scaffold.api.rclpy import is_tried
 
 _OLD = {
     "node_executable": "executable",
@@ -65,7 +66,7 @@ class KeywordOfOldRelease(LaunchRule):
                 continue
             for old, word in call.words.items():
                 new = _OLD.get(old)
-                if new is None:
+                if new is None or is_tried(launch.module, call.call, old):
                     continue
                 start, _ = launch.module.span(word)
                 at = launch.module.source.location(start, start + len(old))

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
 from scaffold.api.launch import LaunchFile, signature
+from scaffold.api.rclpy import is_tried
 
 _OLD = frozenset({"node_executable", "node_name", "node_namespace", "node_plugin"})
 _LAUNCH = (
@@ -47,6 +48,8 @@ class KeywordUnknown(LaunchRule):
             parameters = signature(call.kind)
             for name, word in call.words.items() if parameters is not None else ():
                 if parameters is None or name in parameters.names or name in _OLD:
+                    continue
+                if is_tried(launch.module, call.call, name):
                     continue
                 closest = get_close_matches(name, sorted(parameters.names), 1, 0.6)
                 hint = f"; closest: {closest[0]!r}" if closest else ""

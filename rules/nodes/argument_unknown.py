@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
-from scaffold.api.rclpy import Excess, RclpyFile, excess_arguments
+from scaffold.api.rclpy import Excess, RclpyFile, excess_arguments, is_tried
 
 _CODE = (
     "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
@@ -67,6 +67,39 @@ class ArgumentUnknown(RclpyRule):
             Report("12:47", "create_timer() has no argument 'oneshot': TypeError"),
         ),
         Example(
+            "tried, and asked for: an older distribution is kept",
+            {
+                "server.py": "import inspect\n\nfrom rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Server(Node):\n"
+                "    def serve(self):\n"
+                "        try:\n"
+                "            self.create_service(Trigger, 'a', print, introspection=True)\n"
+                "        except TypeError:\n"
+                "            self.create_service(Trigger, 'a', print)\n"
+                "        try:\n"
+                "            self.b = self.create_service(Trigger, 'b', print, lazy=True)\n"
+                "        except Exception:\n"
+                "            self.b = self.create_service(Trigger, 'b', print)\n"
+                "        if 'lazy' in inspect.signature(self.create_service).parameters:\n"
+                "            self.create_service(Trigger, 'c', print, lazy=True)\n"
+            },
+        ),
+        Example(
+            "a failure that a handler of anything hides",
+            {
+                "server.py": "from rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Server(Node):\n"
+                "    def serve(self):\n"
+                "        try:\n"
+                "            self.create_service(Trigger, 'a', print, lazy=True)\n"
+                "        except Exception as error:\n"
+                "            self.get_logger().error(str(error))\n"
+            },
+            Report("8:59", "create_service() has no argument 'lazy': TypeError"),
+        ),
+        Example(
             "a misspelled keyword of a client",
             {
                 "server.py": _RIGHT.replace(
@@ -89,6 +122,8 @@ class ArgumentUnknown(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for excess in excess_arguments(file):
+            if is_tried(file.module, excess.call, excess.keyword):
+                continue
             fix = _fix(file, excess)
             yield self.report(file.module.location(excess.node), _message(excess), fix)
 

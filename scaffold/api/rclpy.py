@@ -25,7 +25,7 @@ from scaffold.model.rclpy.attributes import (
 from scaffold.model.rclpy.callbacks import numbers_taken
 from scaffold.model.rclpy.called_functions import called_function
 from scaffold.model.rclpy.changed_calls import changed_calls
-from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for
+from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for, is_tried
 from scaffold.model.rclpy.entities import (
     ActionClient,
     ActionServer,
@@ -128,6 +128,7 @@ __all__ = [
     "is_of_rclpy",
     "is_read_in_full",
     "is_spun_by_listener",
+    "is_tried",
     "is_unused",
     "is_used_elsewhere",
     "known_names",

@@ -50,6 +50,61 @@ def is_handled(
     return False
 
 
+def has_fallback(module: PythonModule, node: ast.AST, *, is_rare: bool) -> bool:
+    """Tell whether a handler of any exception does instead what fails at a node.
+
+    A handler that logs, or that sets a constant, hides a failure that comes every time; one that
+    comes at times is what such handlers are for.
+
+    Args:
+        module: The file.
+        node: What fails.
+        is_rare: Whether it fails at times only.
+    """
+    child = node
+    for parent in module.parents(node):
+        if isinstance(parent, ast.Try) and isinstance(child, ast.stmt) and child in parent.body:
+            for handler in parent.handlers:
+                is_broad = handler.type is None or _ALL & last_names(handler.type)
+                replaces = _goes_on if is_rare else _replaces
+                if is_broad and replaces(module, child, handler):
+                    return True
+        if isinstance(parent, ast.FunctionDef | ast.AsyncFunctionDef):
+            return False
+        child = parent
+    return False
+
+
+def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
+    """Tell whether everything has a value after a handler, or nothing is run after it."""
+    if any(isinstance(node, ast.Raise) for node in module.below(handler, ast.Raise)):
+        return False
+    if leaves_block(module, handler.body[-1]):
+        return True
+    bound = [node for node in module.below(failing, ast.Name) if isinstance(node.ctx, ast.Store)]
+    lookups = [module.index.lookup(node.id, node) for node in bound]
+    return all(found is not None and len(found[1]) > 1 for found in lookups)
+
+
+def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
+    """Tell whether a handler gets by other means what a statement is for."""
+    for instead in handler.body:
+        match failing, instead:
+            case ast.Assign(targets=[target]), ast.Assign(targets=[other], value=value):
+                is_same = module.text(target) == module.text(other)
+            case ast.Return(value=ast.expr()), ast.Return(value=ast.expr() as value):
+                is_same = True
+            case ast.Expr(value=ast.Call(func=first)), ast.Expr(
+                value=ast.Call(func=second) as value
+            ):
+                is_same = module.text(first) == module.text(second)
+            case _:
+                continue
+        if is_same and not isinstance(value, ast.Constant):
+            return True
+    return False
+
+
 def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
     """Return what a ``with`` expects of a statement in it: ``with pytest.raises(TypeError):``."""
     if not isinstance(parent, ast.With) or child not in parent.body:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold import distributions
 from scaffold.changes import Change, of_kind
 from scaffold.model.python.distribution_branches import is_run
-from scaffold.model.python.guards import caught_around
+from scaffold.model.python.guards import caught_around, has_fallback
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.api_signatures import OBJECTS
@@ -57,16 +57,23 @@ def _is_meant(file: RclpyFile, call: ast.Call, change: Change, name: str) -> boo
     """Tell whether a call has the arguments that the change is about, and is not ready for it."""
     if any(word.arg is None for word in call.keywords):
         return False
-    if change.raises:
-        caught = caught_around(file.module, call)
-        if not caught.isdisjoint({change.raises, _ABOVE.get(change.raises, change.raises)}):
-            return False
+    if change.raises and _is_caught(file.module, call, change.raises):
+        return False
     if change.without and _argument(call, name, change.without) is not None:
         return False
     if not change.having:
         return True
     value = _argument(call, name, change.having)
-    return value is not None and not _is_none(file.evaluator.single_value(value))
+    if value is None or change.value:
+        return value is not None and file.module.text(value) == change.value
+    return not _is_none(file.evaluator.single_value(value))
+
+
+def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
+    """Tell whether code goes on after an error of a call, as it does without one."""
+    if not caught_around(module, call).isdisjoint({error, _ABOVE.get(error, error)}):
+        return True
+    return has_fallback(module, call, is_rare=True)
 
 
 def _argument(call: ast.Call, name: str, keyword: str) -> ast.expr | None:

@@ -10,7 +10,7 @@ from scaffold.changes import Change
 from scaffold.edits import Edit
 from scaffold.model.python.distribution_branches import cases
 from scaffold.model.python.distribution_conditions import asks, holds, open_parts
-from scaffold.model.python.guards import all_conditions, is_handled
+from scaffold.model.python.guards import all_conditions, has_fallback, is_handled
 from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
@@ -18,6 +18,15 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location
 
 _LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
+_ARRAY = "numpy.ndarray"
+_ARRAY_MAKERS = frozenset(
+    f"numpy.{name}"
+    for name in (
+        *("arange", "array", "asarray", "concatenate", "copy", "empty", "eye", "frombuffer"),
+        *("full", "hstack", "identity", "linspace", "loadtxt", "ones", "stack", "vstack", "zeros"),
+    )
+)
+"""Functions that return arrays."""
 _ABOVE = {"ModuleNotFoundError": "ImportError"}
 """The class above an error."""
 _VERSION = re.compile(
@@ -142,6 +151,9 @@ class _Search:
         yield from sorted(self._module.qualified_names(node))
         if f"{_LOGGER}.{node.attr}" in self._plain and self._is_logger(node.value):
             yield f"{_LOGGER}.{node.attr}"
+        elif f"{_ARRAY}.{node.attr}" in self._plain:
+            if self._is_array(node.value):
+                yield f"{_ARRAY}.{node.attr}"
         elif any(name.endswith(f".{node.attr}") for name in self._plain):
             class_ = class_of(self._file, node.value)
             if class_ is not None:
@@ -156,6 +168,13 @@ class _Search:
             case ast.Call(func=ast.Attribute(attr="get_child", value=of)):
                 return self._is_logger(of)
         return class_of(self._file, node) == _LOGGER
+
+    def _is_array(self, node: ast.expr) -> bool:
+        """Tell whether an expression is certainly an array of NumPy."""
+        value = self._file.evaluator.single_value(node)
+        return isinstance(value, ast.Call) and not self._module.qualified_names(
+            value.func
+        ).isdisjoint(_ARRAY_MAKERS)
 
     def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
         """Tell whether an import, or a name, is for where another import or its successor fails."""
@@ -187,6 +206,8 @@ class _Search:
         errors = {error, _ABOVE.get(error, error)}
         if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
             return
+        if not is_broad and has_fallback(self._module, node, is_rare=False):
+            return
         if is_asked_for(self._module, node, name, written):
             return
         if self._is_fallback(node, written):
@@ -217,7 +238,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
         name: The full name.
         replacement: What takes its place.
     """
-    asked = _Asked(module, name, {name.rpartition(".")[2], replacement})
+    asked = _Asked(module, name, {name.rpartition(".")[2], replacement} - {""})
     for condition in all_conditions(module, node):
         if holds(module, condition.test) is (not condition.needed):
             return True
@@ -227,6 +248,23 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
             if not condition.is_of_leaving and asked.is_for_import(part):
                 return True
     return any(_is_unsure_case(module, parent, child) for parent, child in _around(module, node))
+
+
+def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
+    """Tell whether code knows that a function may not take what a call gives it.
+
+    It catches ``TypeError``, has a fallback, or asks for the argument or a version first.
+
+    Args:
+        module: The file.
+        call: The call.
+        keyword: The argument.
+    """
+    return (
+        is_handled(module, call, "TypeError", is_broad=False)
+        or has_fallback(module, call, is_rare=False)
+        or is_asked_for(module, call, f"{ast.unparse(call.func)}.{keyword}")
+    )
 
 
 def _around(module: PythonModule, node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
