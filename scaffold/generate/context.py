@@ -47,7 +47,8 @@ def package_context(
     are templates for), ``subdirectory`` (the way from the top of the git repository to the package;
     empty at the top), ``license_text`` and ``contributing_text`` (the templates of the full text
     and of CONTRIBUTING.md), ``nodes``, ``interfaces`` and ``programs``, ``depends`` (names by
-    kind), ``groups``, ``tests`` (of extras), ``share_directories`` and ``target`` (see
+    kind), ``groups``, ``tests`` (of extras), ``share_directories``, ``other_programs`` (names of
+    those in an existing package that are not known to be nodes) and ``target`` (see
     `scaffold.generate.target`). A part has the answers of its template, ``kind``, ``name`` and
     ``summary``; a node also has ``module``, ``class_name``, ``executable``, ``parameter_file``,
     ``has_parameters`` and the full names of its topics, services and actions; an interface has
@@ -74,6 +75,7 @@ def package_context(
             _part(part, layers, context, renderer) for part in parts if part.template.role is role
         ]
     scopes = list(part_scopes(layers, context))
+    context["other_programs"] = []
     context["tests"] = _texts("tests", scopes, renderer)
     context["depends"] = _depends(scopes, context, renderer)
     context["groups"] = _texts("groups", scopes, renderer)

@@ -47,6 +47,27 @@ def test_a_subscriber_imports_what_its_log_needs_and_no_more() -> None:
     assert "import math\n" in files["test/test_worker.py"]
 
 
+@pytest.mark.parametrize(
+    ("kind", "answers"),
+    [
+        *((kind, ("message_type",)) for kind in ("subscriber", "diagnostics", "publisher")),
+        *((kind, ("message_type",)) for kind in ("lifecycle", "composed_nodes")),
+        ("synchronizer", ("first_type",)),
+        ("publisher_subscriber", ("input_type",)),
+        ("publisher_subscriber", ("message_type",)),
+        ("publisher_subscriber", ("input_type", "message_type")),
+    ],
+)
+def test_a_library_is_a_dependency_of_what_imports_it(kind: str, answers: tuple[str, ...]) -> None:
+    files = files_of(kind, **dict.fromkeys(answers, "sensor_msgs/msg/PointCloud2"))
+    expected = ""
+    for path, tag in (("test/test_worker.py", "test"), ("talker/worker.py", "exec")):
+        if "from sensor_msgs_py." in files[path]:
+            expected = f"  <{tag}_depend>sensor_msgs_py</{tag}_depend>"
+    declared = [line for line in files["package.xml"].splitlines() if "sensor_msgs_py" in line]
+    assert "".join(declared) == expected
+
+
 def test_a_relay_needs_no_more_than_its_message() -> None:
     node = files_of("publisher_subscriber", message_type="geometry_msgs/msg/PoseStamped")
     code = node["talker/worker.py"]

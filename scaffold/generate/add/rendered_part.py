@@ -176,11 +176,14 @@ def _extra(
     context = composed.context
     existing = existing_nodes.find(package, context["nodes"], context["programs"])
     context["nodes"] = existing.nodes
+    context["other_programs"] = existing.others
+    context["interfaces"] = _interfaces(package)
     rendered = _rendered(target, composed, [(template, context)], layout)
     if not rendered.files:
+        lacks = "installs no node" if template.needs_nodes else "has no program and no interface"
         raise InputError(
             f"{template.name} has nothing to write for {package.directory or package.name}: it "
-            "installs no node that is known"
+            f"{lacks} that is known"
         )
     addition = _described(composed, template, context, package.name, rendered)
     tests = filter(None, (composed.renderer.text(text, context) for text in template.tests))
@@ -193,6 +196,15 @@ def _extra(
         addition = addition._replace(readme=f"## Run\n\n{text}\n" if text else "")
     is_launch = template.needs_nodes and any(path.startswith(LAUNCH) for path in rendered.files)
     return Piece(template, composed, rendered, addition, existing.others if is_launch else ())
+
+
+def _interfaces(package: Package) -> list[dict[str, str]]:
+    """Return the interfaces that a package defines, as its files see them."""
+    paths = [path for kind in ("msg", "srv", "action") for path in package.glob(f"{kind}/*.{kind}")]
+    return [
+        {"file": path, "type": f"{package.name}/{path.rpartition('.')[0]}"}
+        for path in sorted(paths)
+    ]
 
 
 def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:

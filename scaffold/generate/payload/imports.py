@@ -14,6 +14,9 @@ MODULES = ("math", "struct", "uuid", "zlib")
 FUNCTIONS = {"create_cloud_xyz32": "sensor_msgs_py.point_cloud2"}
 """Functions of other packages that statements may use, with their modules."""
 
+LIBRARIES = frozenset(module.partition(".")[0] for module in FUNCTIONS.values())
+"""The packages of these functions."""
+
 
 def imports(
     types: Types, code: Sequence[str], used: Iterable[str] = ()

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from scaffold.generate.payload import conventions, lookup, recipe, words
 from scaffold.generate.payload.code import Block, is_now
-from scaffold.generate.payload.imports import imports
+from scaffold.generate.payload.imports import LIBRARIES, imports
 from scaffold.generate.payload.lookup import HEADER, Types
 from scaffold.generate.payload.payloads import Payload
 from scaffold.generate.payload.recipe import Recipe
@@ -51,6 +51,7 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
         is_stamped=any("self.frame_id" in line for line in lines),
         is_counted=any("self.count" in line for line in lines),
         packages=packages,
+        interface_packages=tuple(name for name in packages if name not in LIBRARIES),
         frame=conventions.of_message(own.full_name).frame or words_.frame or recipe.FRAME,
         constants=walk.constants,
         is_changing=changes(lines),

@@ -44,6 +44,8 @@ class Payload(NamedTuple):
     """Whether the statements use ``self.count``."""
     packages: tuple[str, ...]
     """The packages that the imports need, in alphabetical order."""
+    interface_packages: tuple[str, ...] = ()
+    """Those that define messages: whoever only receives some needs no others."""
     frame: str = "base_link"
     """The default of the parameter ``frame_id``."""
     constants: tuple[str, ...] = ()

@@ -1166,6 +1166,26 @@ def test_an_extra_for_nodes_writes_nothing_without_any(
     )
 
 
+def test_the_usage_page_lists_what_an_existing_package_has(demo: Path) -> None:
+    (demo / "msg").mkdir()
+    (demo / "msg" / "Beat.msg").write_text("float64 period\n")
+    assert add(demo, "documentation") == 0
+    page = (demo / "doc" / "usage.rst").read_text()
+    assert "* ``demo/msg/Beat``\n" in page
+    assert "   ros2 run demo hello" in page
+
+
+def test_a_usage_page_without_content_is_not_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    library = PYTHON["setup.py"].replace("hello = demo.hello:main", "").replace("['']", "[]")
+    demo = write(tmp_path / "demo", {**PYTHON, "setup.py": library})
+    assert refused(demo, capsys, "documentation") == (
+        f"documentation has nothing to write for {demo}: "
+        "it has no program and no interface that is known"
+    )
+
+
 # -- refusals
 
 
