@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from scaffold.model.package import Package
 from scaffold.model.python.distribution_conditions import open_parts
-from scaffold.model.python.guards import Condition, all_conditions
+from scaffold.model.python.guards import Condition, all_conditions, values_asked
 from scaffold.model.python.module import PythonModule, last_names
 from scaffold.source import Location
 from scaffold.types import origins
@@ -20,7 +20,8 @@ Node = TypeVar("Node", bound=ast.AST)
 
 _DECIDING = re.compile(
     r"\b(?:hasattr|getattr|callable|isinstance|issubclass|TYPE_CHECKING|platform|ROS_VERSION)\b"
-    r"|\bin dir\(|signature|find_spec|(?:^|[^a-z]|hex)version|distro|_AVAILABLE\b"
+    r"|\bin dir\(|__slots__|get_fields_and_field_types|signature|find_spec"
+    r"|(?:^|[^a-z]|hex)version|distro|_AVAILABLE\b"
     r"|\b(?:HAS|HAVE)_(?!next\b)",
     re.IGNORECASE,
 )
@@ -156,7 +157,8 @@ class TypeFinding:
     def _asks_what_there_is(self, condition: Condition) -> bool:
         """Tell whether a condition asks for a version, a kind of object, or what was imported."""
         parts = [*open_parts(self.module, condition.test)]
-        texts = [ast.unparse(part) for part in parts]
+        values = [value for part in parts for value in values_asked(self.module, part)]
+        texts = [ast.unparse(value) for value in values]
         if condition.is_of_leaving:
             return any(map(_LEAVING.search, texts))
         if any(map(_DECIDING.search, texts)):

@@ -230,6 +230,24 @@ _FORMS = {
         ),
         [8],
     ),
+    "a claim": (
+        (
+            "def test_a():\n    assert D == 'jazzy'\n    {}\n"
+            "def test_b():\n    assert D == 'lyrical'\n    {}\n"
+        ),
+        [10],
+    ),
+    "a function that asks for the name": (
+        "def is_old(logger):\n    return 'warn' in dir(logger)\nif is_old(L):\n    {}\n",
+        [],
+    ),
+    "an attribute that says whether there is the name": (
+        (
+            "class A:\n    def __init__(self):\n        self.old = hasattr(L, 'warn')\n"
+            "    def f(self):\n        if self.old: {}\n        if self.new: {}\n"
+        ),
+        [10],
+    ),
     "a name of itself": ("def talk():\n    D = D.lower()\n    if D == 'jazzy':\n        {}\n", [8]),
 }
 

@@ -51,6 +51,9 @@ def _dead(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
             yield dead[0], dead[-1]
         if isinstance(node, ast.If) and decided is not None:
             yield from _left_out(module, node)
+    for claim in module.walk(ast.Assert):
+        if holds(module, claim.test) is False:
+            yield from _left_out(module, claim)
 
 
 def _dead_parts(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
@@ -67,8 +70,8 @@ def _dead_parts(module: PythonModule) -> Iterator[tuple[ast.AST, ast.AST]]:
                 yield case.body[0], case.body[-1]
 
 
-def _left_out(module: PythonModule, node: ast.If) -> Iterator[tuple[ast.AST, ast.AST]]:
-    """Yield what follows an ``if`` that is left on the target."""
+def _left_out(module: PythonModule, node: ast.stmt) -> Iterator[tuple[ast.AST, ast.AST]]:
+    """Yield what follows a statement that leaves its block on the target."""
     if not _leaves(module, node):
         return
     field, number = module.index.place(node)
@@ -85,6 +88,8 @@ def _leaves(module: PythonModule, statement: ast.stmt) -> bool:
         if decided is not None:
             branches = [statement.body if decided else statement.orelse]
         return all(branch and _leaves(module, branch[-1]) for branch in branches)
+    if isinstance(statement, ast.Assert):
+        return holds(module, statement.test) is False
     return leaves_block(module, statement)
 
 

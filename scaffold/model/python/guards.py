@@ -208,6 +208,33 @@ def all_conditions(module: PythonModule, node: ast.AST) -> Iterator[Condition]:
         child = parent
 
 
+def values_asked(module: PythonModule, test: ast.expr) -> list[ast.expr]:
+    """Return what a condition asks for: itself, and what is behind its names and functions.
+
+    What names and attributes of ``self`` in it are set to, and what functions of the file return.
+
+    Args:
+        module: The file.
+        test: The condition.
+    """
+    values: list[ast.expr | None] = [test]
+    for node in ast.walk(test):
+        match node:
+            case ast.Name(id=name):
+                lookup = module.index.lookup(name, node)
+                for binding in lookup[1] if lookup else ():
+                    values.append(binding.value)
+                    if isinstance(binding.node, ast.FunctionDef):
+                        returns = module.below(binding.node, ast.Return)
+                        values += (item.value for item in returns)
+            case ast.Attribute(value=ast.Name(id="self"), attr=name):
+                for store in module.index.attributes(name):
+                    above = module.parent(store)
+                    if isinstance(above, ast.Assign) and store in above.targets:
+                        values.append(above.value)
+    return [value for value in values if value is not None]
+
+
 def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:
     """Tell whether what follows a statement in its block is never reached."""
     match statement:

@@ -10,7 +10,7 @@ from scaffold.changes import Change
 from scaffold.edits import Edit
 from scaffold.model.python.distribution_branches import cases
 from scaffold.model.python.distribution_conditions import asks, holds, open_parts
-from scaffold.model.python.guards import all_conditions, has_fallback, is_handled
+from scaffold.model.python.guards import all_conditions, has_fallback, is_handled, values_asked
 from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
@@ -300,12 +300,8 @@ class _Asked(NamedTuple):
         return any(map(self._is_of_import, flags))
 
     def names_it(self, test: ast.expr) -> bool:
-        """Tell whether a condition, or what a name in it is set to, asks for one of the words."""
-        values = [test]
-        for name in ast.walk(test):
-            lookup = self.module.index.lookup(name.id, name) if isinstance(name, ast.Name) else None
-            values += [item.value for item in (lookup[1] if lookup else ()) if item.value]
-        return any(map(self._is_word_asked_for, values))
+        """Tell whether a condition, or what is behind its names, asks for one of the words."""
+        return any(map(self._is_word_asked_for, values_asked(self.module, test)))
 
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
