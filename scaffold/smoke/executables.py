@@ -48,6 +48,8 @@ class ExecutableRuns:
         self._tell = tell
         self._slots = asyncio.Semaphore(options.jobs)
         self._running: set[str] = set()
+        self._ended = 0
+        self._all = 0
 
     async def run(self, packages: Sequence[Source], done: dict[str, dict[str, Executable]]) -> None:
         """Run all executables of packages.
@@ -60,6 +62,7 @@ class ExecutableRuns:
         for package in packages:
             of_package = done.setdefault(package.name, {})
             runs += self._of_package(package, of_package)
+        self._all = len(runs)
         await _all(runs)
 
     def _of_package(
@@ -114,8 +117,10 @@ class ExecutableRuns:
 
     def _tell_running(self, label: str, *, started: bool) -> None:
         (self._running.add if started else self._running.discard)(label)
+        self._ended += not started
         if self._running:
-            self._tell(f"running {', '.join(sorted(self._running))}")
+            names = ", ".join(sorted(self._running))
+            self._tell(f"{self._ended} of {self._all} done, running {names}")
 
 
 async def _observed(

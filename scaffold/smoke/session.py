@@ -97,7 +97,7 @@ def smoke(
         session = _Session(selected, run, options, progress, stated, tell)
         ended_early = ""
         try:
-            interruption.run(lambda: session.run(sources))
+            interruption.run(lambda: session.run(sources), session.say_interrupted)
         except InterruptedBySignalError as end:
             ended_early = f"interrupted by {signal.Signals(end.number).name}"
         except OSError as error:
@@ -357,6 +357,10 @@ class _Session:
         sourced = environments.sourced_variables(setup, shell.captured())
         sourced.pop("COLCON_CURRENT_PREFIX", None)
         return sourced
+
+    def say_interrupted(self) -> None:
+        """Tell what takes its time after ^C."""
+        self._tell("interrupted, stopping what was started")
 
     def _tell(self, text: str) -> None:
         if self._progress is not None:

@@ -98,7 +98,8 @@ async def run_together(
             observer.dismiss()
             problems = [*ended(runs), *connections(seen), *failed(seen.transitions)]
             problems += [Problem(text) for text in await _stop(runs, group.grace)]
-            result = Executable(group.name, seen, problems=tuple(problems))
+            shown = [_relative(problem, plan.install) for problem in problems]
+            result = Executable(group.name, seen, problems=tuple(shown))
     except (ObserverError, OSError) as error:
         result = Executable(group.name, problems=(Problem(str(error)),))
     finally:
@@ -164,6 +165,11 @@ def below_launch(runs: Mapping[str, process.Running]) -> Iterator[str]:
             )
 
 
+def _relative(problem: Problem, install: Path) -> Problem:
+    message, *lines = output.relative((problem.message, *problem.output), install)
+    return Problem(message, tuple(lines))
+
+
 async def _close(runs: Mapping[str, process.Running]) -> None:
     await asyncio.gather(*(running.close() for running in runs.values()))
 
@@ -173,8 +179,10 @@ def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
     for name, running in runs.items():
         if running.exit_code:
             written = output.read(running.out) + output.read(running.err)
-            lines = tuple(output.tail(written))
-            yield Problem(f"{name} ended among the others, {ending(running.exit_code)}", lines)
+            trace = output.traceback(written)
+            how = ending(running.exit_code) + (f": {output.exception(trace)}" if trace else "")
+            lines = output.short(trace) if trace else output.tail(written)
+            yield Problem(f"{name} ended among the others, {how}", tuple(lines))
 
 
 def connections(seen: Observation) -> Iterator[Problem]:

@@ -11,7 +11,12 @@ import sys
 import time
 from contextlib import suppress
 from importlib import import_module
-from typing import Any
+from operator import sub
+from statistics import pstdev
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 Ros = Any
 """Whatever rclpy returns: it has no types."""
@@ -87,7 +92,7 @@ class Witness:
         package, kind, name = type_name.split("/")
         message = getattr(import_module(f"{package}.{kind}"), name)
         self.node.create_subscription(
-            message, topic, lambda _: times.append(time.monotonic()), profile
+            message, topic, lambda _, info: times.append(sent(info)), profile
         )
 
     def ask(self, node: str) -> None:
@@ -144,6 +149,7 @@ class Witness:
                 "endpoints": self.endpoints[topic],
                 "count": len(self.times.get(topic, ())),
                 "rate_hz": rate(self.times.get(topic, [])),
+                "interval": deviation(self.times.get(topic, [])),
             }
             for topic, types in self.types.items()
         }
@@ -160,6 +166,16 @@ def say(data: object) -> None:
     """Write a line."""
     sys.stdout.write(json.dumps(data) + "\n")
     sys.stdout.flush()
+
+
+def sent(info: Mapping[str, int]) -> float:
+    """Return when a message was sent: when it is looked at is up to this process."""
+    return (info["source_timestamp"] or time.time_ns()) / 1e9
+
+
+def deviation(times: list[float]) -> float:
+    """Return by how much the time from one message to the next varies."""
+    return pstdev(map(sub, times[1:], times)) if len(times) > 1 else 0.0
 
 
 def rate(times: list[float]) -> float | None:

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
-from contextlib import suppress
 from typing import TYPE_CHECKING
-
-from scaffold.printable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -173,8 +169,9 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     from signal import Signals
 
     from scaffold import distributions
-    from scaffold.cli import distro
+    from scaffold.cli import distro, terminal
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
+    from scaffold.cli.status_line import StatusLine
     from scaffold.model.discovery import targets
     from scaffold.smoke.options import Options
     from scaffold.smoke.session import packages_of, smoke
@@ -198,13 +195,13 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
         ros=options.ros,
         wanted=wanted,
     )
-    with _Progress() as progress:
+    with StatusLine() as status:
         if options.cluster is None:
             result = smoke(
                 packages,
                 settings,
-                progress=progress,
-                announce=_announce,
+                progress=status.show,
+                announce=status.announce,
                 interruption=interruption,
             )
         else:
@@ -214,8 +211,8 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
                 options.cluster,
                 packages,
                 settings,
-                progress=progress,
-                announce=_announce,
+                progress=status.show,
+                announce=status.announce,
                 interruption=interruption,
             )
     try:
@@ -231,7 +228,7 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
     if not packages:
         _announce(f"no package differs from {options.since}")
     if result.scratch:
-        sys.stderr.write(f"kept: {printable(result.scratch)}\n")
+        terminal.say(f"kept: {result.scratch}")
     interruption.check()
     if result.ended_early:
         _announce(result.ended_early)
@@ -367,30 +364,9 @@ def _write(options: argparse.Namespace, result: Smoke) -> None:
 
 
 def _announce(text: str) -> None:
-    with suppress(OSError):  # the terminal may be gone
-        sys.stderr.write(f"ros2-scaffold: {printable(text)}\n")
+    from scaffold.cli import terminal
 
-
-class _Progress:
-    """One line that is written again and again, on a terminal only."""
-
-    def __init__(self) -> None:
-        self._shown = sys.stderr.isatty()
-
-    def __enter__(self) -> Callable[[str], None]:
-        return self._show
-
-    def __exit__(self, *_: object) -> None:
-        self._write("\r\033[K")
-
-    def _show(self, text: str) -> None:
-        self._write(f"\r\033[K{printable(text)[:100]} ...")
-
-    def _write(self, text: str) -> None:
-        if self._shown:
-            with suppress(OSError):  # the terminal may be gone
-                sys.stderr.write(text)
-                sys.stderr.flush()
+    terminal.say(f"ros2-scaffold: {text}")
 
 
 def _seconds(text: str) -> float:

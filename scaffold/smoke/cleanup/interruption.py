@@ -93,8 +93,16 @@ class Interruption:
         finally:
             self._action = previous
 
-    def run(self, main: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
+    def run(
+        self,
+        main: Callable[[], Coroutine[Any, Any, Result]],
+        tell: Callable[[], None] = lambda: None,
+    ) -> Result:
         """Run a coroutine, which is cancelled when a signal comes.
+
+        Args:
+            main: Returns the coroutine.
+            tell: Called when the signal has come: the cleaning up may take a while.
 
         Raises:
             InterruptedBySignalError: a signal asked for the end.
@@ -105,7 +113,7 @@ class Interruption:
             loop = asyncio.get_running_loop()
             if task is not None:
                 cancel = task.cancel
-                self._action = lambda: _schedule(loop, cancel)
+                self._action = lambda: _schedule(loop, tell, cancel)
             self.check()
             return await main()
 
@@ -125,6 +133,7 @@ class Interruption:
                 self._action()
 
 
-def _schedule(loop: asyncio.AbstractEventLoop, cancel: Callable[[], bool]) -> None:
-    if not loop.is_closed():
-        loop.call_soon_threadsafe(cancel)
+def _schedule(loop: asyncio.AbstractEventLoop, *actions: Callable[[], object]) -> None:
+    for action in actions:
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(action)

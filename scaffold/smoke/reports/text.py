@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import TextIO, TypeVar, cast
 
+from scaffold import columns
 from scaffold.printable import printable
 from scaffold.smoke.reports import details
 from scaffold.smoke.reports.details import count
@@ -32,7 +33,10 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
     """
     paint = _painter(out)
     lines = _lines(without_escapes(result), paint, verbose=verbose)
-    out.writelines(line.rstrip() + "\n" for line in lines)
+    width = columns.of_terminal(out)
+    for line in lines:
+        parts = [line] if width is None else columns.wrapped(line, width)
+        out.writelines(part.rstrip() + "\n" for part in parts)
 
 
 def without_escapes(value: Value) -> Value:
@@ -193,14 +197,19 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
 def summary(result: Smoke, paint: Paint = _plain) -> str:
     """Return one line: how much was run, and what is not ok."""
     executables = [executable for package in result.packages for executable in package.executables]
-    runs = [executable for package in result.packages for executable in package.runs]
+    is_one = sum(bool(package.runs) for package in result.packages) == 1
+    named = [
+        (run.name if is_one else f"{package.name}/{run.name}", run)
+        for package in result.packages
+        for run in package.runs
+    ]
     said = f"{count(len(result.packages), 'package')}, {count(len(executables), 'executable')}"
     seconds = f"in {result.seconds:.1f} s"
     if result.ok:
         return f"{said}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
-    bad = [run.name for run in runs if run.problems]
-    unfinished = [run.name for run in runs if run.interrupted and not run.problems]
+    bad = [name for name, run in named if run.problems]
+    unfinished = [name for name, run in named if run.interrupted and not run.problems]
     parts = [f"{_listed(unbuilt)} not built"] if unbuilt else []
     parts += [f"{_listed(bad)} not ok"] if bad else []
     parts += [f"{_listed(unfinished)} interrupted"] if unfinished else []
