@@ -288,7 +288,7 @@ class _Run:
     async def _stop(self, running: process.Running) -> None:
         said = _said(running)
         self._report_exception(running)
-        written = running.err.stat().st_size
+        written = output.size(running.err)
         done = await process.end(running, self._number)
         trace = output.traceback(output.read(running.err, written))
         self._trial.stop = Stop(done.sent[-1], running.exit_code, done.seconds, trace)

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from scaffold.smoke.isolation import shared_memory
 from tests.smoke.smoke_packages import IGNORES_SIGINT, python_package, talker
-from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variables
+from tests.smoke.smoke_runs import NEEDS_ROS, command_line, executables_of, processes_of, variables
 
 pytestmark = [pytest.mark.nightly, NEEDS_ROS, pytest.mark.timeout(0)]
 
@@ -145,23 +142,8 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     root = tmp_path_factory.mktemp("zoo")
     package = python_package(root / "src", "zoo", NODES)
     (package / "smoke.yaml").write_text("executables: {dies: {duration: 14}}\n")
-    tmp = root / "tmp"
-    tmp.mkdir()
-    before = shared_memory.segments()
-    done = subprocess.run(
-        command_line(package, "--duration", "4", "--jobs", "2", "--format", "json"),
-        env=variables(tmp, XDG_STATE_HOME=str(root / "state")),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 1, done.stderr
-    assert processes_of(tmp) == []
-    assert os.listdir(tmp) == []
-    assert [*(root / "state").glob("*/*/*")] == []
-    assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
-    executables: list[dict[str, Any]] = json.loads(done.stdout)["packages"][0]["executables"]
-    return {item["name"]: "\n".join(item["problems"]) for item in executables}
+    found = executables_of(package, root, "--jobs", "2")
+    return {item["name"]: "\n".join(item["problems"]) for item in found}
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import os
+import subprocess
 import sys
 import time
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from scaffold.smoke.isolation import shared_memory
 from tests import PATIENCE
 
 ROOT = Path(__file__).parents[2]
@@ -61,3 +65,30 @@ def wait_until(condition: Callable[[], bool]) -> None:
     while not condition():
         assert time.monotonic() < deadline, "it did not happen"
         time.sleep(0.05)
+
+
+def executables_of(package: Path, root: Path, *flags: str) -> list[dict[str, Any]]:
+    """Run the bad executables of a package; return their reports, as nothing else is left of them.
+
+    Args:
+        package: Its directory.
+        root: A directory for temporary files.
+        flags: More of them.
+    """
+    tmp = root / "tmp"
+    tmp.mkdir()
+    before = shared_memory.segments()
+    done = subprocess.run(
+        command_line(package, "--duration", "4", "--format", "json", *flags),
+        env=variables(tmp, XDG_STATE_HOME=str(root / "state")),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1, done.stderr
+    assert processes_of(tmp) == []
+    assert os.listdir(tmp) == []
+    assert [*(root / "state").glob("*/*/*")] == []
+    assert shared_memory.segments() - before - shared_memory.used_by_anybody() == set()
+    executables: list[dict[str, Any]] = json.loads(done.stdout)["packages"][0]["executables"]
+    return executables

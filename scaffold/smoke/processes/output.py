@@ -63,6 +63,14 @@ def read(path: Path, start: int = 0) -> str:
     return _ESCAPE.sub("", data.decode("utf-8", "replace")).replace("\r", "\n")
 
 
+def size(path: Path) -> int:
+    """Return the bytes of a file; none of one that a program has removed with its directory."""
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
 def traceback(text: str) -> str | None:
     """Return the last Python traceback that tells a cause.
 
