@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
@@ -19,6 +21,7 @@ from scaffold.check.session import Session
 from scaffold.check.several import without_distribution
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.python.distribution_branches import is_run
+from scaffold.model.discovery.colcon import IGNORE_MARKERS
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -88,7 +91,8 @@ class Consequences(NamedTuple):
         unexamined: list[Diagnostic] = []
         for item in result.diagnostics:
             if item.code in UNEXAMINED and item.location.path in before:
-                unexamined.append(item)
+                if not _is_ignored(result.package, item.location.path):
+                    unexamined.append(item)
             elif (
                 item.code.startswith(_OF_PYTHON)
                 or item.severity is Severity.ERROR
@@ -120,6 +124,13 @@ def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
     return True
 
 
+def _is_ignored(package: Package, path: str) -> bool:
+    """Tell whether a file is in a directory that the build or the linters are told to skip."""
+    parents = path.split("/")[:-1]
+    directories = ("/".join(parents[:end]) for end in range(1, len(parents) + 1))
+    return any(package.has(f"{one}/{name}") for one in directories for name in IGNORE_MARKERS)
+
+
 class MigratingSession(Session):
     """Reports what is not known of the distribution that the packages come from."""
 
@@ -127,6 +138,9 @@ class MigratingSession(Session):
     """What is found there, as `identities` returns it."""
     improved: Collection[str] = ()
     """The codes of findings that are worse there, unless they are errors: see `deprecations`."""
+    at_target: Known | None = None
+    """Of a distribution that is kept: what is found for the target. What breaks without being found
+    there is reported, although it was found before: it is right for one of the two alone."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         """Return what is new, and what is not known; lines may have moved, so they do not count."""
@@ -137,22 +151,33 @@ class MigratingSession(Session):
             for item in reported
             if item.code in UNEXAMINED
             or (
-                _identity(directory, item) not in self.known
+                self._is_new(_identity(directory, item), item)
                 and (item.code not in self.improved or item.severity is Severity.ERROR)
             )
         ]
 
+    def _is_new(self, identity: tuple[str, str, str, str], item: Diagnostic) -> bool:
+        if identity not in self.known:
+            return True
+        is_error = item.severity is Severity.ERROR
+        return is_error and self.at_target is not None and identity not in self.at_target
+
 
 class OrderSession(Session):
-    """Reports imports that are not in order, in files where they were before the fixes."""
+    """Reports imports that are not in order, in files where more are so than before the fixes."""
 
-    unordered: Collection[tuple[str, str]] = ()
-    """The directories and paths of the other files."""
+    unordered: Mapping[tuple[str, str], int] = MappingProxyType({})
+    """How many were so, by directory and path of the file."""
 
     def _report(self, target: Target, diagnostics: list[Diagnostic]) -> list[Diagnostic]:
         reported = super()._report(target, diagnostics)
         directory = target.package.directory
-        return [item for item in reported if (directory, item.location.path) not in self.unordered]
+        now = Counter(item.location.path for item in reported)
+        return [
+            item
+            for item in reported
+            if now[item.location.path] > self.unordered.get((directory, item.location.path), 0)
+        ]
 
 
 def deprecations(rules: Iterable[type[Rule]]) -> frozenset[str]:
@@ -160,14 +185,14 @@ def deprecations(rules: Iterable[type[Rule]]) -> frozenset[str]:
     return frozenset(rule.code for rule in rules if rule.is_deprecation)
 
 
-def unordered(results: Sequence[Result]) -> set[tuple[str, str]]:
-    """Return the directories and paths of files whose imports are not in order."""
-    return {
+def unordered(results: Sequence[Result]) -> Mapping[tuple[str, str], int]:
+    """Return how many imports are not in order, by directory and path of the file."""
+    return Counter(
         (result.package.directory, item.location.path)
         for result in results
         for item in result.diagnostics
         if item.code in ORDER
-    }
+    )
 
 
 def identities(results: Sequence[Result]) -> set[tuple[str, str, str, str]]:

@@ -41,7 +41,6 @@ def write(
     from scaffold.check.fixes import workspace_fixer
     from scaffold.cli import writing
     from scaffold.cli.interactive.progress import Bar
-    from scaffold.errors import ScaffoldError
 
     with ExitStack() as stack:
         held = writing.hold_all(stack, _roots(targets), is_dry=options.diff)
@@ -51,25 +50,41 @@ def write(
         trees = [target.package.tree for target in targets]
         with Bar() as bar:
             fixed = workspace_fixer.fix(targets, session, bar, unsafe=options.unsafe_fixes)
-        plans: list[WritePlan] = []
-        written: list[Fixed] = []
-        has_failed = held.has_failed
-        for item, tree in zip(fixed, trees, strict=True):
-            try:
-                plan = _plan(item, tree)
-                if not options.diff:
-                    plan.write(force=True)
-            except ScaffoldError as error:
-                terminal.error(str(error))
-                has_failed = True
-            else:
-                plans.append(plan)
-                written.append(item)
+        written, is_refused = put(options, [*zip(fixed, trees, strict=True)])
+    return written, held.has_failed or is_refused
+
+
+def put(
+    options: argparse.Namespace, packages: Sequence[tuple[Fixed, Tree | None]]
+) -> tuple[list[Fixed], bool]:
+    """Write fixed packages, or show the patch.
+
+    Args:
+        options: The flags: whether it is only shown.
+        packages: What the fixes make of each, and what is on disk, if that is at hand.
+
+    Returns:
+        The packages that were written or shown, and whether any was refused.
+    """
+    from scaffold.errors import ScaffoldError
+
+    plans: list[WritePlan] = []
+    written: list[Fixed] = []
+    for item, tree in packages:
+        try:
+            plan = _plan(item, tree)
+            if not options.diff:
+                plan.write(force=True)
+        except ScaffoldError as error:
+            terminal.error(str(error))
+        else:
+            plans.append(plan)
+            written.append(item)
     if options.diff:
         terminal.show_patch(_patch(plans))
     for item in written:
         _note_links(item)
-    return written, has_failed
+    return written, len(written) < len(packages)
 
 
 def _roots(targets: Sequence[Target]) -> list[str]:
@@ -88,7 +103,7 @@ def _note_links(fixed: Fixed) -> None:
             terminal.note(f"{place}: not fixed: a link to {target}, outside of the package")
 
 
-def _plan(fixed: Fixed, tree: Tree) -> WritePlan:
+def _plan(fixed: Fixed, tree: Tree | None) -> WritePlan:
     """Return the plan for writing a fixed package, compared with the files on disk.
 
     Raises:

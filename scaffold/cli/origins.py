@@ -26,6 +26,8 @@ class Origins(NamedTuple):
     """What the other packages are for, by directory: the target, or the same under another name."""
     assumed: Sequence[str]
     """Those of the other packages of which nothing says what they are for."""
+    guessed: Sequence[str]
+    """Those of the packages that move of which nothing says what they are for."""
     ended: Mapping[str, Distribution]
     """The names in records that are supported no more, with what the packages move from instead."""
 
@@ -54,6 +56,7 @@ def find(
     groups: dict[Distribution, list[str]] = {}
     arrived: dict[str, Distribution] = {}
     assumed: list[str] = []
+    guessed: list[str] = []
     ended: dict[str, Distribution] = {}
     for directory in directories:
         gone = [] if named else _ended(directory)
@@ -69,11 +72,16 @@ def find(
             others = candidates
         if others:
             groups.setdefault(distributions.ordered(others)[0], []).append(directory)
+            guessed += [directory] if recorded is None else []
         else:
             arrived[directory] = candidates[-1]
             assumed += [directory] if recorded is None else []
     found = Origins(
-        {item: groups[item] for item in distributions.ordered([*groups])}, arrived, assumed, ended
+        {item: groups[item] for item in distributions.ordered([*groups])},
+        arrived,
+        assumed,
+        guessed,
+        ended,
     )
     if not groups and assumed:
         raise InputError(_assumption(found, target))
@@ -104,19 +112,25 @@ def notes(origins: Origins, target: Distribution) -> Iterator[str]:
         yield _succession(name, origin)
     if origins.assumed:
         yield _assumption(origins, target)
+    if origins.guessed:
+        default = distributions.named(distributions.DEFAULT).title
+        yield f"{_unknown(origins.guessed)}: {default} is assumed; --from names another"
+
+
+def _unknown(directories: Sequence[str]) -> str:
+    """Return the sentence about packages of which nothing says what they come from."""
+    number = len(directories)
+    names = ", ".join(map(os.path.normpath, directories[:_SHOWN]))
+    if number > _SHOWN:
+        names += f" and {number - _SHOWN} more"
+    they, come = ("it", "comes") if number == 1 else ("they", "come")
+    return f"{names}: no record and no configuration says what {they} {come} from"
 
 
 def _assumption(origins: Origins, target: Distribution) -> str:
     """Return the sentence about packages that stay, as nothing says that they are for another."""
-    number = len(origins.assumed)
-    names = ", ".join(map(os.path.normpath, origins.assumed[:_SHOWN]))
-    if number > _SHOWN:
-        names += f" and {number - _SHOWN} more"
-    they, come = ("it", "comes") if number == 1 else ("they", "come")
-    return (
-        f"{names}: not moved: no record and no configuration says what {they} {come} from, and the "
-        f"default is {target.title} itself; --from names it"
-    )
+    where, _, why = _unknown(origins.assumed).partition(": ")
+    return f"{where}: not moved: {why}, and the default is {target.title} itself; --from names it"
 
 
 def _succession(name: str, origin: Distribution) -> str:

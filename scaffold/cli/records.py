@@ -23,46 +23,35 @@ class Recorded(NamedTuple):
     """What became of the records of packages."""
 
     before: Mapping[str, Sequence[str]]
-    """What the packages were for whose records were changed, by directory."""
+    """What the packages were for whose records are changed, by directory."""
     has_others: bool
     """Whether there are packages without a record."""
-    has_failed: bool
 
 
 _ANSWERS = re.compile(r'^  "answers": \{\n', re.MULTILINE)
 _ANSWER = re.compile(rf'^    "{distro.ANSWER}": [^\n]*,\n', re.MULTILINE)
 
 
-def move_all(directories: Iterable[str], targets: Sequence[Distribution]) -> Recorded:
-    """Write into the records of packages what they are for now; say which could not be written.
+def plan(directory: str, targets: Sequence[Distribution]) -> tuple[bytes, bytes] | None:
+    """Return a record as it is and as it is to be; ``None`` if there is nothing to change.
 
     Args:
-        directories: Of the packages.
-        targets: What they are for.
+        directory: Of the package.
+        targets: What it is for now.
     """
-    from scaffold.cli import terminal
-    from scaffold.errors import ScaffoldError
-
-    changed: dict[str, Sequence[str]] = {}
-    has_others = has_failed = False
-    for directory in directories:
-        try:
-            before = distro.recorded_names(directory)
-            if before is None:
-                has_others = True
-            elif move(directory, targets):
-                changed[directory] = before
-        except ScaffoldError as error:
-            terminal.error(str(error))
-            has_failed = True
-    return Recorded(changed, has_others, has_failed)
+    names = [target.name for target in targets]
+    if distro.recorded_names(directory) in (None, names):
+        return None
+    with open(os.path.join(directory, RECORD), "rb") as file:
+        data = file.read()
+    return data, with_answer(data.decode(), names).encode()
 
 
 def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config) -> Iterator[str]:
     """Yield what is not recorded any more, and what wins over the records, a line each.
 
     Args:
-        recorded: What `move_all` returns.
+        recorded: What became of the records.
         targets: What the packages are for now.
         settings: The configuration.
     """
@@ -101,20 +90,22 @@ def _is_among(name: str, targets: Sequence[Distribution]) -> bool:
     return name in distributions.NAMES and distributions.named(name).place in places
 
 
-def held(directories: Iterable[str], targets: Sequence[Distribution]) -> str:
+def held(directories: Iterable[str], targets: Sequence[Distribution], *, has_unread: bool) -> str:
     """Return what to say of packages that are not recorded yet; nothing if none has a record.
 
     Args:
         directories: Of the packages that are not ready.
         targets: What they are to be for.
+        has_unread: Whether files of them could not be read.
     """
     names = [target.name for target in targets]
     waiting = [path for path in directories if distro.recorded_names(path) not in (None, names)]
     if not waiting:
         return ""
+    unread = ", files that cannot be read with `exclude` of the configuration" if has_unread else ""
     return (
         f"{_listed(waiting)}: not recorded for {distributions.titles(targets)} before what is left "
-        "is fixed, or accepted with noqa: then run this again"
+        f"is fixed, or accepted with noqa{unread}: then run this again"
     )
 
 
@@ -125,35 +116,6 @@ def _listed(directories: Sequence[str]) -> str:
 
 
 _SHOWN = 3
-
-
-def move(directory: str, targets: Sequence[Distribution]) -> bool:
-    """Write into the record of a package what it is for now.
-
-    Args:
-        directory: Of the package.
-        targets: What it is for.
-
-    Returns:
-        Whether that is new.
-
-    Raises:
-        ScaffoldError: the package is being changed, or cannot be written.
-    """
-    from scaffold.cli import writing
-    from scaffold.files.tree import DiskTree
-    from scaffold.writing.plan import WritePlan
-
-    names = [target.name for target in targets]
-    if distro.recorded_names(directory) in (None, names):
-        return False
-    with writing.held(directory, is_dry=False):
-        with open(os.path.join(directory, RECORD), encoding="utf-8", newline="") as file:
-            text = file.read()
-        moved = with_answer(text, names)
-        tree = DiskTree(directory)
-        WritePlan.of(directory, {RECORD: moved.encode()}, tree=tree).write(force=True)
-    return True
 
 
 def with_answer(text: str, names: Sequence[str]) -> str:

@@ -51,7 +51,7 @@ class SeveralTargets:
         self._disk = disk
         self._notes = options.notes
         self._by_record = by_record
-        self._is_mixed = len({tuple(named) for named in by_record.values()}) > 1
+        self._is_mixed = len({tuple(named) for named in by_record.values() if named}) > 1
         self._targets: Sequence[Target] = ()
         self._runs: list[RunEntry] = []
 
@@ -205,7 +205,7 @@ class SeveralTargets:
         is_unfinished = check.note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
-        if options.cluster is not None:
+        if options.cluster is not None or options.refused:
             return None
         return check.run_entry(options, self._targets, distribution)
 

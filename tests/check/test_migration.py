@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -376,11 +377,13 @@ def test_each_package_comes_from_what_its_record_says(
     shown = capsys.readouterr()
     assert shown.out.startswith("the packages are for Lyrical already: nothing to move; ")
     assert shown.err == "0 fixes applied\n"
-    main(["migrate", "talker_c", "--to", "lyrical", "--keep", "kilted", "--keep", "jazzy", "--fix"])
-    assert "1 package from Jazzy to Lyrical" in capsys.readouterr().out
-    assert json.loads(records["c"].read_text())["answers"]["distro"] == [
-        *("jazzy", "kilted", "lyrical")
-    ]
+    flags = ("migrate", "talker_c", "--to", "lyrical", "--keep", "kilted", "--fix")
+    assert main([*flags, "--keep", "jazzy"]) == 1
+    report = capsys.readouterr().out
+    assert "ND007 rclpy.init() is not a context manager on Jazzy" in report
+    assert "1 package from Jazzy to Lyrical: 1 break" in report
+    assert main([*flags]) == 0
+    assert json.loads(records["c"].read_text())["answers"]["distro"] == ["kilted", "lyrical"]
 
 
 def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
@@ -462,6 +465,104 @@ def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
     node = "from rclpy.node import Node\n"
     assert (package / "ordered.py").read_text() == handler + node
     assert (package / "unordered.py").read_text() == handler + "import rclpy\n"
+
+
+def test_fixes_leave_no_more_imports_unsorted_than_there_were(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker")
+    module = Path("talker/talker/events.py")
+    module.write_text(
+        "from rclpy.node import Node\nfrom rclpy.clock import Clock\n"
+        "from rclpy.parameter import Parameter\nfrom rclpy.qos_event import QoSEventHandler\n\n"
+        "USED = (Node, Clock, Parameter, QoSEventHandler)\n"
+    )
+    main(["migrate", "--to", "lyrical", "--fix"])
+    assert main(["check", "--select", "I100"]) == 0
+    assert "rclpy.event_handler" in module.read_text()
+
+
+def test_the_patch_is_what_is_written(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _new("talker", "plain")
+    ordered = "from rclpy.node import Node\nfrom rclpy.qos_event import QoSEventHandler\n"
+    Path("talker/talker/ordered.py").write_text(ordered)
+    applied = workspace.parent / "applied"
+    capsys.readouterr()
+    assert main(["migrate", "--to", "lyrical", "--diff"]) == 1
+    shown = capsys.readouterr()
+    shutil.copytree(workspace, applied)
+    patch = shown.out
+    subprocess.run(["git", "apply", "-"], input=patch, text=True, check=True, cwd=applied)
+    main(["migrate", "--to", "lyrical", "--fix"])
+    (done,) = (line for line in capsys.readouterr().err.splitlines() if " applied" in line)
+    assert "; 2 packages recorded for Lyrical" in done
+    assert shown.err.splitlines()[-1] == done.replace("recorded", "would be recorded").replace(
+        "applied", "would be applied"
+    )
+    for path in (path for path in workspace.rglob("*") if path.is_file()):
+        assert (applied / path.relative_to(workspace)).read_bytes() == path.read_bytes()
+    assert "rclpy.qos_event" not in Path("talker/talker/ordered.py").read_text()
+
+
+def test_a_kept_distribution_is_judged_where_packages_come_from_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker")
+    Path("talker/talker/infos.py").write_text("from rclpy.endpoint_info import TopicEndpointInfo\n")
+    for kept, code in (("", 0), ("jazzy", 1), ("kilted", 1)):
+        capsys.readouterr()
+        flags = ("--keep", kept) if kept else ()
+        assert main(["migrate", "--from", "jazzy", "--to", "lyrical", *flags]) == code
+        assert ("no module 'rclpy.endpoint_info'" in capsys.readouterr().out) == code
+
+
+def test_files_that_the_build_skips_do_not_hold_a_package_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker")
+    for name in ("COLCON_IGNORE", "AMENT_IGNORE"):
+        Path(f"talker/{name}_here/below").mkdir(parents=True)
+        Path(f"talker/{name}_here/{name}").touch()
+        Path(f"talker/{name}_here/below/open.py").write_text("def g(x:\n")
+    capsys.readouterr()
+    assert main(["migrate", "--to", "lyrical", "--fix"]) == 0
+    assert capsys.readouterr().out == "1 package from Jazzy to Lyrical: nothing changes\n"
+    assert _recorded("talker") == ["lyrical"]
+
+
+def test_one_record_that_names_what_has_ended_does_not_stop_a_check(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker", "listener")
+    _new("newer", distro="kilted")
+    record = Path("talker/.ros2-scaffold.json")
+    record.write_text(record.read_text().replace('["jazzy"]', '["foxy"]'))
+    for paths, titles in (
+        (("talker", "listener"), "1 package, 12 files for Jazzy: "),
+        (("talker", "newer"), "1 package, 12 files for Kilted: "),
+        ((), "2 packages, 24 files for Jazzy and Kilted: "),
+    ):
+        for _ in range(2):
+            capsys.readouterr()
+            assert main(["check", *paths]) == 2
+            shown = capsys.readouterr()
+            assert "talker/.ros2-scaffold.json: 'foxy' has reached its end of life; " in shown.err
+            assert shown.out.splitlines()[-1].startswith(titles)
+
+
+def test_an_origin_that_is_assumed_is_named(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.rmtree(workspace / "twenty")
+    for flags, is_named in (((), True), (("--from", "jazzy"), False)):
+        capsys.readouterr()
+        main(["migrate", "--to", "lyrical", *flags])
+        sentence = "note: listed: no record and no configuration says what it comes from: Jazzy is"
+        assert (sentence in capsys.readouterr().err) == is_named
 
 
 def test_a_message_is_printed_once_with_the_other_lines_below(

@@ -41,6 +41,23 @@ class Fixed(NamedTuple):
     unsettled: frozenset[str]
     """Codes that still had fixes when the rounds, or those of their file, were used up."""
 
+    @property
+    def is_change(self) -> bool:
+        """Whether anything differs from what is on disk."""
+        return bool(self.changed or self.removed or self.executable)
+
+    def then(self, later: Fixed) -> Fixed:
+        """Return the outcome of both, where others were fixed afterwards; they do not count."""
+        removed = (self.removed - later.changed.keys()) | later.removed
+        changed = {**self.changed, **later.changed}
+        return later._replace(
+            before={**later.before, **self.before},
+            changed={path: data for path, data in changed.items() if path not in removed},
+            removed=removed,
+            executable=self.executable | later.executable,
+            applied=self.applied,
+        )
+
 
 class Step(NamedTuple):
     """The outcome of one round."""

@@ -4,14 +4,31 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
+from typing import Protocol
 
 from scaffold.files.disk import MAX_BYTES
 from scaffold.files.tree import Tree, within
 
 MOST_KEPT = 2_000_000
 """Size in bytes up to which a file is read only once; larger files are rarely edited."""
+
+
+class Changes(Protocol):
+    """What is different from the files below."""
+
+    @property
+    def changed(self) -> Mapping[str, bytes]:
+        """New content by path."""
+
+    @property
+    def removed(self) -> Collection[str]:
+        """The paths of files that are gone."""
+
+    @property
+    def executable(self) -> Collection[str]:
+        """The files that get their executable bits."""
 
 
 class Overlay:
@@ -32,6 +49,15 @@ class Overlay:
         """How many rounds of fixes edited each file."""
         self._read: dict[str, bytes] = {}
         self._real: dict[str, str | None] = {}
+
+    @classmethod
+    def of(cls, base: Tree, changes: Changes) -> Overlay:
+        """Return a tree with the changes that fixes have made of it before."""
+        result = cls(base)
+        result.changed.update(changes.changed)
+        result.removed.update(changes.removed)
+        result.executable.update(changes.executable)
+        return result
 
     @property
     def files(self) -> tuple[str, ...]:

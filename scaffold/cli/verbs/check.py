@@ -58,6 +58,7 @@ def run(options: argparse.Namespace) -> int:
     if options.cluster is not None:
         _give_settings(session, options, choices, settings)
     wanted = distro.wanted(options.distro, settings)
+    options.refused = frozenset()
     by_record, targets = ({}, None) if wanted else _recorded(options, session, disk)
     named = wanted or [item for items in by_record.values() for item in items]
     options.distributions = distributions.ordered(named or [distributions.JAZZY])
@@ -82,8 +83,13 @@ def _recorded(
 ) -> tuple[dict[str, Sequence[Distribution]], list[Target] | None]:
     """Return what each package is for, by directory; nothing if that is the default for all.
 
-    Then the packages come with it: they have been looked for with the default in mind.
+    Then the packages come with it: they have been looked for with the default in mind. Those whose
+    record names what is not known, or is supported no more, are named and left out.
+
+    Raises:
+        InputError: that are all of them.
     """
+    from scaffold.errors import InputError
     from scaffold.model.discovery import colcon
 
     targets = None
@@ -93,14 +99,22 @@ def _recorded(
     else:
         targets = find_targets(options, session, disk)
         directories = [target.package.directory for target in targets]
-    records = {directory: distro.recorded(directory, disk) for directory in directories}
     default = [distributions.JAZZY]
-    by_record: dict[str, Sequence[Distribution]] = {
-        directory: named or default for directory, named in records.items()
-    }
+    by_record: dict[str, Sequence[Distribution]] = {}
+    refused: dict[str, InputError] = {}
+    for directory in directories:
+        try:
+            by_record[directory] = distro.recorded(directory, disk) or default
+        except InputError as error:
+            refused[directory] = error
+    if refused and not by_record:
+        raise next(iter(refused.values()))
+    for reason in refused.values():
+        terminal.error(f"not checked: {reason}")
+    options.refused = frozenset(refused)
     if all(named == default for named in by_record.values()):
         return {}, targets
-    return by_record, None
+    return {**by_record, **dict.fromkeys(refused, ())}, None
 
 
 def _run(
@@ -119,6 +133,7 @@ def _run(
     if options.stdin_filename:
         return _check_unsaved(options, session, disk)
     targets = find_targets(options, session, disk) if targets is None else targets
+    targets = [target for target in targets if target.package.directory not in options.refused]
     if options.fix or options.diff or options.add_noqa:
         return _fix(options, session, targets)
     if options.reference:
@@ -126,7 +141,7 @@ def _run(
     is_unfinished = note_unfinished(targets)
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
-    is_forgotten = is_forgotten or options.cluster is not None
+    is_forgotten = is_forgotten or options.cluster is not None or options.refused
     entry = None if is_forgotten else run_entry(options, targets, options.distributions[0])
     change = since.Since(directory, options.since, targets) if options.since else None
     targets = change.targets() if change else targets
@@ -176,7 +191,7 @@ def final_code(options: argparse.Namespace, session: Session, results: list[Resu
     from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
 
     code = exit_code(results, is_zero=options.exit_zero)
-    is_partial = session.types_failure or session.unchecked
+    is_partial = session.types_failure or session.unchecked or options.refused
     return USAGE_ERROR if is_partial and code != INTERNAL_ERROR else code
 
 
@@ -362,9 +377,11 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.cli.exit_codes import USAGE_ERROR
     from scaffold.model.discovery.targets import Target
 
-    written, has_failed = fixing.write(
-        options, session, targets, lambda: find_targets(options, session, None)
-    )
+    def find_again() -> list[Target]:
+        found = find_targets(options, session, None)
+        return [item for item in found if item.package.directory not in options.refused]
+
+    written, has_failed = fixing.write(options, session, targets, find_again)
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]

@@ -1,0 +1,167 @@
+"""Moves packages to another distribution in memory: what is found, fixed and left."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Mapping, Sequence
+
+    from scaffold.check.fixes.fixer import Fixed
+    from scaffold.check.migration import Consequences, MigratingSession, OrderSession
+    from scaffold.check.result import Result
+    from scaffold.check.session import Session
+    from scaffold.cli.choices import Choices
+    from scaffold.distributions import Distribution
+    from scaffold.model.discovery.targets import Target
+
+
+class Move(NamedTuple):
+    """Packages that move from one distribution to another."""
+
+    origin: Distribution
+    directories: Sequence[str]
+    target: Distribution
+    kept: Sequence[Distribution]
+
+
+class Moved(NamedTuple):
+    """What becomes of them; nothing is written."""
+
+    consequences: Sequence[Consequences]
+    """Of what is left."""
+    fixed: Mapping[str, Fixed]
+    """What fixes change, by directory; nothing where they are not wanted."""
+    types_failure: str
+
+    @property
+    def arrived(self) -> list[str]:
+        """The directories of packages where nothing is left."""
+        if self.types_failure:
+            return []
+        return [item.result.package.directory for item in self.consequences if item.is_done]
+
+
+class Mover:
+    """Checks and fixes packages that move.
+
+    Args:
+        options: The flags of the verb.
+        choices: The rules.
+    """
+
+    def __init__(self, options: argparse.Namespace, choices: Choices) -> None:
+        self._options = options
+        self._choices = choices
+        self._fixed: dict[str, Fixed] = {}
+
+    def move(self, move: Move) -> Moved:
+        """Find out what a move changes, and what fixes make of it if they are wanted."""
+        from scaffold.check.migration import Consequences, identities
+
+        has_fixes = self._options.fix or self._options.diff
+        origin, target = move.origin, move.target
+        session = self.session(is_back=target.place < origin.place)
+        self._fixed = {}
+        with distributions.targeting(origin):
+            session.known = identities(self._checked(session, move))
+            ordering = self._ordering(move) if has_fixes else None
+        if ordering is not None:
+            with distributions.targeting(target, origin, move.kept):
+                self._fix(session, move)
+            with distributions.targeting(origin):
+                self._fix(ordering, move)
+        with distributions.targeting(target, origin, move.kept):
+            results = self._checked(session, move)
+        results = self._with_kept(move, session, results)
+        rules = self._choices.rules
+        consequences = [Consequences.of(result, rules, session.known, origin) for result in results]
+        return Moved(consequences, self._fixed, session.types_failure)
+
+    def session(self, *, is_back: bool) -> MigratingSession:
+        """Return what checks packages.
+
+        Args:
+            is_back: Whether they move to an older distribution.
+        """
+        from scaffold.check.migration import CODES, MigratingSession, deprecations
+
+        choices = self._choices
+        selection = choices.selection([",".join(CODES)])
+        session = MigratingSession(choices.rules, selection, choices.adjustments(), has_types=True)
+        if is_back:
+            session.improved = deprecations(choices.rules)
+        return session
+
+    def _with_kept(
+        self, move: Move, session: MigratingSession, results: Sequence[Result]
+    ) -> list[Result]:
+        """Add to the results for the target what is found for the distributions that are kept."""
+        from scaffold.check.migration import identities
+        from scaffold.check.several import merged
+
+        kept = [one for one in move.kept if one.place != move.target.place]
+        if not kept:
+            return [*results]
+        everything = self.session(is_back=False)
+        with distributions.targeting(move.target, move.origin, move.kept):
+            at_target = identities(self._checked(everything, move))
+        by_distribution = {move.target: results}
+        for one in kept:
+            checking = self.session(is_back=one.place < move.origin.place)
+            checking.known, checking.at_target = session.known, at_target
+            with distributions.targeting(one, move.origin, move.kept):
+                found = self._checked(checking, move)
+            by_distribution[one] = [item.without_fixes() for item in found]
+            session.types_failure = session.types_failure or checking.types_failure
+        return merged(by_distribution)
+
+    def _ordering(self, move: Move) -> OrderSession:
+        """Return what sorts imports that the fixes leave unsorted, by their new names.
+
+        It works for where the packages come from, as nothing but the fixes has changed there; files
+        whose imports are no worse than before are left alone.
+        """
+        from scaffold.check.migration import ORDER, OrderSession, unordered
+
+        selection = self._choices.selection([",".join(ORDER)])
+        session = OrderSession(self._choices.rules, selection, self._choices.adjustments())
+        session.unordered = unordered(self._checked(session, move))
+        return session
+
+    def _fix(self, session: Session, move: Move) -> None:
+        from scaffold.check.fixes import workspace_fixer
+        from scaffold.cli.interactive.progress import Bar
+
+        targets = self._targets(session, move)
+        with Bar() as bar:
+            unsafe = self._options.unsafe_fixes
+            fixed = workspace_fixer.fix(targets, session, bar, unsafe=unsafe)
+        for item in fixed:
+            before = self._fixed.get(item.package.directory)
+            self._fixed[item.package.directory] = item if before is None else before.then(item)
+
+    def _targets(self, session: Session, move: Move) -> list[Target]:
+        """Return the packages, with what has been fixed in them."""
+        from scaffold.check.fixes.overlay import Overlay
+        from scaffold.cli.verbs import check
+
+        found = check.find_targets(self._options, session, None)
+        targets = [item for item in found if item.package.directory in move.directories]
+        for target in targets:
+            fixed = self._fixed.get(target.package.directory)
+            if fixed is not None and fixed.is_change:
+                target.package.change(Overlay.of(target.package.tree, fixed))
+        return targets
+
+    def _checked(self, session: Session, move: Move) -> list[Result]:
+        from scaffold.cli.interactive import progress
+
+        targets = self._targets(session, move)
+        if any(item.is_change for item in self._fixed.values()):  # which is in memory
+            return session.run_batch(targets)
+        return list(progress.shown(session.run(targets), len(targets), "packages"))
