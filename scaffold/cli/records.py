@@ -102,10 +102,10 @@ def held(directories: Iterable[str], targets: Sequence[Distribution], *, has_unr
     waiting = [path for path in directories if distro.recorded_names(path) not in (None, names)]
     if not waiting:
         return ""
-    unread = ", files that cannot be read with `exclude` of the configuration" if has_unread else ""
+    unread = " (a file that cannot be read: with `exclude` in the configuration)"
     return (
         f"{_listed(waiting)}: not recorded for {distributions.titles(targets)} before what is left "
-        f"is fixed, or accepted with noqa{unread}: then run this again"
+        f"is fixed, or accepted with noqa{unread if has_unread else ''}; then run this again"
     )
 
 
