@@ -59,8 +59,7 @@ def holds(
 def open_parts(module: PythonModule, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
     """Yield the parts of a condition that the target leaves open.
 
-    Of ``distro == 'humble' and self.ready`` that is ``self.ready`` on Humble, and nothing
-    elsewhere.
+    Of ``is_old_distro and self.ready`` that is ``self.ready`` on an old one, and nothing elsewhere.
 
     Args:
         module: The file.
