@@ -75,7 +75,7 @@ LIBRARIES = (
 """What some kinds need and no wheel has."""
 NOTHING_TO_SEE = (
     r"get_logger|^\s*#|\"\"\"|super\(\)\.__init__\('|destroy|try_shutdown|SIGTERM|rclpy\.ok|"
-    r"node is not None|\bfrom\b|import|remove_pending"
+    r"node is not None|\bfrom\b|import|remove_pending|\.close\(\)"
 )
 """Lines whose loss nobody sees, such as a leak, or which break everything."""
 SUBSTITUTIONS = (
