@@ -118,7 +118,8 @@ class Mover:
                 found = self._checked(checking, move)
             by_distribution[one] = [item.without_fixes() for item in found]
             session.types_failure = session.types_failure or checking.types_failure
-        return merged(by_distribution)
+        # Where packages move, fixes write what all of them have.
+        return merged(by_distribution, {item.code for one in results for item in one.diagnostics})
 
     def _ordering(self, move: Move) -> OrderSession:
         """Return what sorts imports that the fixes leave unsorted, by their new names.

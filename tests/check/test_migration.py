@@ -243,6 +243,14 @@ def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[
     main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
     node = (workspace / "twenty" / "twenty" / "node.py").read_text()
     assert "from rclpy.topic_endpoint_info import" in node
+    capsys.readouterr()
+    module = workspace / "twenty" / "twenty" / "node.py"
+    module.write_text(NODE)
+    main(["migrate", "--to", "lyrical", "--keep", "jazzy"])
+    assert capsys.readouterr().out.endswith("; 8 fixable with --fix\n")
+    main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
+    assert "\n8 fixes applied\n" in capsys.readouterr().err
+    assert module.read_text() == node
     _, everything = migrate(capsys, "--keep", "jazzy")
     (left,) = [item["message"] for item in everything if "topic_endpoint_info" in item["message"]]
     assert "new in Lyrical: nothing suits Jazzy as well, so write a branch" in left
