@@ -15,6 +15,8 @@ _FIRST = (3, 14)
 _NAME = "asyncio.get_event_loop"
 _MAKERS = ("set_event_loop", "nest_asyncio", "qasync", "uvloop")
 """What makes a loop the current one, or changes which one that is."""
+_RUNNERS = ("asyncio.run", "run_until_complete", "run_forever", "create_task")
+"""What runs a loop, from which nodes may be spun."""
 _MAIN = (
     "import asyncio\n{}\n\nasync def work():\n    loop = asyncio.get_event_loop()\n"
     "    await loop.run_in_executor(None, print)\n\n\n"
@@ -26,8 +28,8 @@ _OLD = "asyncio.get_event_loop()"
 class EventLoopMissing(PythonRule):
     """A program asks asyncio for the current event loop when there is none.
 
-    In ``main``, in a function that it calls, or at the top of a module, where no loop runs, and
-    where the file sets none.
+    In ``main``, in a function that it calls, in the constructor or a timer of a node that it makes,
+    or at the top of a module, where no loop runs, and where the file sets none.
 
     **Why.** Python 3.14, which Lyrical runs on, makes none: ``RuntimeError: There is no current
     event loop in thread 'MainThread'``.
@@ -94,6 +96,32 @@ class EventLoopMissing(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "in the constructor and a timer of a node that main makes, and in others",
+            {
+                "talker.py": "import asyncio\n\nimport rclpy\nfrom rclpy.node import Node\n\n\n"
+                "class Talker(Node):\n    def __init__(self):\n"
+                f"        super().__init__('talker')\n        self.loop = {_OLD}\n"
+                "        self.create_timer(1.0, self.talk)\n\n"
+                f"    def talk(self):\n        {_OLD}.stop()\n\n"
+                f"    def listen(self):\n        {_OLD}.stop()\n\n\n"
+                "class Later:\n    def __init__(self):\n"
+                f"        self.loop = {_OLD}\n\n\n"
+                "async def work():\n    Later()\n\n\n"
+                "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n",
+            },
+            Report(
+                "10:21",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            Report(
+                "14:9",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "in main, and where the module starts",
             {
                 "talker.py": _MAIN.format("", _OLD),
@@ -138,18 +166,37 @@ def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
     around = _functions_around(module, call)
     if len(around) != 1 or conditions_on(module, call):
         return False  # what a function is given may decide whether it asks
-    helper = next((one for one in module.functions.values() if one.node is around[0]), None)
-    if helper is None or not _is_plain(helper.node):
+    name = _name_called(module, around[0])
+    if not name or not _is_plain(around[0]) or len(module.index.bindings(module.tree)[name]) > 1:
         return False
-    if len(module.index.bindings(module.tree)[helper.name]) > 1:
-        return False
-    for name in module.index.names(helper.name):
-        site, found = module.parent(name), module.index.lookup(name.id, name)
+    for use in module.index.names(name):
+        site, found = module.parent(use), module.index.lookup(use.id, use)
         if found is None or found[0] is not module.tree:
             continue
-        if isinstance(site, ast.Call) and site.func is name and _runs_into_it(module, site):
+        if isinstance(site, ast.Call) and site.func is use and _runs_into_it(module, site):
             return True
     return False
+
+
+def _name_called(module: PythonModule, function: ast.AST) -> str:
+    """Return by which name of the file a function is called, or the class that it constructs."""
+    above = module.parent(function)
+    if isinstance(above, ast.Module) and isinstance(function, ast.FunctionDef):
+        return function.name
+    if isinstance(above, ast.ClassDef) and isinstance(function, ast.FunctionDef):
+        is_run = function.name == "__init__" or _is_of_timer(module, function.name)
+        return above.name if is_run and above.name in module.classes else ""
+    return ""
+
+
+def _is_of_timer(module: PythonModule, method: str) -> bool:
+    """Tell whether a method is what a timer calls, and no loop of asyncio is around it."""
+    return not module.mentions(*_RUNNERS) and any(
+        isinstance(call.func, ast.Attribute)
+        and call.func.attr == "create_timer"
+        and any(module.text(argument) == f"self.{method}" for argument in call.args)
+        for call in module.walk(ast.Call)
+    )
 
 
 def _functions_around(module: PythonModule, node: ast.AST) -> list[ast.AST]:
