@@ -77,5 +77,5 @@ def _deprecated(text: PythonText) -> Iterator[Finding]:
             name = node.func.id
         if name in _RENAMED:
             column = text.column(node.lineno, node.col_offset)
-            message = f"'{name}' is gone from unittest; use '{_RENAMED[name]}'"
+            message = f"'{name}' is an old name of unittest; use '{_RENAMED[name]}'"
             yield Finding("D001", node.lineno, column, message)
