@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from scaffold.model.package import Package
+from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
 from scaffold.model.python.guards import Condition, all_conditions, values_asked
 from scaffold.model.python.module import PythonModule, last_names
@@ -127,7 +128,7 @@ class TypeFinding:
         Code that asks for a version, a module or an attribute, and code that tries, knows better.
         """
         node = self.innermost
-        if node is None or self._is_of_several(node):
+        if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
         if any(self._asks_what_there_is(item) for item in all_conditions(self.module, node)):
             return False
@@ -153,6 +154,30 @@ class TypeFinding:
         if self.kind in _OF_ELEMENTS:
             called = [node]
         return any(origins.is_of_several(self.module, it) for it in called or [node])
+
+    def _is_of_another(self, node: ast.AST) -> bool:
+        """Tell whether code for another distribution sets a name, and so its type."""
+        not_run = [*stretches_not_run(self.module)]
+        if not not_run:
+            return False
+        call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), node)
+        places = [self.module.location(binding) for binding in self._bindings(call)]
+        return any(
+            stretch[:2] <= (place.line, place.column) < stretch[2:]
+            for place in places
+            for stretch in not_run
+        )
+
+    def _bindings(self, node: ast.AST) -> Iterator[ast.AST]:
+        """Yield where the names and the attributes of ``self`` below a node are set."""
+        index = self.module.index
+        for name in self.module.below(node, ast.Name):
+            lookup = index.lookup(name.id, name)
+            yield from (binding.node for binding in (lookup[1] if lookup else ()))
+        for attribute in self.module.below(node, ast.Attribute):
+            if isinstance(attribute.value, ast.Name) and attribute.value.id == "self":
+                stores = index.attributes(attribute.attr)
+                yield from (store for store in stores if isinstance(store.ctx, ast.Store))
 
     def _asks_what_there_is(self, condition: Condition) -> bool:
         """Tell whether a condition asks for a version, a kind of object, or what was imported."""

@@ -201,6 +201,33 @@ class Mapper(Node):
     assert check("mapper") == ["mapper/mapper/node.py:29:TY003"]
 
 
+def test_what_code_for_another_distribution_sets_has_no_type(check: Check, source: Path) -> None:
+    node = """import os
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.node import Node
+
+
+class Driver(Node):
+    def __init__(self):
+        super().__init__('driver')
+        is_stamped = os.environ['ROS_DISTRO'] >= 'jazzy'
+        if is_stamped:
+            self.publisher = self.create_publisher(TwistStamped, 'cmd_vel', 1)
+        else:
+            self.publisher = self.create_publisher(Twist, 'cmd_vel', 1)
+        if is_stamped:
+            self.publisher.publish(TwistStamped())
+        else:
+            self.publisher.publish(Twist())
+        self.create_guard_condition(callback=3, wait=True)
+"""
+    make_package(source, "driver", {"driver/node.py": node})
+    for distribution in ("humble", "jazzy"):
+        found = check("driver", "--distro", distribution)
+        assert found == ["driver/driver/node.py:19:TY004"]
+
+
 def test_a_finding_of_another_kind_on_the_line_hides_nothing(check: Check, source: Path) -> None:
     node = """import tf2_geometry_msgs
 from geometry_msgs.msg import PointStamped
