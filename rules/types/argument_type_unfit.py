@@ -17,6 +17,7 @@ from scaffold.api.types import (
     is_certain_misfit,
     is_function,
     name_of,
+    overload_problem,
     parameters,
     with_article,
 )
@@ -288,8 +289,9 @@ class ArgumentTypeUnfit(TypeRule):
         is_misfit = is_certain_misfit(expected, given) or _is_uncallable(finding, expected, given)
         if not is_misfit or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
             return None
-        if expected.startswith("(") and is_function(given):
-            return None  # they differ in their annotations; ND003 counts the arguments
+        is_for_others = _has_too_many(finding, matched["callee"])  # which TY004 reports
+        if is_for_others or (expected.startswith("(") and is_function(given)):
+            return None  # functions differ in their annotations; ND003 counts the arguments
         owner, _, method = matched["callee"].rpartition(".")
         called = owner if method in {"__init__", "__new__"} else method
         where = f"{full_name(called).rpartition('.')[2]}()"
@@ -355,6 +357,12 @@ class ArgumentTypeUnfit(TypeRule):
             f"'timeout' of {name}() must be a rclpy.duration.Duration, not {kind}: {name}() fails; "
             "write Duration(seconds=...)",
         )
+
+
+def _has_too_many(finding: TypeFinding, callee: str) -> bool:
+    """Tell whether the call has more arguments without names than its function takes."""
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
 
 
 def _is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:

@@ -155,6 +155,11 @@ def _missing(finding: TypeFinding) -> str:
         return ""
     if matched["names"] == "`self`" and not _is_of_class(finding):
         return ""
+    if any(
+        overload_problem(finding.package, matched["callee"], call).startswith("takes")
+        for call in _calls(finding)
+    ):
+        return ""  # they may be among those that are too many, which is reported
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
     return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
 

@@ -260,7 +260,7 @@ class AttributeMissing(TypeRule):
             if not is_message and _is_set(finding.package, name):
                 return None
         is_future = shown == "rclpy.task.Future"
-        closest = "" if is_future else closest_name(finding.package, name, names, 0.6)
+        closest = "" if is_future else closest_name(finding.package, name, names - {name}, 0.6)
         hint = f"; did you mean {closest!r}?" if closest else ""
         if is_future:
             hint = "; what the future brings is in result()"

@@ -91,10 +91,10 @@ def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its
             continue
         types[name] = () if types.get(name, given) != given else given
     for definition in reversed(_defined_once(segment)) if any(types.values()) else ():
-        given = types.get(definition[2])
-        if given:
+        registered = types.get(definition[2])
+        if registered:
             start, end = definition.span()
-            typed = _typed(definition, given, _body(segment, start, end))
+            typed = _typed(definition, registered, _body(segment, start, end))
             segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 

@@ -573,6 +573,18 @@ def test_an_origin_that_is_assumed_is_named(
         assert (sentence in capsys.readouterr().err) == is_named
 
 
+def test_a_call_with_too_many_arguments_is_one_finding(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "twenty" / "twenty" / "node.py").write_text(
+        "from rclpy.subscription import Subscription\n\n\ndef hear(handle, kind):\n"
+        "    return Subscription(handle, kind, 't', print, None, 10, False, None)\n"
+    )
+    _, everything = migrate(capsys, "twenty")
+    (message,) = [item["message"] for item in everything if item["path"].endswith("node.py")]
+    assert message.startswith("Subscription() takes 6 positional arguments at most, not 8")
+
+
 def test_a_message_is_printed_once_with_the_other_lines_below(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
