@@ -73,9 +73,10 @@ def _rates(scratch: Path, duration: float) -> None:
     flags = ["--duration", str(duration), "--format", "json"]
     done = subprocess.run([*smoke, *flags], check=False, capture_output=True, text=True)
     print(f"{'rate, Hz':>8} {'reported':>9} {'error':>7}")
-    for executable in json.loads(done.stdout)["packages"][0]["executables"]:
-        (topic,) = (item for item in executable["topics"] if item["name"].startswith("/rate_"))
-        rate, seen = float(topic["name"].rpartition("_")[2]), topic["rate_hz"]
+    executables = json.loads(done.stdout)["packages"][0]["executables"]
+    topics = {topic["name"]: topic for item in executables for topic in item["topics"]}
+    for rate in RATES:
+        seen = topics[f"/rate_{rate}"]["rate_hz"]
         print(f"{rate:8g} {seen:9.3f} {abs(seen / rate - 1):7.2%}")
 
 

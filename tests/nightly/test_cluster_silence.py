@@ -9,6 +9,7 @@ import signal
 import socket
 import subprocess
 import threading
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -49,6 +50,10 @@ class Proxy:
     def cut(self) -> None:
         """Keep all connections, and pass on nothing more."""
         self._flows.clear()
+
+    def restore(self) -> None:
+        """Pass on what has come in the meantime, and what comes."""
+        self._flows.set()
 
     def close(self) -> None:
         self._server.close()
@@ -141,6 +146,27 @@ def test_packages_whose_worker_is_cut_off_run_elsewhere(tmp_path: Path) -> None:
     names = Counter(item["name"] for item in json.loads(out)["packages"])
     assert names == Counter(f"cut_{number}" for number in range(PACKAGES))
     assert "has not been heard for " in said
+
+
+def test_worker_that_is_heard_again_gives_its_results(tmp_path: Path) -> None:
+    """It is named when it is silent, and nothing of it is lost or counted twice."""
+    with cluster(tmp_path, 1) as running:
+        proxy = Proxy(port_of(running.address))
+        with running.worker(f"tcp://127.0.0.1:{proxy.port}", {}) as worker:
+            wait_until(lambda: "Registered to" in worker.log.read_text())
+            with run_of(tmp_path, running.address) as run:
+                wait_until(is_busy(running, 1))
+                proxy.cut()
+                time.sleep(SILENCE + 10)
+                proxy.restore()
+                out, said = run.communicate(timeout=PATIENCE)
+        proxy.close()
+    assert run.returncode == 0, said
+    packages = json.loads(out)["packages"]
+    names = Counter(item["name"] for item in packages)
+    assert names == Counter(f"cut_{number}" for number in range(PACKAGES))
+    assert len({item["worker"] for item in packages}) == 2
+    assert said.count("has not been heard for ") == 1
 
 
 def test_scheduler_that_is_not_heard_ends_the_run(tmp_path: Path) -> None:

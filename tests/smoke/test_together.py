@@ -139,8 +139,9 @@ def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
 KEEPS = talker(
     "/keeps",
     node="keeps",
-    imports="import os\nfrom multiprocessing import resource_tracker, shared_memory",
+    imports="import os\nimport tempfile\nfrom multiprocessing import resource_tracker, shared_memory",
     begin="""\
+    tempfile.mkdtemp()
     self.block = shared_memory.SharedMemory('scaffold_test_keeps', create=True, size=4096)
     resource_tracker.unregister(self.block._name, 'shared_memory')
     """,
@@ -176,4 +177,5 @@ def test_what_nodes_together_leave_behind_is_named(tmp_path: Path) -> None:
     alone = {item["name"]: item["problems"] for item in result["executables"]}
     assert memory in alone["keeps"]
     assert processes_of(tmp) == []
+    assert [*tmp.iterdir()] == []
     assert not Path("/dev/shm/scaffold_test_keeps").exists()  # noqa: S108  where it would be
