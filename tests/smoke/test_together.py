@@ -139,7 +139,10 @@ def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
 KEEPS = talker(
     "/keeps",
     node="keeps",
-    imports="import os\nimport tempfile\nfrom multiprocessing import resource_tracker, shared_memory",
+    imports="""\
+import os
+import tempfile
+from multiprocessing import resource_tracker, shared_memory""",
     begin="""\
     tempfile.mkdtemp()
     self.block = shared_memory.SharedMemory('scaffold_test_keeps', create=True, size=4096)
