@@ -1,4 +1,4 @@
-"""TY004: calls have the arguments that functions of ROS take."""
+"""TY004: calls have the arguments that functions of ROS, and one's own, take."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ from scaffold.api.types import (
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
 """What launch_ros calls otherwise since Foxy."""
-_CALLEE = rf"(?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
+_CALLEE = rf"(?:[a-z]+ )*`(?P<callee>(?:{MARKED}|[^\W\d]\w*)(?:\.\w+)?)`"
+_UNBOUND = re.compile(r" of function `[^`.]+\.")
+"""Matches a method that is called on its class."""
 _NODE = (
     "from rclpy.node import Node\n\n\n"
     "class Ticker(Node):\n"
@@ -31,7 +33,9 @@ _NODE = (
 
 
 class ArgumentsUnfit(TypeRule):
-    """A call of a function of ROS lacks an argument, or has one too many or an unknown one.
+    """A call lacks an argument, or has one too many or an unknown one.
+
+    The function is one of ROS, or of another module of the workspace.
 
     **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` as
     soon as the line runs.
@@ -77,6 +81,7 @@ class ArgumentsUnfit(TypeRule):
                 "    def __init__(self, node=Node):\n"
                 "        self.node = node\n"
                 "        self.name = self.node.get_name()\n"
+                "        self.time = self.node.get_parameter('time')\n"
             },
         ),
         Example(
@@ -106,6 +111,23 @@ class ArgumentsUnfit(TypeRule):
             Report("3:7", "get_name() lacks 'self': TypeError"),
         ),
         Example(
+            "a function and a class of another module",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/paths.py": "class Path:\n    def __init__(self, width):\n"
+                "        self.width = width\n\n    def grow(self, by=1.0):\n"
+                "        self.width += by\n",
+                "rover/plan.py": "from geometry_msgs.msg import Point\n\n"
+                "from .paths import Path\n\n"
+                "path = Path(2.0)\npath.grow()\npath.grow(2.0, Point())\nwide = Path()\n",
+            },
+            Report(
+                "rover/plan.py:7:16", "grow() takes 1 positional argument at most, not 2: TypeError"
+            ),
+            Report("rover/plan.py:8:8", "Path() lacks 'width': TypeError"),
+        ),
+        Example(
             "one missing",
             {"ticker.py": _NODE.format("0.1")},
             Report("7:22", "create_timer() lacks 'callback': TypeError"),
@@ -130,6 +152,8 @@ class ArgumentsUnfit(TypeRule):
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         if _is_old(finding):
             return None  # LF009 says what its keywords are called today
+        if _UNBOUND.search(finding.message) and not _is_of_class(finding):
+            return None
         problem = (
             _missing(finding)
             or _too_many(finding)
@@ -152,8 +176,6 @@ def _missing(finding: TypeFinding) -> str:
         rf"No arguments? provided for required parameters? (?P<names>.+) of {_CALLEE}"
     )
     if matched is None:
-        return ""
-    if matched["names"] == "`self`" and not _is_of_class(finding):
         return ""
     if any(
         overload_problem(finding.package, matched["callee"], call).startswith("takes")
@@ -201,7 +223,8 @@ def _too_many(finding: TypeFinding) -> str:
         return ""
     is_method = "." in matched["callee"]
     most, count = (int(matched[key]) - is_method for key in ("most", "count"))
-    takes = "no positional argument" if not most else f"{most} positional arguments at most"
+    arguments = "argument" if most == 1 else "arguments"
+    takes = f"{most} positional {arguments} at most" if most else "no positional argument"
     names = keywords(finding.package, matched["callee"])
     hint = f" (as keywords: {', '.join(names)})" if names else ""
     return f"{_shown(matched['callee'])} takes {takes}, not {count}{hint}"

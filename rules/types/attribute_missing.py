@@ -1,4 +1,4 @@
-"""TY003: attributes of the objects of ROS exist."""
+"""TY003: attributes of the objects of ROS, and of one's own classes, exist."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ from scaffold.api.types import (
     full_name,
     members,
     module_names,
+    own_members,
 )
 
 _NODE = (
@@ -47,6 +48,19 @@ _HINT = (
     "    def hint(self):\n"
     "        for logger in [self.get_logger()]:\n"
     "            logger.{}('hello')\n"
+)
+_ODOMETRY = "class Odometry:\n    def reset(self):\n        self.x = 0.0\n"
+_DRIVE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
+    "from .odometry import Odometry\n\n\n"
+    "class Drive(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('drive')\n"
+    "        self.odometry = Odometry()\n"
+    "        self.create_service(Trigger, 'reset', self.on_reset)\n"
+    "        self.odometry.{}()\n\n"
+    "    def on_reset(self, request, response):\n"
+    "        return response\n"
 )
 _RECORD = "import sqlite3\n\nimport rclpy\n\nrclpy.init()\nprint(sqlite3.version)\n"
 _CERTAIN = 0.85
@@ -71,13 +85,15 @@ _FEW = 6
 
 
 class AttributeMissing(TypeRule):
-    """Code uses an attribute that an object, a class or a module of ROS does not have.
+    """Code uses an attribute that an object, a class or a module does not have.
+
+    It is one of ROS, or a class of the workspace that another module defines.
 
     **Why.** ``AttributeError`` as soon as the line runs.
 
     **Fix.** Use a name that the class defines.
 
-    **Source.** The classes of ROS 2 Jazzy and their annotations.
+    **Source.** The classes of ROS 2 Jazzy and their annotations; the code of the workspace.
     """
 
     code = "TY003"
@@ -213,6 +229,30 @@ class AttributeMissing(TypeRule):
             Report("8:5", "rclpy has no 'stop_all': AttributeError", severity=Severity.WARNING),
         ),
         Example(
+            "a class of another module",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("restart"),
+                "rover/good.py": _DRIVE.format("reset"),
+            },
+            Report(
+                "rover/drive.py:12:9",
+                "Odometry has no 'restart': AttributeError; did you mean 'reset'?",
+                unsafe_fix="write 'reset'",
+            ),
+        ),
+        Example(
+            "a class that sets its attributes by their names",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY + "        setattr(self, 'restart', self.reset)\n",
+                "rover/drive.py": _DRIVE.format("restart"),
+            },
+        ),
+        Example(
             "a field of a message",
             {
                 "say.py": "from std_msgs.msg import String\n\n"
@@ -247,18 +287,10 @@ class AttributeMissing(TypeRule):
         is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
         if name.startswith("_") or is_imported or is_known:
             return None
-        if finding.message.startswith("Module"):
-            shown, names = owner, module_names(finding.package, owner)
-        else:
-            class_ = _class_of_object(owner) or class_itself(owner)
-            if not class_ or _is_of_message_around(full_name(class_), name):
-                return None
-            shown, names = full_name(class_), members(finding.package, class_)
-            is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
-            if not isinstance(node.ctx, ast.Load) and not is_message:
-                return None  # an object of rclpy takes any attribute
-            if not is_message and _is_set(finding.package, name):
-                return None
+        known = _known(finding, node, owner)
+        if known is None:
+            return None
+        shown, names = known
         is_future = shown == "rclpy.task.Future"
         closest = "" if is_future else closest_name(finding.package, name, names - {name}, 0.6)
         hint = f"; did you mean {closest!r}?" if closest else ""
@@ -277,6 +309,27 @@ class AttributeMissing(TypeRule):
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
         return self.report(finding, message, fix, severity=severity)
+
+
+def _known(
+    finding: TypeFinding, node: ast.Attribute, owner: str
+) -> tuple[str, frozenset[str]] | None:
+    """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
+    name, package = node.attr, finding.package
+    if finding.message.startswith("Module"):
+        return owner, module_names(package, owner)
+    is_of_workspace = re.fullmatch(r"\w+", owner) is not None  # it has no mark
+    if is_of_workspace:
+        return None if _is_set(package, name) else (owner, own_members(package, owner))
+    class_ = _class_of_object(owner) or class_itself(owner)
+    if not class_ or _is_of_message_around(full_name(class_), name):
+        return None
+    shown = full_name(class_)
+    is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
+    is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
+    if not is_message and is_settable:
+        return None  # an object of rclpy takes any attribute
+    return shown, members(package, class_)
 
 
 def _without_none(owner: str) -> str:

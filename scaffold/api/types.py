@@ -10,6 +10,7 @@ from scaffold.types.members import (
     members,
     module_names,
     overload_problem,
+    own_members,
     parameters,
 )
 from scaffold.types.python_modules import later_modules
@@ -41,6 +42,7 @@ __all__ = [
     "module_names",
     "name_of",
     "overload_problem",
+    "own_members",
     "parameters",
     "with_article",
 ]

@@ -15,6 +15,7 @@ from scaffold.types import environment, python_modules, ty
 from scaffold.types.callbacks import with_callback_types
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
+from scaffold.types.own_code import is_about_own
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE
 from scaffold.types.ty import TyDiagnostic, UnavailableError
@@ -180,7 +181,12 @@ class TypeCheck:
                 diagnostics = reported.get(file.source.place, ())
                 stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
                 stubbed |= _roots(file.reached, are_stubs=True)
-                file.diagnostics = [item for item in diagnostics if _concerns(item, stubbed)]
+                sources = file.reached.values()
+                file.diagnostics = [
+                    item
+                    for item in diagnostics
+                    if _concerns(item, stubbed) or is_about_own(item, sources)
+                ]
             self._confirm(
                 [file for file in asked if any(map(_may_be_annotated, file.diagnostics or ()))]
             )
@@ -253,7 +259,7 @@ def _roots(reached: Mapping[str, Source], *, are_stubs: bool) -> frozenset[str]:
 
 
 def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
-    """Tell whether a report is of interest: most are about the user's own classes."""
+    """Tell whether a report is about a library, and of interest."""
     if item.kind in _OF_MODULES or item.message.startswith("Module `"):
         module, name = [*re.findall(r"`([\w.]+)`", item.message), "", ""][:2]
         root = module.partition(".")[0]

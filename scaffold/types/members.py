@@ -26,6 +26,22 @@ def members(package: Package, marked: str) -> frozenset[str]:
     return frozenset(name for name in _all_names(package, marked) if not name.startswith("_"))
 
 
+def own_members(package: Package, name: str) -> frozenset[str]:
+    """Return the public names that a class of a package defines, or that its methods set."""
+    result: set[str] = set()
+    for module in package.modules(mentioning=[f"class {name}"]):
+        for node in module.walk(ast.ClassDef):
+            if node.name == name:
+                result.update(_names(node.body))
+                result.update(
+                    inner.attr
+                    for inner in ast.walk(node)
+                    if isinstance(inner, ast.Attribute) and isinstance(inner.ctx, ast.Store)
+                    if isinstance(inner.value, ast.Name) and inner.value.id == "self"
+                )
+    return frozenset(name for name in result if not name.startswith("_"))
+
+
 def has_call(package: Package, marked: str) -> bool:
     """Tell whether objects of a class can be called."""
     return "__call__" in _all_names(package, marked)

@@ -1,0 +1,46 @@
+"""Reports about the classes and functions of the workspace itself, as far as they are certain.
+
+The names of stubs are marked, those of the user's code are not: a report is about the user's code
+if a file that is imported defines what the report names.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from scaffold.types.sources import Source
+from scaffold.types.ty import TyDiagnostic
+
+CALLEE = r"[^\W\d]\w*(?:\.\w+)?"
+_OWNER = re.compile(
+    r"(?:Object of type|Class) `([^\W\d]\w*)` has no attribute `\w+`", re.IGNORECASE
+)
+# linear: what comes before the name has no backquote
+_CALL = re.compile(rf"[^`]*(?:`\w+`[^`]*)*? (?:[a-z]+ )*`({CALLEE})`(?:: expected .*)?")
+_CALLS = frozenset(
+    {
+        "missing-argument",
+        "too-many-positional-arguments",
+        "unknown-argument",
+        "parameter-already-assigned",
+    }
+)
+_CHANGING = re.compile(rb"\b(?:setattr|__dict__|__getattribute__|exec|globals|vars)\b")
+"""Matches what gives objects attributes that no assignment shows."""
+
+
+def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
+    """Tell whether a report is about a class or a function that one of some files defines."""
+    if item.kind == "missing-attribute":
+        matched = _OWNER.fullmatch(item.message)
+    elif item.kind in _CALLS:
+        matched = _CALL.fullmatch(item.message)
+    else:
+        return False
+    if matched is None:
+        return False
+    name = matched[1].partition(".")[0].encode()
+    definition = re.compile(rb"^[ \t]*(?:class|(?:async )?def) %b\b" % name, re.MULTILINE)
+    defining = [item.data for item in sources if item.path and definition.search(item.data)]
+    return bool(defining) and not any(_CHANGING.search(data) for data in defining)
