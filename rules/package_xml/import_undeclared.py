@@ -93,6 +93,33 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a program that is named like a test",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n"
+                "</package>\n",
+                "CMakeLists.txt": "project(talker)\n"
+                "install(PROGRAMS scripts/tf_test.py DESTINATION lib/talker)\n",
+                "scripts/tf_test.py": "import rclpy\nimport tf2_ros\n",
+            },
+            Report(
+                "scripts/tf_test.py:2:1",
+                "imports 'tf2_ros', which no dependency in package.xml provides; "
+                "add <exec_depend>tf2_ros_py</exec_depend>",
+                fix="declare tf2_ros_py",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "  <exec_depend>tf2_ros_py</exec_depend>\n"
+                "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
             "declared where a variable of who builds the package is set",
             {
                 "package.xml": '<package format="3">\n'

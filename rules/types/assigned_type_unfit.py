@@ -40,7 +40,10 @@ class AssignedTypeUnfit(TypeRule):
 
     code = "TY007"
     name = "assigned-type-unfit"
-    other_severities = {Severity.WARNING: "it is a time of rclpy in a file that uses tf2"}
+    other_severities = {
+        Severity.WARNING: "it is a time of rclpy in a file that uses tf2, or a message with the "
+        "same fields: it is sent"
+    }
     kinds = frozenset({"invalid-assignment"})
     examples = (
         Example("a value of its type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}),
@@ -51,6 +54,16 @@ class AssignedTypeUnfit(TypeRule):
                 "7:20",
                 "'scale' of visualization_msgs.msg.Marker is a "
                 "geometry_msgs.msg.Vector3, not a float: it cannot be published",
+            ),
+        ),
+        Example(
+            "a message with the same fields",
+            {"dots.py": _NODE.format("Marker().pose.position")},
+            Report(
+                "7:20",
+                "'scale' of visualization_msgs.msg.Marker is a "
+                "geometry_msgs.msg.Vector3, not a geometry_msgs.msg.Point",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -84,11 +97,24 @@ class AssignedTypeUnfit(TypeRule):
             return None
         class_ = class_itself(given)
         hint = f"; write {full_name(class_).rpartition('.')[2]}()" if class_ else ""
+        is_alike = _are_alike(finding, full_name(class_in(expected)), full_name(class_in(given)))
         is_converted = full_name(class_in(given)) in _CONVERTED and finding.module.mentions("tf2")
+        outcome = "" if is_alike else f": it cannot be published{hint}"
         return self.report(
             finding,
             f"{matched['field']!r} of {full_name(matched['owner'])} is "
-            f"{with_article(name_of(expected))}, not {in_words(given)}: it cannot be published"
-            f"{hint}",
-            severity=Severity.WARNING if is_converted else None,
+            f"{with_article(name_of(expected))}, not {in_words(given)}{outcome}",
+            severity=Severity.WARNING if is_alike or is_converted else None,
         )
+
+
+def _are_alike(finding: TypeFinding, *dotted: str) -> bool:
+    """Tell whether two messages have the same fields, so that one is sent for the other."""
+    definitions = finding.package.workspace.interfaces
+    messages = [definitions.find(name.replace(".", "/")) for name in dotted]
+    fields = [
+        [(field.name, str(field.type)) for field in message.sections[0].fields]
+        for message in messages
+        if message is not None
+    ]
+    return len(fields) == len(dotted) and fields[0] == fields[1]

@@ -10,8 +10,11 @@ from scaffold.check.engine_rules import RuleCrashed
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
+from scaffold.model.install.unused import is_copy_of_old_code, is_out_of_reach
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
+
+_OF_LINTERS = ("E9", "F")
 
 
 class Adjustments(NamedTuple):
@@ -43,6 +46,8 @@ class Adjustments(NamedTuple):
             ):
                 continue
             severity = self._severity(diagnostic.code)
+            if severity is None and _is_of_unused_code(package, diagnostic):
+                severity = Severity.WARNING
             yield diagnostic if severity is None else diagnostic._replace(severity=severity)
 
     def excludes(self, package: Package, path: str) -> bool:
@@ -84,6 +89,17 @@ class Adjustments(NamedTuple):
         if fitting:
             return self.severities[max(fitting, key=len)]
         return Severity.ERROR if code in self.refused_at_release else None
+
+
+def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether an error is in code that nobody runs, and no test of the package looks at."""
+    path, code = diagnostic.location.path, diagnostic.code
+    if diagnostic.severity is not Severity.ERROR or not path.endswith(".py"):
+        return False
+    is_of_linters = code.startswith(_OF_LINTERS)
+    if is_of_linters and runs_linter(package, diagnostic):
+        return False
+    return is_copy_of_old_code(package, path) or (is_of_linters and is_out_of_reach(package, path))
 
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
+from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
 from scaffold.model.python.module import is_in_tests
@@ -66,7 +67,7 @@ def required_packages(package: Package) -> list[Requirement]:
             if not keys:
                 continue
             earlier = result.get(item.root)
-            for_tests = is_in_tests(path) or _is_named_for_tests(package, path)
+            for_tests = _is_for_tests(package, path)
             for_launch = path.endswith("launch.py") or "launch" in path.split("/")[:-1]
             need = Requirement(
                 keys, item.root, item.location, for_tests, for_launch, _is_data(package, path)
@@ -178,6 +179,24 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 
     stem = name.removesuffix(".py")
     return stem in package.remember("imported_by_tests", find)
+
+
+def _is_for_tests(package: Package, path: str) -> bool:
+    """Tell whether only tests run a file; ``tf_test.py`` may be a program by that name."""
+    if is_in_tests(path):
+        return path not in package.remember("programs named like tests", lambda: _programs(package))
+    return _is_named_for_tests(package, path)
+
+
+def _programs(package: Package) -> frozenset[str]:
+    """Return the Python files that are installed as programs."""
+    try:
+        if package.build_type == "ament_python":
+            started = {script.module for script in package.setup_py.console_scripts}
+            return frozenset(f"{module.replace('.', '/')}.py" for module in started)
+        return frozenset(program.path for program in programs(package))
+    except ViewError:
+        return frozenset()
 
 
 def _is_named_for_tests(package: Package, path: str) -> bool:
