@@ -19,21 +19,38 @@ _NODE = (
     "    point = Point(z=0.5)\n"
     "    return {}\n"
 )
+_ODOMETRY = (
+    "class Odometry:\n"
+    "    def __init__(self):\n"
+    "        self.x = self.y = self.yaw = 0.0\n\n"
+    "    def pose(self):\n"
+    "        return self.x, self.y, self.yaw\n"
+)
+_DRIVE = (
+    "from rclpy.node import Node\n\nfrom .odometry import Odometry\n\n\n"
+    "class Drive(Node):\n"
+    "    def tick(self):\n"
+    "        self.odometry = Odometry()\n"
+    "        {} = self.odometry.pose()\n"
+)
 
 
 class ObjectMisused(TypeRule):
-    """An object of ROS is called, indexed, looped over or awaited, and is not made for it.
+    """An object is called, indexed, looped over, awaited or unpacked, and is not made for it.
 
-    **Why.** ``TypeError: 'Point' object is not subscriptable`` as soon as the line runs.
+    It is one of ROS, or what a function of the workspace returns.
 
-    **Fix.** Use the attributes and methods that the class has.
+    **Why.** ``TypeError: 'Point' object is not subscriptable``, or ``ValueError: too many values to
+    unpack``, as soon as the line runs.
 
-    **Source.** The classes of ROS 2 Jazzy.
+    **Fix.** Use the attributes and methods that the class has; unpack as many values as there are.
+
+    **Source.** The classes of ROS 2 Jazzy; the code of the workspace.
     """
 
     code = "TY008"
     name = "object-misused"
-    kinds = frozenset(_DOES)
+    kinds = frozenset({*_DOES, "invalid-assignment"})
     examples = (
         Example("a field", {"height.py": _NODE.format("point.z")}),
         Example(
@@ -54,9 +71,32 @@ class ObjectMisused(TypeRule):
             {"height.py": _NODE.format("point[2]")},
             Report("6:12", "a geometry_msgs.msg.Point has no elements: TypeError"),
         ),
+        Example(
+            "as many names as values",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("x, y, yaw"),
+            },
+        ),
+        Example(
+            "more names than values",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY,
+                "rover/drive.py": _DRIVE.format("x, y, yaw, speed"),
+            },
+            Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        unpacked = finding.match(r"(?P<problem>.+) values to unpack: Expected (?P<names>\d+)")
+        if unpacked is not None:
+            problem = f"{unpacked['problem'].lower()} values for {unpacked['names']} names"
+            return self.report(finding, f"{problem}: ValueError")
         matched = finding.match(
             r"(?:Object of type|Cannot subscript object of type|Cannot raise object of type) "
             r"`(?P<type>[^`]+)`.*"

@@ -94,7 +94,7 @@ def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its
         registered = types.get(definition[2])
         if registered:
             start, end = definition.span()
-            typed = _typed(definition, registered, _body(segment, start, end))
+            typed = _typed(definition, registered, function_body(segment, start, end))
             segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 
@@ -123,7 +123,7 @@ def _parameter(parameter: str, type_: str, body: str) -> str:
     return f'{name}: "{type_}"' if type_ and not is_rebound else name
 
 
-def _body(segment: str, start: int, end: int) -> str:
+def function_body(segment: str, start: int, end: int) -> str:
     """Return the lines of a function: those that are indented further than its ``def``."""
     line = segment.rfind("\n", 0, start) + 1
     indent = re.match(r"[ \t]*", segment[line:start])

@@ -16,6 +16,7 @@ from scaffold.types.callbacks import with_callback_types
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
+from scaffold.types.results import with_result_types
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE
 from scaffold.types.ty import TyDiagnostic, UnavailableError
@@ -29,6 +30,7 @@ _DIFFERENT = frozenset(
 )
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
+_UNPACKED = re.compile(r"(?:Not enough|Too many) values to unpack: Expected \d+")
 # linear: a line has 20 kB at most
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
@@ -268,7 +270,7 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
         if python_modules.still_has(module, name):
             return False
         return root in stubbed or root in sys.stdlib_module_names
-    return MARK in item.message
+    return MARK in item.message or _UNPACKED.match(item.message) is not None
 
 
 def _may_be_annotated(item: TyDiagnostic) -> bool:
@@ -277,15 +279,17 @@ def _may_be_annotated(item: TyDiagnostic) -> bool:
 
 
 def _annotated(source: Source) -> bytes:
-    """Return a file with annotations of its callbacks."""
-    return with_callback_types(source.data) if source.path else source.data
+    """Return a file with annotations of its callbacks and of plain results."""
+    if not source.path:  # a stub
+        return source.data
+    return with_result_types(with_callback_types(source.data))
 
 
 def _unannotated(source: Source) -> bytes:
     """Return a file with no other annotations; nothing of one that does not parse."""
-    if not source.path:  # a stub
+    if not source.path:
         return source.data
-    return without_annotations(with_callback_types(source.data)) or b""
+    return with_result_types(without_annotations(with_callback_types(source.data)) or b"")
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

@@ -1,0 +1,138 @@
+"""What functions without annotations return, written into the files that a type checker reads.
+
+It infers nothing by itself: what ``return self.x, self.y`` and ``return Pose()`` give is plain,
+and is added to the line of the ``def`` alone.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from scaffold.types.callbacks import function_body
+
+_ANY = "_Ros2Any"
+_IMPORT = f"\nfrom typing import Any as {_ANY}\n"
+_FUNCTION = re.compile(
+    r"^([ \t]*)def ([^\W\d]\w*)(\((?:[^()]|\([^()]*\)){0,800}\))([ \t]*):[ \t]*(?:#[^\n]*)?$",
+    re.MULTILINE,
+)
+"""Matches the head of a function that has no annotation of its result."""
+_NAMED = re.compile(r"\bdef (\w+)\(")
+_OTHER_SCOPES = re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
+_RETURN = re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
+_CALL = re.compile(r"((?:[^\W\d]\w*\.){0,4}[A-Z]\w*)\(")
+_NAME = re.compile(r"[^\W\d]\w*")
+_CLOSING = {"(": ")", "[": "]", "{": "}"}
+_FEWEST = 2
+
+
+def with_result_types(data: bytes) -> bytes:
+    """Return a file with annotations for the results that are plain."""
+    if b"return" not in data:
+        return data
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return data
+    return _annotated(text).encode()
+
+
+def _annotated(text: str) -> str:
+    parts: list[str] = []
+    at = 0
+    count = Counter(_NAMED.findall(text))
+    for match in _FUNCTION.finditer(text):
+        if _is_decorated(text, match.start()):
+            continue
+        if match[1] and count[match[2]] > 1:
+            continue  # a class may have another method of this name
+        type_ = _result(match[3], function_body(text, match.start(2), match.end()))
+        if type_:
+            end = match.end(4)
+            parts += text[at:end], f' -> "{type_}"'
+            at = end
+    text = "".join([*parts, text[at:]])
+    return text + _IMPORT if _ANY in text else text
+
+
+def _is_decorated(text: str, start: int) -> bool:
+    before = text[text.rfind("\n", 0, max(start - 1, 0)) + 1 : max(start - 1, 0)].strip()
+    return before.startswith("@") or before == ")"
+
+
+def _result(parameters: str, body: str) -> str:
+    """Return the type of all that a function returns; empty if it is not plain."""
+    if "return" not in body or _OTHER_SCOPES.search(body):
+        return ""
+    types: set[str] = set()
+    for match in _RETURN.finditer(body):
+        value = _expression(body, match.end())
+        if value not in {"", "None"}:
+            types.add(_type(value, parameters, body))
+    return types.pop() if len(types) == 1 else ""
+
+
+def _expression(text: str, start: int) -> str:
+    """Return an expression up to the end of its line, or of its brackets."""
+    return next(iter(_split(text, start, "\n#;")), "").strip()
+
+
+def _split(text: str, start: int, ends: str) -> Iterator[str]:
+    """Yield the stretches between some characters that are outside of brackets and of texts."""
+    open_: list[str] = []
+    quote = ""
+    begin = at = start
+    while at < len(text):
+        character = text[at]
+        if quote:
+            if character == "\\":
+                at += 1
+            elif character in {quote, "\n"}:
+                quote = ""
+        elif character in "'\"":
+            quote = character
+        elif character in _CLOSING:
+            open_.append(_CLOSING[character])
+        elif open_ and character == open_[-1]:
+            open_.pop()
+        elif not open_ and character in ends:
+            yield text[begin:at]
+            begin = at + 1
+        at += 1
+    yield text[begin:]
+
+
+def _type(value: str, parameters: str, body: str) -> str:
+    """Return the type of an expression: of a tuple, or of what a class makes; else empty."""
+    items = [item.strip() for item in _split(_without_parentheses(value), 0, ",")]
+    if len(items) >= _FEWEST:
+        is_plain = all(item and not item.startswith(("*", "lambda")) for item in items)
+        return f"tuple[{', '.join([_ANY] * len(items))}]" if is_plain else ""
+    if _NAME.fullmatch(value):
+        value = _made(value, parameters, body)
+    call = _CALL.match(value)
+    if call is None:
+        return ""
+    rest = [*_split(value[call.end() - 1 :], 0, " .[,")]
+    return call[1] if len(rest) == 1 and value.endswith(")") else ""
+
+
+def _without_parentheses(value: str) -> str:
+    """Return what is in the parentheses around all of an expression."""
+    is_one = value.startswith("(") and len([*_split(value, 0, " .[,(")]) == 1
+    return value[1:-1] if is_one and value.endswith(")") else value
+
+
+def _made(name: str, parameters: str, body: str) -> str:
+    """Return the only value that a local variable gets; empty if there are several."""
+    if re.search(rf"\b{name}\b", parameters):
+        return ""
+    bound = rf"(?<![\w.]){name}\b[ \t]*(?:[,:][^=\n]*)?[-+*/|&%]?=(?!=)"
+    others = rf"\b(?:for|as|global|nonlocal|import|del)\b[^\n:]*\b{name}\b|\b{name}[ \t]*:="
+    plain = re.compile(rf"^[ \t]*{name}[ \t]*=(?!=)[ \t]*", re.MULTILINE)
+    values = [*plain.finditer(body)]
+    if len(values) != 1 or len(re.findall(bound, body)) != 1 or re.search(others, body):
+        return ""
+    return _expression(body, values[0].end())

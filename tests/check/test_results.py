@@ -1,0 +1,73 @@
+"""Functions get annotations for results that are plain, and for no others."""
+
+from __future__ import annotations
+
+import pytest
+
+from scaffold.types.results import with_result_types
+
+HEAD = "def made(self, given):"
+
+
+def annotated(body: str) -> str:
+    """Return what a function with a body is annotated with."""
+    source = f"{HEAD}\n{body}"
+    text = with_result_types(source.encode()).decode()
+    assert text.count("\n") >= source.count("\n")
+    return text.partition("\n")[0][len(HEAD) - 1 : -1].strip(' ->"')
+
+
+@pytest.mark.parametrize(
+    ("body", "type_"),
+    [
+        ("    return Pose(x=1.0)  # the origin\n", "Pose"),
+        ("    pose = msg.Pose()\n    pose.x = 1.0\n    return pose\n", "msg.Pose"),
+        ("    return Pose(\n        x=f(1),\n    )\n", "Pose"),
+        ("    if given: return None\n    return Pose()\n", "Pose"),
+        ("    return self.x, f(1, 2)\n", "tuple[_Ros2Any, _Ros2Any]"),
+        (
+            "    return (self.x,\n            'a, b', [1, 2])\n",
+            f"tuple[{'_Ros2Any, ' * 2}_Ros2Any]",
+        ),
+    ],
+)
+def test_plain_results(body: str, type_: str) -> None:
+    assert annotated(body) == type_
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "    return self.x\n",
+        "    return Pose().x\n",
+        "    return Pose() or given\n",
+        "    return given\n",
+        "    return *given, 1\n",
+        "    if given:\n        return 1, 2\n    return 1, 2, 3\n",
+        "    if given:\n        return Pose()\n    return given\n",
+        "    pose = Pose()\n    pose = f(pose)\n    return pose\n",
+        "    pose = Pose()\n    for pose in given:\n        pass\n    return pose\n",
+        "    pose, other = Pose(), 1\n    return pose\n",
+        "    yield Pose()\n    return Pose()\n",
+        "    def inner():\n        return Pose()\n    return inner\n",
+        "    return (Pose(), 1)[0]\n",
+    ],
+)
+def test_other_results(body: str) -> None:
+    assert annotated(body) == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "@cached\ndef made():\n    return Pose()\n",
+        "def made() -> Other:\n    return Pose()\n",
+        "class A:\n    def made(self):\n        return Pose()\n\n\n{}".format(
+            "class B(A):\n    def made(self):\n        return Other()\n"
+        ),
+        "def made(): return Pose()\n",
+        "def made():\n    'return Pose'",
+    ],
+)
+def test_functions_that_are_left_alone(text: str) -> None:
+    assert with_result_types(text.encode()) == text.encode()
