@@ -5,9 +5,21 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import is_handled
-from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.programs import phases_of
+from scaffold.api.python import conditions_on, is_handled
+from scaffold.api.rclpy import (
+    NODE,
+    NodeClass,
+    RclpyFile,
+    Subscription,
+    Synchronizer,
+    Timer,
+    given_from_outside,
+    has,
+    is_read_in_full,
+    names_of_bases,
+)
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -18,7 +30,18 @@ _NODE = (
 )
 _MAKE = "        self.pub = self.create_publisher(String, 'chatter', 10)\n"
 _USE = "        self.pub.publish(String())\n"
-
+_TIMER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n{}"
+    "        self.create_subscription(String, 'chatter', self.hear, 12)\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        print({})\n\n"
+    "    def hear(self, msg):\n"
+    "        self.last = msg\n"
+)
 
 _CALLED_BY_NODE = (
     *("get_name", "get_namespace", "get_logger", "get_clock", "create_publisher"),
@@ -29,18 +52,20 @@ _CALLED_BY_NODE = (
 
 
 class AttributeUsedBeforeSet(RclpyRule):
-    """The constructor of a node uses an attribute that it sets further down.
+    """A node uses an attribute before it is set: further down, or by a message that comes later.
 
-    **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start.
+    **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start. A timer may run
+    before the first message.
 
-    **Fix.** Set it first. A method such as ``get_name`` is called by the constructor of rclpy's
-    Node: give it another name.
+    **Fix.** Set it first, in the constructor: to ``None`` where only a message brings a value. A
+    method such as ``get_name`` is called by the constructor of rclpy's Node: give it another name.
 
-    **Source.** Python documentation, "Classes".
+    **Source.** Python documentation, "Classes"; https://github.com/4am-robotics/cob_command_tools/issues/95.
     """
 
     code = "ND062"
     name = "attribute-used-before-set"
+    other_severities = {Severity.WARNING: "it depends on what comes first, a timer or a message"}
     examples = (
         Example("set first", {"talker.py": _NODE.format(_MAKE + _USE)}),
         Example(
@@ -61,6 +86,24 @@ class AttributeUsedBeforeSet(RclpyRule):
             ),
         ),
         Example(
+            "a timer that uses what a message brings",
+            {
+                "talker.py": _TIMER.format("", "self.last"),
+                "set.py": _TIMER.format("        self.last = None\n", "self.last"),
+                "asked.py": _TIMER.format("", "getattr(self, 'last', None)"),
+                "tried.py": _TIMER.format("", "self.heard and self.last").replace(
+                    "12)\n", "12)\n        self.heard = False\n"
+                ),
+            },
+            Report(
+                "talker.py:12:15",
+                "self.last is only set by the callback 'hear', and the timer may "
+                "run before the first message: AttributeError; set it in the "
+                "constructor",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "in a method with a name of its own",
             {
                 "talker.py": _NODE.format("        self.robot = 'robin'\n")
@@ -69,8 +112,10 @@ class AttributeUsedBeforeSet(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
+            if node.base is None and node.name not in names_of_bases(package):
+                yield from self._check_timers(package, file, node)
             if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
                 continue
             for used, line in _used_early(file, node):
@@ -79,6 +124,40 @@ class AttributeUsedBeforeSet(RclpyRule):
                 )
                 yield self.report(file.module.location(used), message)
             yield from self._check_overrides(file, node)
+
+    def _check_timers(
+        self, package: Package, file: RclpyFile, node: NodeClass
+    ) -> Iterator[Diagnostic]:
+        """Check what timers use that only messages set."""
+        methods = {method: name for name, method in node.methods.items()}
+        by_messages = {
+            callback.function
+            for entity, callback in file.callbacks
+            if isinstance(entity, Subscription | Synchronizer)
+        } - phases_of(file).constructing
+        reported: set[str] = set()
+        for entity, callback in file.callbacks:
+            timed = callback.function
+            if not isinstance(entity, Timer) or timed not in methods or not is_read_in_full(node):
+                continue
+            if file.function_of(entity.call) is not node.constructor:
+                continue
+            for used in file.module.below(timed, ast.Attribute):
+                name = used.attr
+                if name in reported or name in given_from_outside(package):
+                    continue
+                setters = _setters(file, node, used)
+                if not setters or not setters <= by_messages or timed in setters:
+                    continue
+                if file.function_of(used) is timed and _is_always_used(file, used):
+                    reported.add(name)
+                    setter = next(methods[item] for item in methods if item in setters)
+                    message = (
+                        f"self.{name} is only set by the callback {setter!r}, and the timer may "
+                        "run before the first message: AttributeError; set it in the constructor"
+                    )
+                    location = file.module.location(used)
+                    yield self.report(location, message, severity=Severity.WARNING)
 
     def _check_overrides(self, file: RclpyFile, node: NodeClass) -> Iterator[Diagnostic]:
         """Check what the constructor of rclpy's Node calls, if the class has methods of its own."""
@@ -103,6 +182,31 @@ class AttributeUsedBeforeSet(RclpyRule):
                     )
                     yield self.report(file.module.location(used), message)
                     break
+
+
+def _setters(file: RclpyFile, node: NodeClass, used: ast.Attribute) -> set[ast.AST | None]:
+    """Return the methods that set an attribute of a node; empty if the class has it anyway."""
+    if not isinstance(used.ctx, ast.Load) or has(NODE, used.attr):
+        return set()
+    if used.attr in file.module.index.bindings(node.node):
+        return set()
+    if file.evaluator.self_class(used.value) is not node.node:
+        return set()
+    return {file.function_of(store.node) for store in file.evaluator.stores(used.attr)}
+
+
+def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
+    """Tell whether a function uses an attribute whatever is so, and does not ask for it."""
+    in_loop = any(
+        isinstance(parent, ast.For | ast.While | ast.comprehension)
+        for parent in file.module.parents(used)
+    )
+    is_asked = f"'{used.attr}'" in file.module.source.text or (
+        f'"{used.attr}"' in file.module.source.text
+    )
+    if in_loop or is_asked or conditions_on(file.module, used):
+        return False
+    return not is_handled(file.module, used, "AttributeError")
 
 
 def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribute, int]]:
