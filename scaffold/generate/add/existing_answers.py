@@ -109,13 +109,26 @@ def own_header(package: Package) -> str:
 
 
 def _comment(lines: Sequence[str], number: int) -> str:
-    """Return the comment lines around a line, without the author: that is whoever adds code."""
+    """Return the comment lines around a line, without the author: that is whoever adds code.
+
+    Paragraphs of a license that empty lines keep apart are one comment.
+    """
     start = end = number
     while start and lines[start - 1].startswith("#") and not lines[start - 1].startswith("#!"):
         start -= 1
-    while end < len(lines) and lines[end].startswith("#"):
-        end += 1
-    return "\n".join(line for line in lines[start:end] if not _AUTHOR.match(line))
+    for at in range(number, len(lines)):
+        if lines[at].strip() and not lines[at].startswith("#"):
+            break
+        if at <= end or "license" in lines[at].lower():
+            end = _end_of_comment(lines, at)
+    return "\n".join(line.rstrip() or "#" for line in lines[start:end] if not _AUTHOR.match(line))
+
+
+def _end_of_comment(lines: Sequence[str], start: int) -> int:
+    """Return the number of the line after a comment."""
+    return next(
+        (at for at in range(start, len(lines)) if not lines[at].startswith("#")), len(lines)
+    )
 
 
 def _holder(package: Package) -> str | None:

@@ -458,6 +458,34 @@ def test_an_unknown_licence_gives_the_header_of_the_other_files(tmp_path: Path) 
     ]
 
 
+def test_paragraphs_that_empty_lines_keep_apart_are_one_header(tmp_path: Path) -> None:
+    manifest = CMAKE["package.xml"].replace("BSD-3-Clause", "Ours")
+    script = """\
+        #!/usr/bin/env python3
+        # Copyright 2020 The Hello Company
+
+        # Use it as you like,
+        # under the terms of our license.
+
+        # It comes without warranty; see the LICENSE.
+
+        # Imports of the standard library
+        import sys
+        """
+    demo = write(tmp_path / "demo", {**CMAKE, "package.xml": manifest, "scripts/hello.py": script})
+    assert add(demo, "publisher", "talker") == 0
+    lines = (demo / "scripts" / "talker.py").read_text().splitlines()
+    assert lines[1:8] == [
+        "# Copyright 2020 The Hello Company",
+        "#",
+        "# Use it as you like,",
+        "# under the terms of our license.",
+        "#",
+        "# It comes without warranty; see the LICENSE.",
+        "",
+    ]
+
+
 def test_the_author_of_other_files_is_not_the_one_of_new_ones(tmp_path: Path) -> None:
     manifest = CMAKE["package.xml"].replace("BSD-3-Clause", "Ours")
     hello = CMAKE["scripts/hello.py"].replace(
