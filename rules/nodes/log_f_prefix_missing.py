@@ -1,4 +1,4 @@
-"""ND102: a log message with the name of a variable in braces is an f-string."""
+"""ND102: a text with the name of a variable in braces is an f-string."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.interfaces import TEXTS
+from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import RclpyFile, log_calls
 
 _NODE = (
@@ -15,12 +17,21 @@ _NODE = (
     "    def tell(self, text):\n"
     "        self.get_logger().info({})\n"
 )
+_FIELD = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def tell(self, count):\n"
+    "        message = String()\n"
+    "        message.data = {}\n"
+    "        return {}\n"
+)
+_FILLED = frozenset({"format", "format_map", "replace"})
 
 
 class LogFPrefixMissing(RclpyRule):
-    """A log message has the name of a variable in braces, but the string has no ``f`` prefix.
+    """A log message or a text field has a variable in braces, but the string has no ``f`` prefix.
 
-    **Why.** It is logged with its braces: ``heard {text}``.
+    **Why.** It is logged, or sent, with its braces: ``heard {text}``.
 
     **Fix.** Write ``f'heard {text}'``.
 
@@ -38,7 +49,38 @@ class LogFPrefixMissing(RclpyRule):
             {"talker.py": _NODE.format("'heard {text}'")},
             Report("6:32", "{text} is logged literally: the string has no f prefix"),
         ),
+        Example(
+            "a missing f prefix in a field",
+            {"talker.py": _FIELD.format("'{count:03d} heard'", "String(data='{count} heard')")},
+            Report("8:24", "{count} is sent literally: the string has no f prefix"),
+            Report("9:28", "{count} is sent literally: the string has no f prefix"),
+        ),
+        Example("an f-string in a field", {"talker.py": _FIELD.format("f'{count}'", "message")}),
+        Example(
+            "a pattern that is filled later",
+            {
+                "talker.py": _FIELD.format(
+                    "'{count} heard'", "String(data=message.data.format(count=count))"
+                )
+            },
+        ),
+        Example(
+            "doubled braces, and JSON",
+            {"talker.py": _FIELD.format("'{{count}}'", """String(data='{"count": {count}}')""")},
+        ),
     )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self.check_file(file)
+        if file.module.in_tests:
+            return
+        for item in MessageTypes.of(package, file.module.path).assigned:
+            match item.value:
+                case ast.Constant(value=str(text)) if item.field.type.name in TEXTS:
+                    name = _variable(file, item.value, text)
+                    if name and not _is_filled(file, item.field.name):
+                        message = f"{{{name}}} is sent literally: the string has no f prefix"
+                        yield self.report(file.module.location(item.value), message)
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in log_calls(file):
@@ -52,7 +94,7 @@ class LogFPrefixMissing(RclpyRule):
 
 def _variable(file: RclpyFile, node: ast.Constant, text: str) -> str:
     """Return the first variable, or attribute of one, that a text has in braces."""
-    for name in re.findall(r"\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}", text):
+    for name in re.findall(r"(?<!\{)\{((?:self\.)?[a-z_]\w*(?:\.\w+)*)(?::[^{}]*)?\}(?!\})", text):
         if _is_bound(file, node, name.partition(".")[0]):
             return str(name)
     return ""
@@ -69,3 +111,12 @@ def _is_bound(file: RclpyFile, at: ast.Constant, name: str) -> bool:
         arguments = function.args.args if function else []
         return any(argument.arg == name for argument in arguments)
     return file.module.index.lookup(probe.id, probe) is not None
+
+
+def _is_filled(file: RclpyFile, field: str) -> bool:
+    """Return whether the braces of a field are replaced after it has been set."""
+    return any(
+        isinstance(node.value, ast.Attribute) and node.value.attr == field
+        for name in _FILLED
+        for node in file.module.index.attributes(name)
+    )
