@@ -21,10 +21,26 @@ _NODE = (
     "        self.broadcaster = {}TransformBroadcaster(self)\n"
     "        self.broadcaster.sendTransform(TransformStamped())\n"
 )
+_TWO_FRAMES = (
+    "from geometry_msgs.msg import TransformStamped\nfrom rclpy.node import Node\n"
+    "from tf2_ros import TransformBroadcaster\n\n\n"
+    "class Base(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('base')\n"
+    "        self.broadcaster = TransformBroadcaster(self)\n"
+    "        self.create_timer(0.1, self.send)\n"
+    "        mount = TransformStamped()\n"
+    "        mount.child_frame_id = 'laser'\n"
+    "        self.broadcaster.sendTransform(mount)\n\n"
+    "    def send(self):\n"
+    "        frame = TransformStamped()\n"
+    "        frame.child_frame_id = {}\n"
+    "        self.broadcaster.sendTransform(frame)\n"
+)
 
 
 class TransformSentOnce(RclpyRule):
-    """A ``TransformBroadcaster`` sends its transforms in the constructor alone.
+    """A ``TransformBroadcaster`` sends the transform of a frame in the constructor alone.
 
     **Why.** Whoever subscribes to ``/tf`` later never gets them, and buffers forget them after ten
     seconds.
@@ -56,6 +72,17 @@ class TransformSentOnce(RclpyRule):
                 "        self.broadcaster.sendTransform(TransformStamped())\n"
             },
         ),
+        Example(
+            "one frame sent once, another by a timer",
+            {"base.py": _TWO_FRAMES.format("'base_link'")},
+            Report(
+                "13:9",
+                "the transform of 'laser' is sent once, by the constructor: later "
+                "subscribers never get it; use StaticTransformBroadcaster",
+            ),
+        ),
+        Example("the same frame once more", {"base.py": _TWO_FRAMES.format("'laser'")}),
+        Example("a frame that is not known", {"base.py": _TWO_FRAMES.format("self.get_name()")}),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -70,16 +97,36 @@ class TransformSentOnce(RclpyRule):
             return
         phases = phases_of(file)
         alone = phases.constructing - phases.running
-        if not {file.function_of(call) for call in calls} <= alone:
-            return
-        for call in calls:
+        sent_once = [call for call in calls if file.function_of(call) in alone]
+        again = [call for call in calls if call not in sent_once]
+        for call in sent_once:
+            frame = _frame(file, call) if again else None
+            if again and (frame is None or any(_frame(file, x) in {None, frame} for x in again)):
+                continue
             loops = any(isinstance(x, ast.While | ast.For) for x in file.module.parents(call))
             if not loops:
                 message = (
-                    "the transform is sent once, by the constructor: later subscribers never get "
-                    "it; use StaticTransformBroadcaster"
+                    f"the transform{f' of {frame!r}' if frame else ''} is sent once, by the "
+                    "constructor: later subscribers never get it; use StaticTransformBroadcaster"
                 )
                 yield self.report(file.module.location(call), message)
+
+
+def _frame(file: RclpyFile, call: ast.Call) -> str | None:
+    """Return the child frame of the transform that a call sends; ``None`` if that is not known."""
+    match call:
+        case ast.Call(args=[ast.Name(id=name)], keywords=[]):
+            function = file.function_of(call)
+            stores = [
+                store.value
+                for store in file.evaluator.stores("child_frame_id")
+                if isinstance(store.node.value, ast.Name)
+                and store.node.value.id == name
+                and file.function_of(store.node) is function
+            ]
+            value, notes = file.evaluator.trace(stores[0]) if len(stores) == 1 else (None, ())
+            return value if isinstance(value, str) and not notes else None
+    return None
 
 
 def _is_broadcaster(file: RclpyFile, node: ast.expr) -> bool:
