@@ -12,9 +12,14 @@ from scaffold.cli import terminal
 if TYPE_CHECKING:
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.session import Session
+    from scaffold.diagnostic import Diagnostic
     from scaffold.files.tree import Tree
     from scaffold.model.discovery.targets import Target
+    from scaffold.model.package import Package
     from scaffold.writing.plan import WritePlan
+
+_NAMED = 10
+"""How many files a note names."""
 
 
 def write(
@@ -85,6 +90,28 @@ def put(
     for item in written:
         _note_links(item)
     return written, len(written) < len(packages)
+
+
+def note_unexamined(found: Sequence[tuple[Package, Diagnostic]]) -> bool:
+    """Note the files that could not be examined, so that a patch says nothing about them.
+
+    Args:
+        found: What is left, with the packages.
+
+    Returns:
+        Whether there are any.
+    """
+    from scaffold.check.migration import UNEXAMINED
+    from scaffold.printable import printable
+    from scaffold.reporters.paths import shown
+    from scaffold.reporters.summary import count
+
+    paths = sorted({shown(at, one.location.path) for at, one in found if one.code in UNEXAMINED})
+    if paths:
+        named = ", ".join(map(printable, paths[:_NAMED]))
+        more = f" and {len(paths) - _NAMED} more" if len(paths) > _NAMED else ""
+        terminal.note(f"{count(len(paths), 'file')} not examined: {named}{more}")
+    return bool(paths)
 
 
 def _roots(targets: Sequence[Target]) -> list[str]:

@@ -135,7 +135,9 @@ class SeveralTargets:
         count = sum(item.applied for item in written)
         if options.diff:
             terminal.say(f"{fix_count(count)}, nothing written")
-            return FINDINGS if count else CLEAN
+            left = [(item.package, one) for item in written for one in item.diagnostics]
+            code = FINDINGS if fixing.note_unexamined(left) or count else CLEAN
+            return USAGE_ERROR if has_failed else code
         terminal.say(f"{fix_count(count)} applied")
         code = self._report(self._checked(), is_saved=False)
         return USAGE_ERROR if has_failed else code

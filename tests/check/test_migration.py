@@ -785,6 +785,31 @@ def test_a_record_of_what_is_supported_no_more_moves(
     assert _recorded("talker") == ["humble"]
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["migrate", "--to", "lyrical"],
+        ["check", "--distro", "lyrical"],
+        ["check", "--distro", "jazzy,lyrical"],
+    ],
+)
+def test_a_patch_is_not_silent_about_files_that_cannot_be_read(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _new("talker", "whole")
+    Path("talker/talker/open.py").write_text("def g(x:\n")
+    Path("talker/launch").mkdir(exist_ok=True)
+    Path("talker/launch/open.launch.xml").write_text("<launch><node")
+    capsys.readouterr()
+    assert main([*words, "--diff"]) == 1
+    note = "note: 2 files not examined: talker/launch/open.launch.xml, talker/talker/open.py\n"
+    assert capsys.readouterr().err.endswith(note)
+
+
 def test_a_package_of_ros1_is_not_examined(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

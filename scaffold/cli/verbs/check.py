@@ -406,7 +406,7 @@ def _report_fixes(
     results: list[Result],
     fixed: Sequence[Fixed],
 ) -> int:
-    from scaffold.cli import reports
+    from scaffold.cli import fixing, reports
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(item.applied for item in fixed)
@@ -419,7 +419,8 @@ def _report_fixes(
             "each other; fix these by hand"
         )
     if options.diff:
-        return FINDINGS if count else CLEAN
+        left = [(result.package, item) for result in results for item in result.diagnostics]
+        return FINDINGS if fixing.note_unexamined(left) or count else CLEAN
     reports.write(options, results, report_options(options))
     return final_code(options, session, results)
 

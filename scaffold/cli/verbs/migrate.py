@@ -96,7 +96,8 @@ def run(options: argparse.Namespace) -> int:
             is_refused, is_changed = _put(options, moves, targets, settings)
             has_failed |= is_refused
             if options.diff:
-                return USAGE_ERROR if has_failed else FINDINGS if is_changed else CLEAN
+                is_clean = not _note_unexamined(moves) and not is_changed
+                return USAGE_ERROR if has_failed else CLEAN if is_clean else FINDINGS
     items = sorted(
         (item for move in moves for item in move.consequences),
         key=lambda item: directories.index(item.result.package.directory),
@@ -207,6 +208,16 @@ def _with_records(
             changed = {**fixed[path].changed, RECORD: planned[1]}
             result[path] = fixed[path]._replace(before=before, changed=changed)
     return result
+
+
+def _note_unexamined(moves: Sequence[Moved]) -> bool:
+    """Note the files that could not be read; return whether there are any."""
+    from scaffold.cli import fixing
+
+    every = [item for move in moves for item in move.consequences]
+    return fixing.note_unexamined(
+        [(at.result.package, one) for at in every for one in at.unexamined]
+    )
 
 
 def _note_held(
