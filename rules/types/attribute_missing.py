@@ -253,6 +253,29 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "an object of a class below the one that is promised",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY
+                + "\n\nclass Wheels(Odometry):\n    def restart(self):\n        self.reset()\n\n\n"
+                "def make() -> Odometry:\n    return Wheels()\n",
+                "rover/drive.py": _DRIVE.format("restart")
+                .replace("import Odometry", "import make")
+                .replace("Odometry()", "make()"),
+            },
+        ),
+        Example(
+            "a class that makes objects of others",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY
+                + "\n    def __new__(cls):\n        return cls.KINDS['wheels']()\n",
+                "rover/drive.py": _DRIVE.format("restart"),
+            },
+        ),
+        Example(
             "a field of a message",
             {
                 "say.py": "from std_msgs.msg import String\n\n"

@@ -97,6 +97,8 @@ class ObjectMisused(TypeRule):
         if unpacked is not None:
             problem = f"{unpacked['problem'].lower()} values for {unpacked['names']} names"
             return self.report(finding, f"{problem}: ValueError")
+        if finding.kind not in _DOES:
+            return None
         matched = finding.match(
             r"(?:Object of type|Cannot subscript object of type|Cannot raise object of type) "
             r"`(?P<type>[^`]+)`.*"

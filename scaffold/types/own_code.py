@@ -26,8 +26,10 @@ _CALLS = frozenset(
         "parameter-already-assigned",
     }
 )
-_CHANGING = re.compile(rb"\b(?:setattr|__dict__|__getattribute__|exec|globals|vars)\b")
-"""Matches what gives objects attributes that no assignment shows."""
+_CHANGING = re.compile(
+    rb"\b(?:setattr|__dict__|__getattribute__|__new__|metaclass|exec|globals|vars)\b"
+)
+"""Matches what gives objects attributes that no assignment shows, or makes others instead."""
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
@@ -42,5 +44,8 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
         return False
     name = matched[1].partition(".")[0].encode()
     definition = re.compile(rb"^[ \t]*(?:class|(?:async )?def) %b\b" % name, re.MULTILINE)
-    defining = [item.data for item in sources if item.path and definition.search(item.data)]
-    return bool(defining) and not any(_CHANGING.search(data) for data in defining)
+    files = [item.data for item in sources if item.path]
+    defining = [data for data in files if definition.search(data)]
+    if not defining or any(_CHANGING.search(data) for data in defining):
+        return False
+    return item.kind in _CALLS or len(defining) == 1  # else the object may be of another class
