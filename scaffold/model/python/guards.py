@@ -211,28 +211,76 @@ def all_conditions(module: PythonModule, node: ast.AST) -> Iterator[Condition]:
 def values_asked(module: PythonModule, test: ast.expr) -> list[ast.expr]:
     """Return what a condition asks for: itself, and what is behind its names and functions.
 
-    What names and attributes of ``self`` in it are set to, and what functions of the file return.
+    What names and attributes in it are set to, what functions of the file return, and what is
+    behind those as long as they are conditions themselves.
 
     Args:
         module: The file.
         test: The condition.
     """
-    values: list[ast.expr | None] = [test]
-    for node in ast.walk(test):
-        match node:
-            case ast.Name(id=name):
-                lookup = module.index.lookup(name, node)
-                for binding in lookup[1] if lookup else ():
-                    values.append(binding.value)
-                    if isinstance(binding.node, ast.FunctionDef):
-                        returns = module.below(binding.node, ast.Return)
-                        values += (item.value for item in returns)
-            case ast.Attribute(value=ast.Name(id="self"), attr=name):
-                for store in module.index.attributes(name):
-                    above = module.parent(store)
-                    if isinstance(above, ast.Assign) and store in above.targets:
-                        values.append(above.value)
-    return [value for value in values if value is not None]
+    values: dict[ast.expr, None] = {}
+    pending = [test]
+    while pending:
+        value = pending.pop()
+        if value in values:
+            continue
+        values[value] = None
+        if value is test or _is_question(value):
+            for node in ast.walk(value):
+                pending += _behind(module, node)
+    return [*values]
+
+
+def _is_question(value: ast.expr) -> bool:
+    """Tell whether an expression is a condition, or another name of one."""
+    if isinstance(value, ast.Call):
+        return not value.args and not value.keywords
+    kinds = (ast.Compare, ast.BoolOp, ast.UnaryOp, ast.IfExp, ast.Name, ast.Attribute)
+    return isinstance(value, kinds)
+
+
+def _behind(module: PythonModule, node: ast.AST) -> Iterator[ast.expr]:
+    """Yield what a name or an attribute is set to, and what a function returns."""
+    match node:
+        case ast.Name(id=name):
+            lookup = module.index.lookup(name, node)
+            bindings = lookup[1] if lookup else ()
+        case ast.Attribute(value=ast.Name(id=owner), attr=name):
+            is_own = owner in {"self", "cls"}
+            if is_own:
+                yield from _stored(module, name)
+            known = module.classes.get(owner)
+            class_ = module.enclosing_class(node) if is_own else known and known.node
+            bindings = module.index.bindings(class_).get(name, ()) if class_ else ()
+        case _:
+            return
+    for binding in bindings:
+        if binding.value is not None:
+            yield binding.value
+        if isinstance(binding.value, ast.Constant):
+            yield from _choices(module, binding.value)
+        if isinstance(binding.node, ast.FunctionDef):
+            for item in module.below(binding.node, ast.Return):
+                if item.value is not None:
+                    yield item.value
+
+
+def _choices(module: PythonModule, constant: ast.Constant) -> Iterator[ast.expr]:
+    """Yield the condition that decides whether a name is set to a constant."""
+    assignment = module.parent(constant)
+    branch = module.parent(assignment) if assignment else None
+    if isinstance(branch, ast.If):
+        yield branch.test
+
+
+def _stored(module: PythonModule, name: str) -> Iterator[ast.expr]:
+    """Yield what an attribute of ``self`` is set to."""
+    for store in module.index.attributes(name):
+        match module.parent(store):
+            case ast.Assign(targets=targets, value=value) if store in targets:
+                yield value
+            case ast.AnnAssign(target=target, value=ast.expr() as value) if store is target:
+                yield value
 
 
 def leaves_block(module: PythonModule, statement: ast.stmt) -> bool:

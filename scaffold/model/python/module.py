@@ -452,7 +452,7 @@ class PythonModule:
             match parent:
                 case ast.FunctionDef() | ast.AsyncFunctionDef():
                     in_function = True
-                case ast.Try() if _catches_import_errors(parent):
+                case ast.Try() if catches_import_errors(parent):
                     guarded = guarded or self.index.place(child)[0] != "finalbody"
                 case ast.With(items=items):
                     guarded = guarded or any(_IMPORT_ERRORS & expected_errors(i) for i in items)
@@ -518,7 +518,8 @@ def _is_main_test(test: ast.expr) -> bool:
             return False
 
 
-def _catches_import_errors(node: ast.Try) -> bool:
+def catches_import_errors(node: ast.Try) -> bool:
+    """Tell whether a ``try`` has a handler for an import that fails."""
     return any(
         handler.type is None or not _IMPORT_ERRORS.isdisjoint(last_names(handler.type))
         for handler in node.handlers

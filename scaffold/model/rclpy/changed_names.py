@@ -11,6 +11,7 @@ from scaffold.edits import Edit
 from scaffold.model.python.distribution_branches import cases
 from scaffold.model.python.distribution_conditions import asks, holds, open_parts
 from scaffold.model.python.guards import all_conditions, has_fallback, is_handled, values_asked
+from scaffold.model.python.import_flags import asks_which_release
 from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
 from scaffold.model.rclpy.file import RclpyFile
@@ -243,10 +244,12 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
         if holds(module, condition.test) is (not condition.needed):
             return True
         for part in open_parts(module, condition.test):
-            if asks(module, part) or asked.names_it(part) or asked.asks_for_version(part):
+            if asks(module, part) or asked.is_behind(part):
                 return True
             if not condition.is_of_leaving and asked.is_for_import(part):
                 return True
+        if asks_which_release(module, condition, name.partition(".")[0]):
+            return True
     return any(_is_unsure_case(module, parent, child) for parent, child in _around(module, node))
 
 
@@ -290,26 +293,29 @@ class _Asked(NamedTuple):
     words: set[str]
     """The last parts of the name, and of what takes its place."""
 
-    def asks_for_version(self, test: ast.expr) -> bool:
-        """Tell whether a condition asks for a version of Python, of ROS or of a package."""
-        return bool(_VERSION.search(self.module.text(test)))
+    def is_behind(self, test: ast.expr) -> bool:
+        """Tell whether a condition, or what is behind its names, asks for a version or a word.
+
+        A version of Python, of ROS or of a package.
+        """
+        return any(
+            _VERSION.search(self.module.text(value)) or self._is_word_asked_for(value)
+            for value in values_asked(self.module, test)
+        )
 
     def is_for_import(self, test: ast.expr) -> bool:
         """Tell whether a condition asks whether something of the package was imported."""
         flags = filter(_is_flag, _CONSTANT.findall(self.module.text(test)))
         return any(map(self._is_of_import, flags))
 
-    def names_it(self, test: ast.expr) -> bool:
-        """Tell whether a condition, or what is behind its names, asks for one of the words."""
-        return any(map(self._is_word_asked_for, values_asked(self.module, test)))
-
     def _is_word_asked_for(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
             match node:
                 case ast.Call(
-                    func=ast.Name(id="hasattr" | "getattr"), args=[_, ast.Constant(value=word), *_]
+                    func=ast.Name(id="hasattr" | "getattr"),
+                    args=[holder, ast.Constant(value=word), *_],
                 ):
-                    if word in self.words:
+                    if word in self.words or self._is_of_package(holder):
                         return True
                 case ast.Call(func=ast.Name(id="hasattr")):
                     return True
@@ -322,6 +328,11 @@ class _Asked(NamedTuple):
                     if is_of_it and self.module.qualified_name(func) in _FINDERS:
                         return True
         return False
+
+    def _is_of_package(self, holder: ast.expr) -> bool:
+        """Tell whether an expression is a module or a class of the package of the name."""
+        roots = {name.partition(".")[0] for name in self.module.qualified_names(holder)}
+        return roots == {self.name.partition(".")[0]}
 
     def _is_of_import(self, flag: str) -> bool:
         """Tell whether a flag says that something of the package was imported."""
