@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import NODES, LaunchFile
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+from scaffold.api.python import joined_names
 
 _PROGRAMS = frozenset({"bash", "cat", "echo", "gz", "python3", "ros2", "sh", "xacro"})
 _PATHS = ("FindPackageShare", "PathJoinSubstitution", "ThisLaunchFileDir", "LaunchConfiguration")
@@ -68,6 +69,16 @@ class WordsRunTogether(LaunchRule):
             ),
         ),
         Example(
+            "names in a parameter",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "], parameters=[\n            {'names': ['arm' 'gripper'],\n"
+                    "             'text': ['one long ' 'text']}"
+                )
+            },
+            Report("8:24", "Python joins this to 'armgripper': missing comma between the strings"),
+        ),
+        Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
             Report("7:85", "launch concatenates the parts of a prefix: missing space"),
@@ -103,12 +114,21 @@ class WordsRunTogether(LaunchRule):
             for item in _joined_parts(call.given.get("prefix")):
                 message = "launch concatenates the parts of a prefix: missing space"
                 yield self.report(launch.location(item), message)
-            for name in _LISTS:
-                node = call.given.get(name)
-                for item in node.elts if isinstance(node, ast.List) else ():
-                    problem = _problem(launch, item)
-                    if problem:
-                        yield self.report(launch.location(item), problem)
+            for item, problem in _problems(launch, call):
+                yield self.report(launch.location(item), problem)
+
+
+def _problems(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[ast.expr, str]]:
+    for item in _items_of_parameters(call.given.get("parameters")):
+        problem = _joined_names(launch, item)
+        if problem:
+            yield item, problem
+    for name in _LISTS:
+        node = call.given.get(name)
+        for item in node.elts if isinstance(node, ast.List) else ():
+            problem = _problem(launch, item)
+            if problem:
+                yield item, problem
 
 
 def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:
@@ -122,6 +142,20 @@ def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:
                 yield right
 
 
+def _items_of_parameters(node: ast.expr | None) -> Iterator[ast.expr]:
+    """Yield the items of lists that are values of parameters."""
+    for given in ast.walk(node) if node is not None else ():
+        for value in given.values if isinstance(given, ast.Dict) else ():
+            if isinstance(value, ast.List | ast.Tuple):
+                yield from value.elts
+
+
+def _joined_names(launch: LaunchFile, item: ast.expr) -> str:
+    if isinstance(item, ast.Constant) and joined_names(launch.module, item):
+        return f"Python joins this to {item.value!r}: missing comma between the strings"
+    return ""
+
+
 def _problem(launch: LaunchFile, item: ast.expr) -> str:
     if not isinstance(item, ast.Constant) or not isinstance(item.value, str):
         return ""
@@ -131,7 +165,7 @@ def _problem(launch: LaunchFile, item: ast.expr) -> str:
     written = re.match(_TWO_TEXTS, launch.module.text(item))
     if written is not None and not written[2].endswith((" ", "=", ":", ",")):
         return f"Python joins this to {item.value!r}: missing comma between the strings"
-    return ""
+    return _joined_names(launch, item)
 
 
 def _joined_command(launch: LaunchFile, node: ast.expr) -> str:

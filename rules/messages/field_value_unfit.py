@@ -225,6 +225,22 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
+            "a comma is missing between two names",
+            {
+                "talker.py": "from sensor_msgs.msg import JointState\n\n"
+                "JOINTS = ['left_wheel' 'right_wheel', 'arm']\n\n"
+                "joints = JointState(name=JOINTS)\n"
+                "joints.name = ['left_wheel', 'right_wheel']\n"
+                "joints.name = ['the joint with a name '\n               'of several words']\n"
+                "joints.name = ['robot/' 'arm', 'robot_'\n               'arm']\n"
+            },
+            Report(
+                "5:26",
+                "'name' of sensor_msgs/msg/JointState is string[], but 'left_wheel' "
+                "and 'right_wheel' are one text: missing comma",
+            ),
+        ),
+        Example(
             "a 2-D array for a flat one",
             {
                 "talker.py": "import numpy as np\nfrom sensor_msgs.msg import Imu\n\n"

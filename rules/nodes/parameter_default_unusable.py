@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
 from scaffold.api.launch import started_nodes
 from scaffold.api.parameters import parameter_file, parameter_paths
-from scaffold.api.python import is_handled
+from scaffold.api.python import is_handled, joined_names
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
@@ -32,13 +32,14 @@ _PLAIN = (
 
 
 class ParameterDefaultUnusable(RclpyRule):
-    """The default of a parameter is missing or empty, a class, or a constant of ``ParameterType``.
+    """The default of a parameter is missing or empty, a class, or lacks a comma between names.
 
     **Why.** ``ValueError: Cannot declare a statically typed parameter with default value of type
     PARAMETER_NOT_SET``, or ``TypeError: The given value is not one of the allowed types``. The
     constants of ``ParameterType`` are numbers: as a default, they make the parameter an integer.
     Without default and descriptor, rclpy only warns, and the value is None until it is set. rclpy
-    takes an empty list for a byte array, and then rejects a list of strings.
+    takes an empty list for a byte array, and then rejects a list of strings. Python joins adjacent
+    strings: ``['north' 'south']`` is the list of one name.
 
     **Fix.** Without a default, pass ``Parameter.Type.DOUBLE``, or a descriptor with
     ``dynamic_typing=True``. The ``type`` of a descriptor is ignored.
@@ -123,6 +124,19 @@ class ParameterDefaultUnusable(RclpyRule):
             {"talker.py": _PLAIN.format("'names', []")},
             Report("7:32", "parameter 'names' becomes a byte array: the default is an empty list"),
         ),
+        Example(
+            "a comma is missing",
+            {"talker.py": _PLAIN.format("'stations', ['north' 'south']")},
+            Report("7:45", "missing comma after 'north': it is joined to 'south'"),
+        ),
+        Example(
+            "texts on two lines",
+            {
+                "talker.py": _PLAIN.format(
+                    "'hints', ['turn left at the '\n            'first corner', 'north']"
+                )
+            },
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -136,6 +150,7 @@ class ParameterDefaultUnusable(RclpyRule):
                 yield self.report(file.module.location(node or parameter.call), problem)
         is_file_meant = all(parameter.default_node is None for parameter in file.parameters)
         for parameter in file.parameters:
+            yield from self._check_commas(file, parameter)
             problem = _missing_problem(parameter)
             if problem:
                 is_set = is_file_meant and parameter.name in _set_names(package)
@@ -145,6 +160,15 @@ class ParameterDefaultUnusable(RclpyRule):
                     severity=Severity.WARNING if is_set else Severity.ERROR,
                     cause=_NO_DEFAULT if parameter.default_node is None else "",
                 )
+
+    def _check_commas(self, file: RclpyFile, parameter: Parameter) -> Iterator[Diagnostic]:
+        node = parameter.default_node
+        listed = file.evaluator.single_value(node) if node else None
+        for item in listed.elts if isinstance(listed, ast.List | ast.Tuple) else ():
+            names = joined_names(file.module, item)
+            if names:
+                message = f"missing comma after {names[0]!r}: it is joined to {names[1]!r}"
+                yield self.report(file.module.location(item), message)
 
 
 @fact

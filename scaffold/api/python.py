@@ -15,6 +15,7 @@ from scaffold.model.python.guards import (
     is_guarded_by,
     is_handled,
 )
+from scaffold.model.python.literals import joined_names
 from scaffold.model.python.module import Import, PythonModule
 from scaffold.model.python.returns import (
     is_generator,
@@ -46,6 +47,7 @@ __all__ = [
     "is_guarded_by",
     "is_handled",
     "is_known",
+    "joined_names",
     "kind_of",
     "may_end",
     "may_end_with_items",

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.messages.inference import Assigned, MessageTypes
 from scaffold.model.messages.numpy_values import numpy_class
+from scaffold.model.python.literals import joined_names
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
 
@@ -270,7 +271,8 @@ class TypeMismatches:
             return f"{self._shown(node)} is a str, not a list"
         if kind != "list":
             return self._table(node)
-        return self._length(type_, node) or self._elements(type_.element, node)
+        problem = self._length(type_, node) or self._elements(type_.element, node)
+        return problem or self._joined(type_, node)
 
     def is_alike(self, item: Assigned) -> bool:
         """Tell whether a message is given where another with the same fields is expected."""
@@ -318,6 +320,17 @@ class TypeMismatches:
             wrong = None if isinstance(part, ast.Starred) else self._single(type_, part)
             if wrong:
                 return f"element {wrong}"
+        return None
+
+    def _joined(self, type_: FieldType, node: ast.expr) -> str | None:
+        """Report two names of a list that are one, as there is no comma between them."""
+        listed = self._types.facts.evaluator.single_value(node)
+        if type_.name not in TEXTS or not isinstance(listed, ast.List | ast.Tuple):
+            return None
+        for part in listed.elts:
+            names = joined_names(self._types.module, part)
+            if names:
+                return f"{names[0]!r} and {names[1]!r} are one text: missing comma"
         return None
 
     def _single(self, type_: FieldType, node: ast.expr) -> str | None:

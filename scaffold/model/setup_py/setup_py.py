@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
 
 from scaffold.model.python.evaluator import Element, Evaluator
+from scaffold.model.python.literals import string_pieces
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import UNKNOWN, Glob, Unknown
 from scaffold.record import NamedTuple
@@ -18,10 +18,6 @@ _SETUP_FUNCTIONS = frozenset({"setuptools.setup", "distutils.core.setup", "setup
 _FIND_PACKAGES = frozenset(
     {"setuptools.find_packages", "setuptools.find_namespace_packages"}
     | {"setuptools.PackageFinder.find", "setuptools.PEP420PackageFinder.find"}
-)
-_LITERAL = (
-    r"(?s)[rRbBuUfF]{0,2}(?:\"\"\"(?:\\.|[^\\])*?\"\"\"|'''(?:\\.|[^\\])*?'''"
-    r"|\"(?:\\.|[^\"\\])*\"|'(?:\\.|[^'\\])*')"
 )
 
 
@@ -442,24 +438,6 @@ class SetupPy:
             return ()
         pieces = list(string_pieces(self.module, node))
         return tuple(self.module.source.location(*piece) for piece in pieces[1:] and pieces)
-
-
-def string_pieces(module: PythonModule, node: ast.expr) -> Iterator[tuple[int, int]]:
-    """Yield the spans of the string literals that make up one string expression."""
-    start, end = module.span(node)
-    text = module.source.text
-    literal = re.compile(_LITERAL)
-    at = start
-    while at < end:
-        matched = literal.match(text, at, end)
-        if matched:
-            yield matched.span()
-            at = matched.end()
-        elif text[at] == "#":
-            newline = text.find("\n", at, end)
-            at = end if newline < 0 else newline
-        else:
-            at += 1
 
 
 def _source(value: object) -> str | Glob | Unknown:

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scaffold.edits import Edit
+from scaffold.model.python.literals import string_pieces
 from scaffold.model.python.module import PythonModule
 from scaffold.model.python.values import UNKNOWN, Glob
 from scaffold.model.setup_py.edit import (
@@ -15,7 +16,7 @@ from scaffold.model.setup_py.edit import (
     add_import,
     package_expression,
 )
-from scaffold.model.setup_py.setup_py import FindPackages, SetupPy, string_pieces
+from scaffold.model.setup_py.setup_py import FindPackages, SetupPy
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
 
 SETUP = """\
