@@ -119,6 +119,13 @@ def removed_name(name: str) -> Change | None:
     return next((item for item in of_kind("name") if name in item.names and item.is_removed), None)
 
 
+def removed_package(name: str) -> Change | None:
+    """Return why the target does not have a package that an older distribution has."""
+    return next(
+        (item for item in of_kind("package") if name in item.names and item.is_removed), None
+    )
+
+
 def of_program(name: str) -> Change:
     """Return what changed for those who start a program.
 

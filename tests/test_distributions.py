@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold import distributions
+from scaffold import changes, distributions
 from scaffold.check.result import Result
 from scaffold.check.several import merged
 from scaffold.cli import distro
@@ -406,3 +406,18 @@ def test_the_data_of_all_distributions_is_small() -> None:
         if file.is_file()
     )
     assert others < 3_000_000
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_packages_of_interfaces_go_with_a_word(name: str) -> None:
+    """What an older distribution bundles and this one does not is among what was removed."""
+    target = named(name)
+    older = [one for one in map(named, ORDER) if one.place < target.place]
+    gone = {package for one in older for package in _bundled(one)} - _bundled(target)
+    with distributions.targeting(target):
+        assert [package for package in gone if changes.removed_package(package) is None] == []
+
+
+def _bundled(distribution: distributions.Distribution) -> set[str]:
+    text = Path(distribution.path("interfaces.txt")).read_text(encoding="utf-8")
+    return {line.split()[1] for line in text.splitlines() if line.startswith("@ ")}

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
+from scaffold.api.distributions import removed_package
 from scaffold.api.manifest import requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
@@ -114,6 +115,8 @@ class FoundUndeclared(Rule):
                 continue  # the package of the system that has it
             if name not in ROS_PACKAGES and package.workspace.get(name) is None:
                 continue
+            if removed_package(name) and package.workspace.get(name) is None:
+                continue  # package-removed says it
             if not found_package.required or package.cmake.is_off(found_package.command):
                 continue
             reported.add(name)

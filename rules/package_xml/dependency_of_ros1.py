@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.catalog import ROS1_PACKAGES
-from scaffold.api.cmake import uses_ament
+from scaffold.api.cmake import is_built_for_ros1
 from scaffold.api.distributions import target
 
 _CLASSIC = frozenset({"gazebo_ros", "gazebo_plugins"})
@@ -69,7 +69,7 @@ class DependencyOfRos1(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        if manifest.build_type == "catkin" or _is_for_ros1(package):
+        if manifest.build_type == "catkin" or is_built_for_ros1(package):
             return
         title = target().title
         for dependency in manifest.dependencies:
@@ -81,12 +81,3 @@ class DependencyOfRos1(Rule):
                 which = f"Gazebo classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
                 message = f"{name!r} belongs to {which}; use {heir}"
                 yield self.report(dependency, message)
-
-
-def _is_for_ros1(package: Package) -> bool:
-    """Tell whether CMake builds a package with catkin alone, or a bridge to ROS 1."""
-    try:
-        is_bridge = bool(package.cmake.find("find_ros1_package"))
-        return is_bridge or (package.cmake.finds("catkin") and not uses_ament(package))
-    except ViewError:
-        return False

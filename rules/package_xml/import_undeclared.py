@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.catalog import transitive_dependencies
-from scaffold.api.distributions import target
+from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import declared, required_packages, requirements
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
@@ -309,6 +309,8 @@ class ImportUndeclared(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         for need in required_packages(package):
+            if removed_package(need.module) and package.workspace.get(need.module) is None:
+                continue  # package-removed says it
             there = declared(package, for_tests=need.for_tests)
             if any(key in there.direct or key in there.along for key in need.keys):
                 continue

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from scaffold.changes import Change, of_kind, of_program, removed_interface, removed_name
+from scaffold.changes import (
+    Change,
+    of_kind,
+    of_program,
+    removed_interface,
+    removed_name,
+    removed_package,
+)
 from scaffold.distributions import ENDED, NAMES, Distribution, refusal, target
 
 __all__ = [
@@ -15,5 +22,6 @@ __all__ = [
     "refusal",
     "removed_interface",
     "removed_name",
+    "removed_package",
     "target",
 ]

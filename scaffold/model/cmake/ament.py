@@ -47,6 +47,15 @@ def uses_ament(package: Package) -> bool:
     ) or bool(cmake.find(*PACKAGE_COMMANDS))
 
 
+def is_built_for_ros1(package: Package) -> bool:
+    """Tell whether CMake builds a package with catkin alone, or a bridge to ROS 1."""
+    try:
+        is_bridge = bool(package.cmake.find("find_ros1_package"))
+        return is_bridge or (package.cmake.finds("catkin") and not uses_ament(package))
+    except ViewError:
+        return False
+
+
 def has_unknown_commands(package: Package) -> bool:
     """Tell whether commands of another package may do anything, such as call ament_package."""
     cmake = package.cmake

@@ -59,9 +59,7 @@ def required_packages(package: Package) -> list[Requirement]:
     """Return the imports from other packages, once each; unknown modules are skipped."""
     result: dict[str, Requirement] = {}
     local = _local_names(package).union(package.workspace.policy.implicit)
-    for path, imports in imports_by_path(package):
-        if not is_shipped(package, path) or _is_of_ros1(imports):
-            continue
+    for path, imports in shipped_imports(package):
         for item in imports:
             keys = _keys(package, item, local)
             if not keys:
@@ -77,6 +75,13 @@ def required_packages(package: Package) -> list[Requirement]:
             elif not for_launch and not earlier.is_stronger_than(need):
                 result[item.root] = earlier._replace(for_launch=False)
     return sorted(result.values(), key=lambda need: need.location)
+
+
+def shipped_imports(package: Package) -> Iterator[tuple[str, Sequence[Import]]]:
+    """Yield the imports of the files that are installed or are tests; not those of ROS 1."""
+    for path, imports in imports_by_path(package):
+        if is_shipped(package, path) and not _is_of_ros1(imports):
+            yield path, imports
 
 
 def declared(package: Package, *, for_tests: bool) -> Declared:

@@ -1,0 +1,144 @@
+"""PX031: the distribution has the packages that are used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError
+from scaffold.api.cmake import is_built_for_ros1
+from scaffold.api.distributions import removed_package
+from scaffold.api.interfaces import interface_files
+from scaffold.api.manifest import requirements
+
+_NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
+
+
+class PackageRemoved(Rule):
+    """A package is used that an older distribution has, and this one has no more.
+
+    Said of packages that come from ROS 2 itself, the repositories of ``ros2.repos``, whose end is
+    sure. One of this name in the workspace takes its place; a dependency, an import or a
+    ``find_package`` for other distributions only is left alone.
+
+    **Why.** ``rosdep install`` finds no rule for it, CMake stops at ``find_package``, and an import
+    ends with ``ModuleNotFoundError``.
+
+    **Fix.** Use what took its place. No automatic fix: the code has to change with it.
+
+    **Source.** ``distribution.yaml`` of each distribution in ros/rosdistro, and ``ros2.repos``.
+    """
+
+    code = "PX031"
+    name = "package-removed"
+    examples = (
+        Example(
+            "still there",
+            {
+                "package.xml": _NAMED.format("  <depend>actionlib_msgs</depend>\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "from actionlib_msgs.msg import GoalStatus\n",
+            },
+        ),
+        Example(
+            "for older distributions, or where it is installed",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                '  <depend condition="$ROS_DISTRO == jazzy">actionlib_msgs</depend>\n'
+                "</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(actionlib_msgs QUIET)\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "try:\n    from actionlib_msgs.msg import GoalID\n"
+                "except ImportError:\n    GoalID = None\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "a package of the workspace",
+            {
+                "package.xml": _NAMED.format("  <depend>actionlib_msgs</depend>\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "from actionlib_msgs.msg import GoalStatus\n",
+            },
+            neighbours={
+                "actionlib_msgs": {
+                    "package.xml": "<package><name>actionlib_msgs</name></package>\n",
+                    "CMakeLists.txt": "project(actionlib_msgs)\n"
+                    "rosidl_generate_interfaces(${PROJECT_NAME} msg/GoalStatus.msg)\n",
+                    "msg/GoalStatus.msg": "int8 status\n",
+                }
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "declared, found, imported, in an interface",
+            {
+                "package.xml": _NAMED.format("  <depend>actionlib_msgs</depend>\n"),
+                "CMakeLists.txt": "project(talker)\nfind_package(actionlib_msgs REQUIRED)\n"
+                "rosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n",
+                "msg/Beat.msg": "int32 count\nactionlib_msgs/GoalStatus[] states\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "from actionlib_msgs.msg import GoalStatus\n",
+            },
+            Report(
+                "CMakeLists.txt:2:14",
+                "actionlib_msgs was removed in Lyrical: CMake stops; use "
+                "action_msgs, whose GoalStatus and GoalInfo have other fields "
+                "(common_interfaces 280)",
+            ),
+            Report(
+                "msg/Beat.msg:2:1",
+                "actionlib_msgs was removed in Lyrical: the build stops; use "
+                "action_msgs, whose GoalStatus and GoalInfo have other fields "
+                "(common_interfaces 280)",
+            ),
+            Report(
+                "package.xml:3:11",
+                "actionlib_msgs was removed in Lyrical: rosdep finds no rule; use "
+                "action_msgs, whose GoalStatus and GoalInfo have other fields "
+                "(common_interfaces 280)",
+            ),
+            Report(
+                "talker/node.py:1:1",
+                "actionlib_msgs was removed in Lyrical: ModuleNotFoundError; use "
+                "action_msgs, whose GoalStatus and GoalInfo have other fields "
+                "(common_interfaces 280)",
+            ),
+            distro="lyrical",
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.manifest.build_type == "catkin" or is_built_for_ros1(package):
+            return
+        for name, at, failure in _uses(package):
+            change = removed_package(name)
+            if change is not None and package.workspace.get(name) is None:
+                message = f"{name} {change.state}: {failure}; {change.advice} ({change.source})"
+                yield self.report(at, message)
+
+
+def _uses(package: Package) -> Iterator[tuple[str, Location, str]]:
+    """Yield the packages that are used on the target, where, and what happens without them."""
+    for dependency in package.manifest.dependencies:
+        if dependency.active and dependency.kind != "doc_depend":
+            yield dependency.name, dependency.location, "rosdep finds no rule"
+    for _, imports in requirements.shipped_imports(package):
+        for item in imports:
+            if not item.guarded:
+                yield item.root, item.location, "ModuleNotFoundError"
+    yield from _uses_of_build(package)
+
+
+def _uses_of_build(package: Package) -> Iterator[tuple[str, Location, str]]:
+    try:
+        packages, files = package.cmake.found_packages, interface_files(package)
+    except ViewError:
+        return
+    for found in packages:
+        if found.required and not package.cmake.is_off(found.command):
+            yield found.name, found.location, "CMake stops"
+    for file in files:
+        for section in file.definition.sections:
+            for field in section.fields:
+                if field.type.package:
+                    yield field.type.package, field.type_location, "the build stops"
