@@ -230,6 +230,18 @@ _FORMS = {
         ),
         [8],
     ),
+    "the environment of a launch context": (
+        (
+            "def setup(context):\n    if context.environment['ROS_DISTRO'] == 'jazzy': {}\n"
+            "    env = context.environment\n    if env.get('ROS_DISTRO', '') in ('lyrical',): {}\n"
+            "    if context.environment.get('HOME') == 'jazzy': {}\n"
+        ),
+        [8, 9],
+    ),
+    "the environment under a name": (
+        "E = os.environ\nif E['ROS_DISTRO'] == 'jazzy' or E.get('ROS_DISTRO') < 'k':\n    {}\n",
+        [],
+    ),
     "a claim": (
         (
             "def test_a():\n    assert D == 'jazzy'\n    {}\n"

@@ -14,7 +14,7 @@ from scaffold.model.python.module import PythonModule
 from scaffold.model.python.running_version import SWAPPED, RunningVersion
 from scaffold.model.python.values import COMPARISONS, UNKNOWN, is_known
 
-_GETTERS = frozenset({"os.environ.get", "os.getenv"})
+_GETTER = "os.getenv"
 _SUBSTITUTION = "launch.substitutions.EnvironmentVariable"
 _ORDERS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Lt: operator.lt,
@@ -121,8 +121,12 @@ class _DistributionEvaluator(Evaluator):
         """Return the value of the variable, or what a method says of a text."""
         match node:
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if (
-                key == VARIABLE and self.module.qualified_name(func) in _GETTERS
+                key == VARIABLE and self.module.qualified_name(func) == _GETTER
             ):
+                return self._asked()
+            case ast.Call(
+                func=ast.Attribute(attr="get", value=holder), args=[ast.Constant(value=key), *_]
+            ) if key == VARIABLE and self._is_environment(holder):
                 return self._asked()
             case ast.Call(
                 func=ast.Attribute(attr="startswith" | "endswith" as method, value=holder),
@@ -152,6 +156,17 @@ class _DistributionEvaluator(Evaluator):
         match _only_value(self.module, node) or node:
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if key == VARIABLE:
                 return self.module.qualified_name(func) == _SUBSTITUTION
+        return False
+
+    def _is_environment(self, node: ast.expr) -> bool:
+        """Tell whether an expression is the environment, of the process or a launch context."""
+        node = _only_value(self.module, node) or node
+        if self.module.qualified_name(node) == "os.environ":
+            return True
+        match node:
+            case ast.Attribute(value=ast.Name() as holder, attr="environment"):
+                found = self.module.index.lookup(holder.id, holder)
+                return found is not None and [item.kind for item in found[1]] == ["parameter"]
         return False
 
     def _returned(self, name: str, at: ast.expr) -> object:
@@ -198,7 +213,7 @@ class _DistributionEvaluator(Evaluator):
     def _subscript(self, node: ast.Subscript) -> object:
         match node:
             case ast.Subscript(value=value, slice=ast.Constant(value=key)) if key == VARIABLE:
-                if self.module.qualified_name(value) == "os.environ":
+                if self._is_environment(value):
                     return self._asked()
             case ast.Subscript(
                 value=holder,
@@ -225,7 +240,7 @@ class _DistributionEvaluator(Evaluator):
     def _pair(self, left: ast.expr, compare: ast.cmpop, right: ast.expr) -> object:
         """Return what a comparison of two expressions is worth."""
         if isinstance(compare, ast.In | ast.NotIn):
-            if self.module.qualified_name(right) == "os.environ":
+            if self._is_environment(right):
                 return self._is_set(left, compare)
             return self._contained(self.evaluate(left), compare, self.evaluate(right))
         first, second, kind = self.evaluate(left), self.evaluate(right), type(compare)
