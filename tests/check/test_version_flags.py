@@ -60,6 +60,7 @@ _GUARDS = {
         f"def f():\n    if a is not None:\n        return\n    {_WARN}"
     ),
     "an import with another one": f"{_BOTH}if NEW:\n    {_WARN}",
+    "a handler of any error": "try:\n    L.warn('x')\nexcept Exception:\n    L.warning('x')\n",
 }
 _OTHERS = {
     "a feature of something else": f"NEW = hasattr(L, 'port')\nif not NEW:\n    {_WARN}",
@@ -71,6 +72,8 @@ _OTHERS = {
         "try:\n    import torch\n    NEW = True\nexcept ImportError:\n    NEW = False\n"
         f"if not NEW:\n    {_WARN}"
     ),
+    "a handler that logs": "try:\n    L.warn('x')\nexcept Exception:\n    L.error('no x')\n",
+    "a handler that ends": "try:\n    L.warn()\nexcept Exception:\n    L.close()\n",
     "a package that is there": (
         "try:\n    import rclpy\nexcept ImportError:\n    rclpy = None\n"
         f"if rclpy is not None:\n    {_WARN}"

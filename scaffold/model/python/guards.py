@@ -94,14 +94,24 @@ def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandle
                 is_same = module.text(target) == module.text(other)
             case ast.Return(value=ast.expr()), ast.Return(value=ast.expr() as value):
                 is_same = True
-            case ast.Expr(value=ast.Call(func=first)), ast.Expr(
-                value=ast.Call(func=second) as value
-            ):
-                is_same = module.text(first) == module.text(second)
+            case ast.Expr(value=ast.Call() as first), ast.Expr(value=ast.Call() as value):
+                is_same = _does_the_same(module, first, value)
             case _:
                 continue
         if is_same and not isinstance(value, ast.Constant):
             return True
+    return False
+
+
+def _does_the_same(module: PythonModule, first: ast.Call, second: ast.Call) -> bool:
+    """Tell whether two calls are of one function, or of methods that are given the same."""
+    if module.text(first.func) == module.text(second.func):
+        return True
+    match first.func, second.func:
+        case ast.Attribute(value=one), ast.Attribute(value=other):
+            given = [[*map(ast.unparse, (*it.args, *it.keywords))] for it in (first, second)]
+            is_given = bool(given[0]) and given[0] == given[1]
+            return is_given and module.text(one) == module.text(other)
     return False
 
 
