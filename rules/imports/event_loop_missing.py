@@ -13,7 +13,8 @@ from scaffold.api.rclpy import is_asked_for
 _FIRST = (3, 14)
 """The Python that makes no event loop for whoever asks for the current one."""
 _NAME = "asyncio.get_event_loop"
-_MAKERS = ("set_event_loop", "nest_asyncio", "qasync", "uvloop")
+_SETTER = "set_event_loop"
+_MAKERS = ("nest_asyncio", "qasync", "uvloop")
 """What makes a loop the current one, or changes which one that is."""
 _RUNNERS = ("asyncio.run", "run_until_complete", "run_forever", "create_task")
 """What runs a loop, from which nodes may be spun."""
@@ -83,6 +84,23 @@ class EventLoopMissing(PythonRule):
             distro="lyrical",
         ),
         Example(
+            "a policy of asyncio's own, which sets no loop",
+            {
+                "talker.py": _MAIN.format(
+                    "asyncio.set_event_loop_policy(asyncio.DefaultEventLoopPolicy())", _OLD
+                ),
+                "listener.py": _MAIN.format(
+                    "import loops\n\nasyncio.set_event_loop_policy(loops.Policy())", _OLD
+                ),
+            },
+            Report(
+                "talker.py:10:12",
+                "Python 3.14 makes no event loop here: RuntimeError; use "
+                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "in a function that main calls",
             {
                 "talker.py": f"import asyncio\n\n\ndef loop():\n    return {_OLD}\n\n\n"
@@ -145,7 +163,7 @@ class EventLoopMissing(PythonRule):
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         if target().python < _FIRST or not module.mentions("get_event_loop"):
             return
-        if any(maker in module.source.text for maker in _MAKERS):
+        if module.mentions(*_MAKERS) or _sets_loop(module):
             return
         for call in module.walk(ast.Call):
             if module.qualified_name(call.func) != _NAME or not _is_at_start(module, call):
@@ -157,6 +175,19 @@ class EventLoopMissing(PythonRule):
                 "asyncio.run(), or set one that asyncio.new_event_loop() makes"
             )
             yield self.report(module.location(call), message)
+
+
+def _sets_loop(module: PythonModule) -> bool:
+    """Tell whether a file sets a loop, or a policy that may: those of asyncio do not."""
+    policies = [
+        policy
+        for call in module.walk(ast.Call)
+        if module.qualified_name(call.func) == "asyncio.set_event_loop_policy"
+        for policy in call.args
+        if isinstance(policy, ast.Call)
+        and (module.qualified_name(policy.func) or "").startswith("asyncio.")
+    ]
+    return module.source.text.count(_SETTER) > len(policies)
 
 
 def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
