@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.parameters import declared_by
@@ -21,13 +21,26 @@ _NODE = (
     "        self.create_timer(1.0 / self.rate, self.tick)\n\n"
     "    def tick(self):\n        pass\n"
 )
+_COMPARED = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('on', {})\n"
+    "        self.declare_parameter('rate', 1.0)\n"
+    "        self.on = self.get_parameter('on').value {}\n"
+)
+_SCALARS: Mapping[str, tuple[type, ...]] = {
+    **dict.fromkeys(("bool", "double", "integer"), (bool, int, float)),
+    "string": (str,),
+}
+"""The Python types of what parameters may equal."""
 
 
 class ParameterValueUnfit(RclpyRule):
     """The value of a parameter is used as if it had another type than declared.
 
     **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'str'``, ``'float' object
-    cannot be interpreted as an integer``.
+    cannot be interpreted as an integer``. A bool never equals ``'true'``: ``==`` is always false,
+    and nothing complains.
 
     **Fix.** Declare the parameter with a default of the type that the code needs.
 
@@ -60,6 +73,41 @@ class ParameterValueUnfit(RclpyRule):
             Report("15:24", "'rate' is declared as double, but range() takes integers: TypeError"),
             Report("16:19", "'rate' is declared as double, but 'Hz: ' is a str: TypeError"),
         ),
+        Example(
+            "a bool compared with text, a number with text, text with a number",
+            {
+                "talker.py": _COMPARED.format("False", "== 'true'")
+                + "        return self.get_parameter('rate').value in ('fast', 'slow')\n",
+                "other.py": _COMPARED.format("'1'", "!= 1"),
+            },
+            Report("other.py:9:19", "'on' is declared as string, which never equals 1"),
+            Report("talker.py:9:19", "'on' is declared as bool, which never equals 'true'"),
+            Report("talker.py:10:16", "'rate' is declared as double, which never equals 'fast'"),
+        ),
+        Example(
+            "values of the types",
+            {
+                "talker.py": _COMPARED.format("False", "== True")
+                + "        return self.get_parameter('rate').value in (1, 2.5)\n",
+                "other.py": _COMPARED.format("'1'", "!= '1'"),
+                "truth.py": _COMPARED.format("False", "== 1"),
+                "both.py": _COMPARED.format("False", "")
+                + "        on = self.get_parameter('on').value\n"
+                "        return on is True or on == 'true'\n",
+            },
+        ),
+        Example(
+            "a parameter of any type",
+            {
+                "talker.py": _COMPARED.replace(
+                    "'on', {}", "'on', False, ParameterDescriptor(dynamic_typing=True)"
+                )
+                .replace(
+                    "from rclpy", "from rcl_interfaces.msg import ParameterDescriptor\nfrom rclpy"
+                )
+                .format("== 'true'")
+            },
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -68,6 +116,10 @@ class ParameterValueUnfit(RclpyRule):
         for node, problem in _problems(package, file):
             if not is_handled(file.module, node, "TypeError"):
                 yield self.report(file.module.location(node), problem)
+        for comparison in file.module.walk(ast.Compare):
+            problem = _never_equal(package, file, comparison)
+            if problem:
+                yield self.report(file.module.location(comparison), problem)
 
 
 def _problems(package: Package, file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
@@ -112,6 +164,40 @@ def _operand(
     if kind in _NUMBERS and isinstance(value, str) and isinstance(operator, ast.Add):
         return f"{name!r} is declared as {kind}, but {value!r} is a str: TypeError"
     return ""
+
+
+def _never_equal(package: Package, file: RclpyFile, comparison: ast.Compare) -> str:
+    """Return the message for the value of a parameter that is compared with another type."""
+    match comparison:
+        case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[right]):
+            pairs = [(left, [right]), (right, [left])]
+        case ast.Compare(
+            left=left,
+            ops=[ast.In() | ast.NotIn()],
+            comparators=[ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items)],
+        ):
+            pairs = [(left, items)]
+        case _:
+            return ""
+    for asked, others in pairs:
+        values = [file.evaluator.evaluate(other) for other in others]
+        if not values or not all(isinstance(x, bool | int | float | str) for x in values):
+            continue
+        name, kind = _declared(package, file, asked)
+        allowed = _SCALARS.get(kind)
+        is_fit = not allowed or any(isinstance(value, allowed) for value in values)
+        if not is_fit and not _is_alternative(file, comparison, asked):
+            return f"{name!r} is declared as {kind}, which never equals {values[0]!r}"
+    return ""
+
+
+def _is_alternative(file: RclpyFile, comparison: ast.Compare, asked: ast.expr) -> bool:
+    """Return whether the value is asked for in another way as well: ``x or x == 'true'``."""
+    parent = file.module.parent(comparison)
+    if not isinstance(parent, ast.BoolOp):
+        return False
+    others = [value for value in parent.values if value is not comparison]
+    return any(file.module.text(asked) in file.module.text(other) for other in others)
 
 
 def _declared(package: Package, file: RclpyFile, node: ast.expr) -> tuple[str, str]:
