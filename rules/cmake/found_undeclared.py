@@ -6,11 +6,17 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
-from scaffold.api.distributions import removed_package
+from scaffold.api.cmake import FoundPackage
+from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
+_ELSEWHERE = (
+    '<package format="3">\n  <name>talker</name>\n{}'
+    '  <depend condition="$ROS_DISTRO == humble">rclcpp</depend>\n'
+    '  <depend condition="$SIMULATION == yes">nav_msgs</depend>\n</package>\n'
+)
 
 
 class FoundUndeclared(Rule):
@@ -19,7 +25,8 @@ class FoundUndeclared(Rule):
     **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the
     two packages in the wrong order.
 
-    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only.
+    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only; where
+    there is one whose condition leaves out the distribution, change the condition.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149.
     """
@@ -80,6 +87,36 @@ class FoundUndeclared(Rule):
             },
         ),
         Example(
+            "declared for another distribution",
+            {
+                "package.xml": _ELSEWHERE.format(""),
+                "CMakeLists.txt": _LISTS.format("nav_msgs")
+                + "if(USES_NODES)\n  find_package(rclcpp REQUIRED)\nendif()\n",
+            },
+            Report(
+                "CMakeLists.txt:2:14",
+                "finds 'rclcpp', and line 3 of package.xml declares it only if "
+                "$ROS_DISTRO == humble, which leaves out Jazzy; change the "
+                "condition, or find it under the same one",
+            ),
+        ),
+        Example(
+            "what comes along with a dependency for another distribution",
+            {
+                "package.xml": _ELSEWHERE.format(""),
+                "CMakeLists.txt": "project(talker)\nfind_package(rcl_interfaces REQUIRED)\n",
+            },
+            Report(
+                "CMakeLists.txt:2:14",
+                "finds 'rcl_interfaces', which no dependency in package.xml names; "
+                "add <build_depend>rcl_interfaces</build_depend>",
+                fix="declare rcl_interfaces",
+            ),
+            fixed={
+                "package.xml": _ELSEWHERE.format("  <build_depend>rcl_interfaces</build_depend>\n")
+            },
+        ),
+        Example(
             "not declared",
             {"package.xml": _MANIFEST.format(""), "CMakeLists.txt": _LISTS.format("std_msgs")},
             Report(
@@ -99,36 +136,52 @@ class FoundUndeclared(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        declared = manifest.declared_names
-        there = requirements.declared(package, for_tests=True)
-        along = transitive_dependencies(declared) | there.along | there.direct
         reported: set[str] = set()
-        for found_package in package.cmake.found_packages:
-            name = found_package.name
-            if name == "rosidl_default_generators" and package.cmake.find(
-                "rosidl_generate_interfaces"
-            ):
-                continue  # interface-declarations-missing says it, with what else is missing
-            if name in reported or name in declared or name in along or name == package.name:
+        for found in _undeclared(package):
+            name = found.name
+            if name in reported or not found.required or package.cmake.is_off(found.command):
                 continue
-            if f"lib{name}-dev" in declared:
-                continue  # the package of the system that has it
-            if name not in ROS_PACKAGES and package.workspace.get(name) is None:
-                continue
-            if removed_package(name) and package.workspace.get(name) is None:
-                continue  # package-removed says it
-            if not found_package.required or package.cmake.is_off(found_package.command):
+            other = manifest.left_out({name}, "build", "build_export", "run", "test")
+            if other is not None:
+                if [*package.cmake.conditions(found.command)]:
+                    continue  # which may be true where the dependency is there
+                reported.add(name)
+                message = (
+                    f"finds {name!r}, and line {other.location.line} of package.xml declares it "
+                    f"only if {other.condition}, which leaves out {target().title}; change the "
+                    f"condition, or find it under the same one"
+                )
+                yield self.report(found, message)
                 continue
             reported.add(name)
-            tag = "test_depend" if found_package.in_testing else "build_depend"
-            if (
-                name.startswith(("ament_cmake", "rosidl_default_generators"))
-                and not found_package.in_testing
-            ):
-                tag = "buildtool_depend"
+            tag = _tag(found)
             message = (
                 f"finds {name!r}, which no dependency in package.xml names; "
                 f"add <{tag}>{name}</{tag}>"
             )
             fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
-            yield self.report(found_package, message, fix, cause=f"dependency {name}")
+            yield self.report(found, message, fix, cause=f"dependency {name}")
+
+
+def _undeclared(package: Package) -> Iterator[FoundPackage]:
+    """Yield the packages of ROS that are looked for, and that no dependency brings along."""
+    declared = {item.name for item in package.manifest.dependencies if item.may_be_active}
+    there = requirements.declared(package, for_tests=True)
+    names = {package.name, *declared, *transitive_dependencies(declared), *there.along}
+    names |= there.direct
+    for found in package.cmake.found_packages:
+        name, neighbor = found.name, package.workspace.get(found.name)
+        if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):
+            continue  # interface-declarations-missing says it, with what else is missing
+        if name in names or f"lib{name}-dev" in declared:  # the package of the system that has it
+            continue
+        if neighbor is None and (name not in ROS_PACKAGES or removed_package(name)):
+            continue  # not known; or package-removed says it
+        yield found
+
+
+def _tag(found: FoundPackage) -> str:
+    if found.in_testing:
+        return "test_depend"
+    is_tool = found.name.startswith(("ament_cmake", "rosidl_default_generators"))
+    return "buildtool_depend" if is_tool else "build_depend"

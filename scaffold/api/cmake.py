@@ -16,7 +16,7 @@ from scaffold.model.cmake.ament import (
     runs_with_python,
     uses_ament,
 )
-from scaffold.model.cmake.lists import CMakeLists, Install, InstallItem
+from scaffold.model.cmake.lists import CMakeLists, FoundPackage, Install, InstallItem
 from scaffold.model.cmake.parser import Argument, Command
 from scaffold.model.cmake.rosidl import (
     Generation,
@@ -40,6 +40,7 @@ __all__ = [
     "Argument",
     "CMakeLists",
     "Command",
+    "FoundPackage",
     "Generation",
     "Install",
     "InstallItem",
