@@ -4,7 +4,9 @@ The keys of an entry: ``removed`` and ``deprecated`` are the first distributions
 ``changed`` is the first with the new meaning; ``use`` is the last part of the name that takes its
 place, where ``*`` is what the same sign at the end of the old name stands for; ``since`` is the
 first distribution that has this name, all of them without it; ``advice`` is for people. Of a call,
-``since`` is the first distribution whose version of it takes the argument in question.
+``since`` is the first distribution whose version of it takes the argument in question. With
+``having`` or ``without``, an entry of a name is about the calls of it, and the calls that are
+given it, with or without that argument. ``numpy.dtype.name`` is the string ``"name"`` as a type.
 """
 
 from __future__ import annotations
@@ -42,6 +44,11 @@ class Change(NamedTuple):
     """The keyword without which a call is meant."""
     raises: str = ""
     """The exception by which a call fails now; code that catches it is ready for the change."""
+
+    @property
+    def is_of_call(self) -> bool:
+        """Whether it is about calls that have an argument, or lack one; the name itself stays."""
+        return bool(self.having or self.without)
 
     @property
     def is_removed(self) -> bool:
@@ -116,7 +123,14 @@ def removed_name(name: str) -> Change | None:
     Args:
         name: The full name, without ``*``.
     """
-    return next((item for item in of_kind("name") if name in item.names and item.is_removed), None)
+    return next(
+        (
+            item
+            for item in of_kind("name")
+            if name in item.names and item.is_removed and not item.is_of_call
+        ),
+        None,
+    )
 
 
 def removed_package(name: str) -> Change | None:

@@ -20,6 +20,8 @@ DOCS = Path(__file__).parent.parent / "docs" / "distributions"
 FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher", "ros2 bag record"})
 """What rules of their own fix."""
 KINDS = ("name", "call", "command", "launch", "executable", "interface", "package")
+_LISTED = 30
+"""How many names of a change have a line each."""
 _INTRODUCTION = """\
 # Distributions
 
@@ -148,7 +150,8 @@ def _table(title: str, found: list[Change]) -> Iterator[str]:
         later = f" (from {item.since.title} on)" if is_new else ""
         has_fix = item.use and item not in changes.of_kind("executable")
         fixed = "yes" if has_fix or item.names[0] in FIXED else ""
-        names = "<br>".join(f"`{name}`" for name in item.names)
+        separator = "<br>" if len(item.names) <= _LISTED else ", "
+        names = separator.join(f"`{name}`" for name in item.names)
         yield f"| {names} | {since} | {instead}{later} | {fixed} | {item.source} |"
     yield ""
 

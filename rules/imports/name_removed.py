@@ -35,7 +35,8 @@ class NameRemoved(PythonRule):
     """Code uses a name that the distribution had and does not have any more.
 
     **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed what
-    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies.
+    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies. Its
+    NumPy and its Python lack names as well, and arguments: ``TypeError`` or ``ValueError``.
 
     **Fix.** Write the name that took its place. Where that is not on all distributions that the
     package is kept for, ask for it first.
@@ -212,6 +213,123 @@ class NameRemoved(PythonRule):
                 "6:9",
                 "numpy.ndarray.newbyteorder was removed in Lyrical: AttributeError; "
                 "use values.view(values.dtype.newbyteorder(order)) (NumPy 2.0)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "arrays with their names, as parameters and from methods",
+            {
+                "area.py": "import numpy as np\n\n\ndef area(values: np.ndarray, shape):\n"
+                "    first = np.zeros(3).astype(np.uint8).reshape(1, 3)\n"
+                "    return values.tostring(), first.tostring(), shape.tostring()\n"
+            },
+            Report(
+                "6:12",
+                "numpy.ndarray.tostring was removed in Lyrical: AttributeError; use "
+                "tobytes (NumPy 2.3)",
+                fix="write tobytes",
+            ),
+            Report(
+                "6:31",
+                "numpy.ndarray.tostring was removed in Lyrical: AttributeError; use "
+                "tobytes (NumPy 2.3)",
+                fix="write tobytes",
+            ),
+            fixed={
+                "area.py": "import numpy as np\n\n\ndef area(values: np.ndarray, shape):\n"
+                "    first = np.zeros(3).astype(np.uint8).reshape(1, 3)\n"
+                "    return values.tobytes(), first.tobytes(), shape.tostring()\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "types by their names, and strings of others",
+            {
+                "area.py": "import numpy as np\nfrom pandas import Series\n\n"
+                "a = np.zeros(3, 'float_')\nb = np.full(3, 1, dtype=\"int0\")\n"
+                "c = a.astype('bool8')\nd = np.dtype('f8'), np.dtype('str_'), np.array(['int0'])\n"
+                "e = Series([1], dtype='int0').astype('int0')\n"
+            },
+            Report(
+                "4:17",
+                "numpy.dtype('float_') was removed in Lyrical: TypeError; use float64 (NumPy 2.0)",
+                fix="write float64",
+            ),
+            Report(
+                "5:25",
+                "numpy.dtype('int0') was removed in Lyrical: TypeError; use intp (NumPy 2.0)",
+                fix="write intp",
+            ),
+            Report(
+                "6:14",
+                "numpy.dtype('bool8') was removed in Lyrical: TypeError; use bool_ (NumPy 2.0)",
+                fix="write bool_",
+            ),
+            fixed={
+                "area.py": "import numpy as np\nfrom pandas import Series\n\n"
+                "a = np.zeros(3, 'float64')\nb = np.full(3, 1, dtype=\"intp\")\n"
+                "c = a.astype('bool_')\nd = np.dtype('f8'), np.dtype('str_'), np.array(['int0'])\n"
+                "e = Series([1], dtype='int0').astype('int0')\n"
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "what is internal in NumPy 2, and what is not",
+            {
+                "area.py": "import numpy as np\nfrom numpy.lib.arraysetops import unique\n"
+                "from numpy.lib.stride_tricks import as_strided\n\n"
+                "total = np.lib.function_base.trapz(unique([1]))\n"
+                "values = np.lib.pad(as_strided([1]), 1)\n"
+            },
+            Report(
+                "2:6",
+                "numpy.lib.arraysetops was removed in Lyrical: ModuleNotFoundError; "
+                "it was internal: use the names of numpy itself (NumPy 2.0)",
+            ),
+            Report(
+                "5:9",
+                "numpy.lib.function_base was removed in Lyrical: AttributeError; it "
+                "was internal: use the names of numpy itself (NumPy 2.0)",
+            ),
+            Report(
+                "6:10",
+                "numpy.lib.pad was removed in Lyrical: AttributeError; use the same "
+                "name of numpy itself (NumPy 2.0)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
+            "arguments that are gone, and one that is needed",
+            {
+                "area.py": "from argparse import ArgumentParser, BooleanOptionalAction\n"
+                "from email.utils import localtime\n\nfrom numpy import fromstring\n\n\n"
+                "def area(data):\n    parser = ArgumentParser()\n"
+                "    parser.add_argument('--a', action=BooleanOptionalAction, type=bool)\n"
+                "    localtime(isdst=1)\n    return fromstring(data, dtype='uint8')\n",
+                "other.py": "from argparse import ArgumentParser, BooleanOptionalAction\n"
+                "from email.utils import localtime\n\nfrom numpy import fromstring\n\n\n"
+                "def area(data, *some, **more):\n    parser = ArgumentParser()\n"
+                "    parser.add_argument('--a', action=BooleanOptionalAction, help='more')\n"
+                "    parser.add_argument('--b', type=bool)\n    localtime(data)\n"
+                "    try:\n        return fromstring(data, dtype='uint8')\n"
+                "    except ValueError:\n        fromstring(*some, **more)\n"
+                "    return fromstring(data, float, -1, ' '), fromstring(data, sep=' ')\n",
+            },
+            Report(
+                "area.py:9:62",
+                "argparse.BooleanOptionalAction with type was removed in Lyrical: "
+                "TypeError; leave it out, it had no effect (Python 3.14)",
+            ),
+            Report(
+                "area.py:10:15",
+                "email.utils.localtime with isdst was removed in Lyrical: "
+                "TypeError; leave it out, it had no effect (Python 3.14)",
+            ),
+            Report(
+                "area.py:11:12",
+                "numpy.fromstring without sep was removed in Lyrical: ValueError; "
+                "use numpy.frombuffer for bytes, whose array is read-only, and sep "
+                "for text (NumPy 2.3)",
             ),
             distro="lyrical",
         ),

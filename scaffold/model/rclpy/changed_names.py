@@ -14,20 +14,13 @@ from scaffold.model.python.guards import all_conditions, has_fallback, is_handle
 from scaffold.model.python.import_flags import asks_which_release
 from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, last_names
 from scaffold.model.rclpy.api import class_of
+from scaffold.model.rclpy.arrays import ARRAY, DTYPE, is_array, type_names
 from scaffold.model.rclpy.file import RclpyFile
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
 _LOGGER = "rclpy.impl.rcutils_logger.RcutilsLogger"
-_ARRAY = "numpy.ndarray"
-_ARRAY_MAKERS = frozenset(
-    f"numpy.{name}"
-    for name in (
-        *("arange", "array", "asarray", "concatenate", "copy", "empty", "eye", "frombuffer"),
-        *("full", "hstack", "identity", "linspace", "loadtxt", "ones", "stack", "vstack", "zeros"),
-    )
-)
-"""Functions that return arrays."""
+_OF_IMPORT = frozenset({"ImportError", "ModuleNotFoundError"})
 _ABOVE = {"ModuleNotFoundError": "ImportError"}
 """The class above an error."""
 _VERSION = re.compile(
@@ -37,6 +30,8 @@ _VERSION = re.compile(
 """Matches conditions that ask for a version of Python, of ROS or of a package."""
 _FINDERS = frozenset({"importlib.util.find_spec", "pkgutil.find_loader", IMPORT_OR_SKIP})
 """Functions that ask whether there is a module."""
+_MOST = 3
+"""With more arguments that have no name, a call may give any of them by its position."""
 _CONSTANT = re.compile(r"\b[A-Z_][A-Z0-9_]*")
 
 
@@ -62,15 +57,21 @@ def changed_uses(module: PythonModule, changes: Sequence[Change]) -> Iterator[Ch
         module: The file.
         changes: Of names.
     """
-    wanted = [change for change in changes if module.mentions(*map(_word, change.names))]
+    wanted = [
+        change for change in changes if any(_is_mentioned(module, name) for name in change.names)
+    ]
     if wanted:
         search = _Search(module, wanted)
         yield from search.imports()
         yield from search.attributes()
+        yield from search.calls()
+        yield from search.type_names()
 
 
-def _word(name: str) -> str:
-    return name.rpartition(".")[2].rstrip("*")
+def _is_mentioned(module: PythonModule, name: str) -> bool:
+    """Tell whether a file may use a name; methods of objects of rclpy need no import of it."""
+    root, word = name.partition(".")[0], name.rpartition(".")[2].rstrip("*")
+    return module.mentions(word) and (root == "rclpy" or module.mentions(root))
 
 
 class _Search:
@@ -78,8 +79,15 @@ class _Search:
         self._module = module
         self._path = module.source.path
         self._file = RclpyFile.of(module)
+        self._calls = [change for change in changes if change.is_of_call]
         self._plain = {
-            name: change for change in changes for name in change.names if not name.endswith("*")
+            name: change
+            for change in changes
+            for name in change.names
+            if not name.endswith("*") and not change.is_of_call
+        }
+        self._members = {
+            name.rpartition(".")[2] for name in self._plain if not name.startswith("numpy.")
         }
         self._patterns = [
             (name.rstrip("*"), change)
@@ -148,14 +156,43 @@ class _Search:
                 yield from self._use(node, at, name, "AttributeError", matched, place)
                 break
 
+    def calls(self) -> Iterator[ChangedUse]:
+        """Yield calls with or without an argument that changed."""
+        for call in self._module.walk(ast.Call) if self._calls else ():
+            given = [call.func, *(word.value for word in call.keywords)]
+            names = frozenset().union(*map(self._module.qualified_names, given))
+            for change in self._calls:
+                name = next((name for name in change.names if name in names), "")
+                node = _argument_meant(call, change) if name else None
+                if node is not None:
+                    keyword = f"with {change.having}" if change.having else ""
+                    shown = f"{name} {keyword or f'without {change.without}'}"
+                    at = self._module.location(node)
+                    error = change.raises or "TypeError"
+                    for use in self._use(call, at, name, error, (change, change.use), (0, 0)):
+                        yield use._replace(shown=shown)
+
+    def type_names(self) -> Iterator[ChangedUse]:
+        """Yield strings that name a type of NumPy."""
+        if not any(name.startswith(f"{DTYPE}.") for name in self._plain):
+            return
+        for node in type_names(self._file):
+            name = f"{DTYPE}.{node.value!s}"
+            matched = self._match(name)
+            if matched is not None:
+                start, end = self._module.span(node)
+                at, place = self._module.location(node), (start + 1, end - 1)
+                for use in self._use(node, at, name, "TypeError", matched, place):
+                    yield use._replace(shown=f"{DTYPE}({node.value!r})")
+
     def _names(self, node: ast.Attribute) -> Iterator[str]:
         yield from sorted(self._module.qualified_names(node))
         if f"{_LOGGER}.{node.attr}" in self._plain and self._is_logger(node.value):
             yield f"{_LOGGER}.{node.attr}"
-        elif f"{_ARRAY}.{node.attr}" in self._plain:
-            if self._is_array(node.value):
-                yield f"{_ARRAY}.{node.attr}"
-        elif any(name.endswith(f".{node.attr}") for name in self._plain):
+        elif f"{ARRAY}.{node.attr}" in self._plain:
+            if is_array(self._file, node.value):
+                yield f"{ARRAY}.{node.attr}"
+        elif node.attr in self._members:
             class_ = class_of(self._file, node.value)
             if class_ is not None:
                 yield f"{class_}.{node.attr}"
@@ -170,17 +207,10 @@ class _Search:
                 return self._is_logger(of)
         return class_of(self._file, node) == _LOGGER
 
-    def _is_array(self, node: ast.expr) -> bool:
-        """Tell whether an expression is certainly an array of NumPy."""
-        value = self._file.evaluator.single_value(node)
-        return isinstance(value, ast.Call) and not self._module.qualified_names(
-            value.func
-        ).isdisjoint(_ARRAY_MAKERS)
-
     def _is_fallback(self, node: ast.AST, replacement: str) -> bool:
         """Tell whether an import, or a name, is for where another import or its successor fails."""
         is_import = isinstance(node, ast.Import | ast.ImportFrom)
-        expected = {"ImportError", "ModuleNotFoundError"} if is_import else {"AttributeError"}
+        expected = _OF_IMPORT if is_import else {"AttributeError"}
         child = node
         for parent in self._module.parents(node):
             match parent, child:
@@ -203,7 +233,7 @@ class _Search:
         """Yield a use, unless the code knows about it."""
         change, written = matched
         # `except Exception` around much code is not there for the name: the rest is skipped.
-        is_broad = error != "AttributeError"
+        is_broad = error in _OF_IMPORT
         errors = {error, _ABOVE.get(error, error)}
         if any(is_handled(self._module, node, one, is_broad=is_broad) for one in errors):
             return
@@ -220,6 +250,17 @@ class _Search:
         edits = (Edit(self._path, *place, written),) if can_write else ()
         replacement = written.partition(" as ")[0]
         yield ChangedUse(change, at, name, error, replacement, edits)
+
+
+def _argument_meant(call: ast.Call, change: Change) -> ast.AST | None:
+    """Return what of a call a change is about; ``None`` if it is not about the call."""
+    words = {word.arg: word for word in call.keywords}
+    if change.having or None in words:
+        return words.get(change.having) if change.having else None
+    is_by_position = len(call.args) > _MOST or any(
+        isinstance(one, ast.Starred) for one in call.args
+    )
+    return None if change.without in words or is_by_position else call.func
 
 
 def _mentions(body: Sequence[ast.stmt], attribute: str) -> bool:

@@ -1,0 +1,77 @@
+"""Arrays of NumPy in code, and the types that it names by strings."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.model.rclpy.file import RclpyFile
+
+ARRAY = "numpy.ndarray"
+DTYPE = "numpy.dtype"
+_TYPED = frozenset(
+    f"numpy.{name}"
+    for name in (
+        *("array", "asarray", "asanyarray", "empty", "frombuffer", "fromfile", "fromiter"),
+        *("fromstring", "ones", "zeros"),
+    )
+)
+"""Functions that return arrays, and whose second argument is a type."""
+_MAKERS = _TYPED | {
+    f"numpy.{name}"
+    for name in (
+        *("arange", "ascontiguousarray", "column_stack", "concatenate", "copy", "dstack"),
+        *("empty_like", "eye", "full", "full_like", "hstack", "identity", "linspace", "loadtxt"),
+        *("logspace", "ones_like", "ravel", "repeat", "stack", "tile", "vstack", "zeros_like"),
+    )
+}
+"""Functions that return arrays."""
+_METHODS = frozenset(
+    ("astype", "clip", "copy", "flatten", "ravel", "repeat", "reshape", "squeeze", "transpose")
+)
+"""Methods of arrays that return arrays."""
+_DEEPEST = 8
+
+
+def is_array(file: RclpyFile, node: ast.expr, depth: int = 0) -> bool:
+    """Tell whether an expression is certainly an array of NumPy.
+
+    Args:
+        file: The file.
+        node: The expression.
+        depth: How many expressions led to it.
+    """
+    value = file.evaluator.single_value(node)
+    if isinstance(value, ast.Call):
+        if not file.module.qualified_names(value.func).isdisjoint(_MAKERS):
+            return True
+        match value.func:
+            case ast.Attribute(attr=name, value=base) if name in _METHODS and depth < _DEEPEST:
+                return is_array(file, base, depth + 1)
+        return False
+    argument = file.parameter_of(value if isinstance(value, ast.expr) else node)
+    if argument is None or argument.annotation is None:
+        return False
+    return file.module.qualified_name(argument.annotation) == ARRAY
+
+
+def type_names(file: RclpyFile) -> Iterator[ast.Constant]:
+    """Yield the strings by which calls of NumPy name a type."""
+    for call in file.module.walk(ast.Call):
+        for node in _types(file, call):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node
+
+
+def _types(file: RclpyFile, call: ast.Call) -> Iterator[ast.expr]:
+    """Yield what a call gives for a type."""
+    names = file.module.qualified_names(call.func)
+    is_of_numpy = any(name.startswith("numpy.") for name in names)
+    at = 0 if DTYPE in names else 1 if not names.isdisjoint(_TYPED) else None
+    match call.func:
+        case ast.Attribute(attr="astype", value=value) if not names and is_array(file, value):
+            at, is_of_numpy = 0, True
+    if at is not None and not any(isinstance(item, ast.Starred) for item in call.args):
+        yield from call.args[at : at + 1]
+    if is_of_numpy:
+        yield from (word.value for word in call.keywords if word.arg == "dtype")
