@@ -31,6 +31,11 @@ _LAUNCH = (
     "def generate_launch_description():\n    return LaunchDescription([\n"
     "        ExecuteProcess(cmd=['ros2', 'bag', 'record', {}]),\n    ])\n"
 )
+_FOUND = (
+    "from launch.actions import ExecuteProcess\nfrom launch.substitutions import FindExecutable\n"
+    "\nROS = FindExecutable(name='ros2')\n"
+    "RECORDER = ExecuteProcess(cmd={})\n"
+)
 _XML = "<launch>\n  <executable cmd='ros2 bag record {}'/>\n</launch>\n"
 
 
@@ -86,12 +91,46 @@ class RecordedTopicsUnnamed(Rule):
             distro="lyrical",
         ),
         Example(
-            "topics that are written elsewhere",
-            {"launch/a.launch.py": _LAUNCH.format("'-o', name(), *'/scan /tf'.split()")},
+            "launch looks for the program",
+            {
+                "launch/a.launch.py": _FOUND.format("[ROS, 'bag', 'record', '/tf']"),
+                "launch/c.launch.xml": _XML.format("/tf").replace("ros2", "$(find-exec ros2)"),
+            },
             Report(
-                "7:69",
+                "launch/a.launch.py:5:54",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="write --topics",
+            ),
+            Report(
+                "launch/c.launch.xml:2:20",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="write --topics",
+            ),
+            fixed={
+                "launch/a.launch.py": _FOUND.format("[ROS, 'bag', 'record', '--topics', '/tf']"),
+                "launch/c.launch.xml": _XML.format("--topics /tf").replace(
+                    "ros2", "$(find-exec ros2)"
+                ),
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "topics that are written elsewhere",
+            {
+                "launch/a.launch.py": _LAUNCH.format("'-o', name(), *'/scan /tf'.split()"),
+                "launch/b.launch.py": _FOUND.format("[[ROS, ' bag record ', '/tf']], shell=True"),
+            },
+            Report(
+                "launch/a.launch.py:7:69",
                 "'/scan' follows no option: ros2 bag record of Lyrical ends at "
                 "once; use --topics (rosbag2 2328)",
+            ),
+            Report(
+                "launch/b.launch.py:5:32",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
             ),
             distro="lyrical",
         ),

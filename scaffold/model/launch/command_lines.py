@@ -23,6 +23,7 @@ _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
 _RUN = ["ros2", "run"]
 _WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")
 """Matches a word of a command line; launch takes a substitution for a part of one."""
+_FOUND = re.compile(r"\$\(find-exec\s+([^\s()$]+)\s*\)")  # linear: spaces, and what is none
 
 
 class Word(NamedTuple):
@@ -108,9 +109,16 @@ def _in_python(launch: LaunchFile, call: LaunchCall, keyword: str) -> Iterator[C
 def _split(attribute: Attribute) -> list[Word]:
     at = attribute.location
     return [
-        Word(UNSAID if "$(" in match[0] else match[0], at, span=match.span())
-        for match in _WORD.finditer(attribute.value)
+        Word(_text(match[0]), at, span=match.span()) for match in _WORD.finditer(attribute.value)
     ]
+
+
+def _text(word: str) -> str:
+    """Return a word of markup; of a program that launch looks for, its name."""
+    found = _FOUND.fullmatch(word)
+    if found:
+        return found[1]
+    return UNSAID if "$(" in word else word
 
 
 def _own(words: Sequence[Word]) -> Sequence[Word]:

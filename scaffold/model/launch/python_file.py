@@ -99,6 +99,8 @@ class LaunchEvaluator(Evaluator):
                 value = self._join(launch.given.get("substitutions"))
             case "TextSubstitution":
                 value = self.text(launch.given.get("text"))
+            case "FindExecutable":  # a path that ends in the name, and is started like it
+                value = self.joined_text(launch.given.get("name"))
             case "ThisLaunchFileDir":
                 directory = self.module.path.rpartition("/")[0]
                 value = f"{SHARE}{self._package_name}/{directory}".rstrip("/")
@@ -279,13 +281,20 @@ class LaunchFile:
     def programs(self) -> Sequence[tuple[str, ast.expr]]:
         """The programs that are run by name, ``xacro`` or ``ros2 bag``, with their places."""
         result: list[tuple[str, ast.expr]] = []
+        looked_for = {self.text(call, "name") for call in self.find("FindExecutable")}
         for call in self.find("Command", "FindExecutable", "ExecuteProcess", "ExecuteLocal"):
             key = {"Command": "command", "FindExecutable": "name"}.get(call.kind, "cmd")
             node = call.given.get(key)
             if node is None and call.call.args:
                 node = call.call.args[0]
             words, place = self._words(node)
-            if words and place is not None:
+            is_looked_for = (
+                call.kind != "FindExecutable"
+                and isinstance(place, ast.Call | ast.Name)
+                and words[:1] != ["ros2"]
+                and not looked_for.isdisjoint(words[:1])
+            )
+            if words and place is not None and not is_looked_for:
                 name = " ".join(words[:2]) if words[0] == "ros2" else words[0]
                 result.append((name, place))
         return result
