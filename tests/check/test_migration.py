@@ -475,6 +475,21 @@ def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
     assert (package / "unordered.py").read_text() == handler + "import rclpy\n"
 
 
+@pytest.mark.parametrize(
+    ("comment", "is_moved"), [("keep", True), ("noqa: F401", True), ("after the node", False)]
+)
+def test_an_import_is_sorted_with_its_comment_unless_that_is_about_its_place(
+    workspace: Path, comment: str, is_moved: bool
+) -> None:
+    module = workspace / "twenty" / "twenty" / "ordered.py"
+    node = "from rclpy.node import (\n    Node,  # base\n)\n"
+    name = "SubscriptionEventCallbacks"
+    module.write_text(f"{node}from rclpy.qos_event import {name}  # {comment}\n")
+    main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
+    callbacks = f"from rclpy.event_handler import {name}  # {comment}\n"
+    assert module.read_text() == (callbacks + node if is_moved else node + callbacks)
+
+
 def test_fixes_leave_no_more_imports_unsorted_than_there_were(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

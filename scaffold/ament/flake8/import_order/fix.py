@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 
 from scaffold.ament.finding import Finding
@@ -12,6 +13,8 @@ from scaffold.ament.python_text.text import PythonText
 from scaffold.record import NamedTuple
 
 CODES = ("I100", "I101", "I201")
+_OF_PLACE = r"(?i)isort|noqa(?!:)|noqa:[\w ,]{0,80}\bI\d|\b(?:before|after|first|last|order)\b"
+"""Matches comments that keep an import where it is."""
 
 
 class _Import(NamedTuple):
@@ -62,14 +65,20 @@ def _only_blank(text: PythonText, before: Statement, item: _Import | None) -> bo
 
 
 def _plain(text: PythonText, node: ast.Import | ast.ImportFrom) -> _Import | None:
-    """Return a statement that has its lines to itself and no comments; else ``None``."""
+    """Return a statement that has its lines to itself; ``None`` if it has to stay as it is.
+
+    Comments in its lines move with it, but keep its names where they are.
+    """
     statement = describe(node)
     lines = "".join(text.lines[statement.line - 1 : statement.end_line]).rstrip("\n")
-    if node.col_offset or statement.group == MIXED or any(item in lines for item in "#;\\\f"):
+    if node.col_offset or statement.group == MIXED or any(item in lines for item in ";\\\f"):
+        return None
+    has_comment = "#" in lines
+    if has_comment and re.search(_OF_PLACE, lines.partition("#")[2]):
         return None
     if list(statement.names) == sorted(statement.names):
         return _Import(statement, lines)
-    if not isinstance(node, ast.ImportFrom):
+    if has_comment or not isinstance(node, ast.ImportFrom):
         return None
     ordered = statement._replace(names=tuple(sorted(statement.names)))
     if statement.line != statement.end_line:
