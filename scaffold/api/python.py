@@ -15,8 +15,9 @@ from scaffold.model.python.guards import (
     is_guarded_by,
     is_handled,
 )
+from scaffold.model.python.imports import Import
 from scaffold.model.python.literals import joined_names
-from scaffold.model.python.module import Import, PythonModule
+from scaffold.model.python.module import PythonModule
 from scaffold.model.python.returns import (
     is_generator,
     may_end,

@@ -12,7 +12,8 @@ from scaffold.model.package import Package
 from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
 from scaffold.model.python.guards import Condition, all_conditions, values_asked
-from scaffold.model.python.module import PythonModule, last_names
+from scaffold.model.python.handlers import last_names
+from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
 from scaffold.types.ty import TyDiagnostic

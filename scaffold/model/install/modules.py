@@ -16,7 +16,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.python.module import Import
+    from scaffold.model.python.imports import Import
 
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on Python's path in another way."""

@@ -18,7 +18,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.python.module import Import
+    from scaffold.model.python.imports import Import
     from scaffold.source import Location
 
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})

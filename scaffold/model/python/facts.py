@@ -13,7 +13,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
-    from scaffold.model.python.module import Import
+    from scaffold.model.python.imports import Import
 
 
 class Exports(NamedTuple):

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.model.python.module import IMPORT_OR_SKIP, PythonModule, expected_errors, last_names
+from scaffold.model.python.handlers import expected_errors, last_names
+from scaffold.model.python.imports import IMPORT_OR_SKIP
+from scaffold.model.python.module import PythonModule
 from scaffold.model.python.skips import skip_conditions
 from scaffold.record import NamedTuple
 

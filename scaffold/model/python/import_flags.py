@@ -7,7 +7,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
 from scaffold.model.python.guards import Condition
-from scaffold.model.python.module import PythonModule, catches_import_errors
+from scaffold.model.python.handlers import catches_import_errors
+from scaffold.model.python.module import PythonModule
 from scaffold.model.python.scopes import Binding
 
 

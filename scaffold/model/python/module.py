@@ -9,6 +9,7 @@ from functools import cached_property
 
 from scaffold import distributions
 from scaffold.model.python.bounds import why_unchecked
+from scaffold.model.python.imports import Import, is_main_test, read_imports
 from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_target
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.record import NamedTuple
@@ -19,58 +20,11 @@ _DEFAULTS_OF_TYPES = (3, 13)
 MAX_DEPTH = 300
 """Levels of a syntax tree; real modules stay below 50, and visitors of a tree recurse."""
 
-_IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
-_EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
-"""What an exception is expected with: ``with pytest.raises(ImportError):``."""
-_PLATFORM_NAMES = (
-    *("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform."),
-    *("importlib.util.find_spec", "pkgutil.find_loader"),
-)
-IMPORT_OR_SKIP = "pytest.importorskip"
 _LEAVING: tuple[type[ast.stmt], ...] = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 MODULE_ATTRIBUTES = frozenset(
     {"__name__", "__file__", "__doc__", "__package__", "__spec__", "__loader__", "__builtins__"}
     | {"__dict__", "__cached__"}
 )
-
-
-class ImportedName(NamedTuple):
-    """One name of a ``from`` import; ``*`` for all."""
-
-    name: str
-    asname: str | None
-    location: Location
-
-
-class Import(NamedTuple):
-    """One imported module; ``import a, b`` makes two."""
-
-    module: str
-    """The dotted name as written; empty for ``from . import x``."""
-    level: int
-    """Leading dots."""
-    names: tuple[ImportedName, ...]
-    """What a ``from`` import takes; empty for ``import module``."""
-    asname: str | None
-    location: Location
-    """The statement, or for ``import a, b`` the one name."""
-    top_level: bool
-    """Whether it is at the top level of the module, under no condition."""
-    in_function: bool
-    guarded: bool
-    """May fail or be skipped: ``try`` with ImportError, TYPE_CHECKING, platform, version, and
-    ``find_spec`` or ``importorskip``."""
-    type_checking: bool
-    """For type checkers alone; not run."""
-    conditional: bool
-    """Under any other ``if``."""
-    in_tests: bool
-    """The file is a test."""
-
-    @property
-    def root(self) -> str:
-        """The top-level package; empty for a relative import."""
-        return "" if self.level else self.module.partition(".")[0]
 
 
 class Function(NamedTuple):
@@ -298,7 +252,7 @@ class PythonModule:
     def main_guard_node(self) -> ast.If | None:
         """The statement ``if __name__ == '__main__'``."""
         for statement in self.tree.body:
-            if isinstance(statement, ast.If) and _is_main_test(statement.test):
+            if isinstance(statement, ast.If) and is_main_test(statement.test):
                 return statement
         return None
 
@@ -414,25 +368,7 @@ class PythonModule:
     @cached_property
     def imports(self) -> Sequence[Import]:
         """All imports, in the order of the text."""
-        result: list[Import] = []
-        nodes: list[ast.Import | ast.ImportFrom] = [
-            *self.walk(ast.Import),
-            *self.walk(ast.ImportFrom),
-        ]
-        for node in sorted(nodes, key=lambda node: (node.lineno, node.col_offset)):
-            context = self._context(node)
-            if isinstance(node, ast.ImportFrom):
-                names = tuple(
-                    ImportedName(alias.name, alias.asname, self.location(alias))
-                    for alias in node.names
-                )
-                at = self.location(node)
-                result.append(Import(node.module or "", node.level, names, None, at, *context))
-                continue
-            for alias in node.names:
-                at = self.location(node if len(node.names) == 1 else alias)
-                result.append(Import(alias.name, 0, (), alias.asname, at, *context))
-        return result
+        return read_imports(self)
 
     @cached_property
     def imports_by_root(self) -> Mapping[str, Sequence[Import]]:
@@ -442,104 +378,3 @@ class PythonModule:
             if import_.root:
                 result.setdefault(import_.root, []).append(import_)
         return result
-
-    def _context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool, bool]:
-        """Return top_level, in_function, guarded, type_checking, conditional, in_tests."""
-        in_function = type_checking = conditional = False
-        guarded = self._is_skipped_without(node)
-        child: ast.AST = node
-        for parent in self.parents(node):
-            match parent:
-                case ast.FunctionDef() | ast.AsyncFunctionDef():
-                    in_function = True
-                case ast.Try() if catches_import_errors(parent):
-                    guarded = guarded or self.index.place(child)[0] != "finalbody"
-                case ast.With(items=items):
-                    guarded = guarded or any(_IMPORT_ERRORS & expected_errors(i) for i in items)
-                case ast.If() if not _is_main_test(parent.test):
-                    if "TYPE_CHECKING" in self.text(parent.test):
-                        guarded = True
-                        in_body = self.index.place(child)[0] == "body"
-                        type_checking = type_checking or in_body
-                    elif self._asks_platform(parent.test) or _is_never_run(parent, child):
-                        guarded = True
-                    else:
-                        conditional = True
-            child = parent
-        top_level = self.parent(node) is self.tree
-        return top_level, in_function, guarded, type_checking, conditional, self.in_tests
-
-    def _is_skipped_without(self, node: ast.AST) -> bool:
-        """Tell whether the tests of the file are skipped where an imported module is missing."""
-        match node:
-            case ast.Import(names=[ast.alias(name=module)]) | ast.ImportFrom(module=str(module)):
-                return module.partition(".")[0] in self._needed_by_tests
-        return False
-
-    @cached_property
-    def _needed_by_tests(self) -> frozenset[str]:
-        """The packages that ``pytest.importorskip`` asks for."""
-        if not self.mentions("importorskip"):
-            return frozenset()
-        return frozenset(
-            str(call.args[0].value).partition(".")[0]
-            for call in self.walk(ast.Call)
-            if call.args and isinstance(call.args[0], ast.Constant)
-            if self.qualified_name(call.func) == IMPORT_OR_SKIP
-        )
-
-    def _asks_platform(self, test: ast.expr) -> bool:
-        for node in ast.walk(test):
-            if isinstance(node, ast.Name | ast.Attribute):
-                name = self.qualified_name(node)
-                if name and name.startswith(_PLATFORM_NAMES):
-                    return True
-        return False
-
-
-def _is_never_run(node: ast.If, child: ast.AST) -> bool:
-    """Tell whether code is in the body of ``if False:``."""
-    return isinstance(node.test, ast.Constant) and not node.test.value and child in node.body
-
-
-def _is_main_test(test: ast.expr) -> bool:
-    match test:
-        case ast.Compare(
-            left=ast.Name(id="__name__"), ops=[ast.Eq()], comparators=[ast.Constant("__main__")]
-        ):
-            return True
-        case ast.Compare(
-            left=ast.Constant("__main__"), ops=[ast.Eq()], comparators=[ast.Name(id="__name__")]
-        ):
-            return True
-        case ast.BoolOp(op=ast.And(), values=values):
-            return any(_is_main_test(value) for value in values)
-        case _:
-            return False
-
-
-def catches_import_errors(node: ast.Try) -> bool:
-    """Tell whether a ``try`` has a handler for an import that fails."""
-    return any(
-        handler.type is None or not _IMPORT_ERRORS.isdisjoint(last_names(handler.type))
-        for handler in node.handlers
-    )
-
-
-def expected_errors(item: ast.withitem) -> set[str]:
-    """Return the last parts of the names of what ``suppress``, ``raises`` and the like expect."""
-    match item.context_expr:
-        case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
-            return set().union(*map(last_names, args))
-    return set()
-
-
-def last_names(node: ast.expr) -> set[str]:
-    """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
-    result: set[str] = set()
-    for part in ast.walk(node):
-        if isinstance(part, ast.Name):
-            result.add(part.id)
-        elif isinstance(part, ast.Attribute):
-            result.add(part.attr)
-    return result

@@ -1,0 +1,37 @@
+"""What handlers catch, and what ``with`` expects: the names of exceptions."""
+
+from __future__ import annotations
+
+import ast
+
+IMPORT_ERRORS = frozenset({"ImportError", "ModuleNotFoundError", "Exception", "BaseException"})
+"""What a missing import is caught with."""
+_EXPECT = frozenset({"suppress", "raises", "assertRaises", "assertRaisesRegex"})
+"""What an exception is expected with: ``with pytest.raises(ImportError):``."""
+
+
+def catches_import_errors(node: ast.Try) -> bool:
+    """Tell whether a ``try`` has a handler for an import that fails."""
+    return any(
+        handler.type is None or not IMPORT_ERRORS.isdisjoint(last_names(handler.type))
+        for handler in node.handlers
+    )
+
+
+def expected_errors(item: ast.withitem) -> set[str]:
+    """Return the last parts of the names of what ``suppress``, ``raises`` and the like expect."""
+    match item.context_expr:
+        case ast.Call(func=func, args=args) if not _EXPECT.isdisjoint(last_names(func)):
+            return set().union(*map(last_names, args))
+    return set()
+
+
+def last_names(node: ast.expr) -> set[str]:
+    """Return the last parts of the names in an expression: ``{'error'}`` for ``socket.error``."""
+    result: set[str] = set()
+    for part in ast.walk(node):
+        if isinstance(part, ast.Name):
+            result.add(part.id)
+        elif isinstance(part, ast.Attribute):
+            result.add(part.attr)
+    return result
