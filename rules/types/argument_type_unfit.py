@@ -45,6 +45,8 @@ _ONLY_SHOWN = {("DeclareLaunchArgument()", "description")}
 """What `ros2 launch --show-args` prints, whatever it is."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """What calls ``int()`` on its nanoseconds, which are annotated as an int."""
+_COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
+"""A number that is computed with a value of unknown type."""
 _TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
 """Where functions of tf2 with several signatures take a timeout."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
@@ -90,6 +92,36 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.goal.publish_feedback(Fibonacci.Feedback())\n\n"
                 "    def run(self, goal):\n        goal.succeed()\n        return goal.request\n"
             },
+        ),
+        Example(
+            "a number and a result for the feedback",
+            {
+                "mover.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
+                "class Mover(Node):\n    def __init__(self):\n        super().__init__('mover')\n"
+                "        ActionServer(self, Fibonacci, 'count', self.run)\n\n"
+                "    def run(self, goal):\n        left = 1.0\n"
+                "        step = min(0.5, self.get_parameter('step').value)\n"
+                "        while not goal.is_cancel_requested:\n"
+                "            left -= step * 0.1\n"
+                "            goal.publish_feedback(left)\n"
+                "        goal.publish_feedback(Fibonacci.Feedback())\n"
+                "        goal.publish_feedback(Fibonacci.Result())\n"
+                "        goal.succeed()\n        return Fibonacci.Result()\n"
+            },
+            Report(
+                "16:35",
+                "'feedback' of publish_feedback() must be an "
+                "example_interfaces.action.Fibonacci_Feedback, not a float: "
+                "publish_feedback() fails",
+            ),
+            Report(
+                "18:31",
+                "'feedback' of publish_feedback() must be an "
+                "example_interfaces.action.Fibonacci_Feedback, not an "
+                "example_interfaces.action.Fibonacci_Result: publish_feedback() "
+                "fails",
+            ),
         ),
         Example(
             "what a declared parameter does not need",
@@ -286,6 +318,8 @@ class ArgumentTypeUnfit(TypeRule):
         if matched is None:
             return self._judge_element(finding)
         expected, given = matched["expected"], matched["given"]
+        if matched["callee"].endswith(".publish_feedback"):
+            given = re.sub(_COMPUTED, r"\1", given)
         is_misfit = is_certain_misfit(expected, given) or _is_uncallable(finding, expected, given)
         if not is_misfit or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
             return None
