@@ -81,6 +81,15 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
+            "values that go on in the next line",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/odometry.py": _ODOMETRY.replace("self.y, ", "self.y, \\\n            "),
+                "rover/drive.py": _DRIVE.format("x, y, yaw"),
+            },
+        ),
+        Example(
             "more names than values",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

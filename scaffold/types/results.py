@@ -6,9 +6,9 @@ and is added to the line of the ``def`` alone.
 
 from __future__ import annotations
 
+import ast
 import re
 from collections import Counter
-from collections.abc import Iterator
 
 from scaffold.types.callbacks import function_body
 
@@ -22,8 +22,7 @@ _FUNCTION = re.compile(
 _NAMED = re.compile(r"\bdef (\w+)\(")
 _OTHER_SCOPES = re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
 _RETURN = re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
-_CALL = re.compile(r"((?:[^\W\d]\w*\.){0,4}[A-Z]\w*)\(")
-_NAME = re.compile(r"[^\W\d]\w*")
+_CLASS = re.compile(r"(?:[^\W\d]\w*\.){0,4}[A-Z]\w*")
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _FEWEST = 2
 
@@ -76,14 +75,9 @@ def _result(parameters: str, body: str) -> str:
 
 def _expression(text: str, start: int) -> str:
     """Return an expression up to the end of its line, or of its brackets."""
-    return next(iter(_split(text, start, "\n#;")), "").strip()
-
-
-def _split(text: str, start: int, ends: str) -> Iterator[str]:
-    """Yield the stretches between some characters that are outside of brackets and of texts."""
     open_: list[str] = []
     quote = ""
-    begin = at = start
+    at = start
     while at < len(text):
         character = text[at]
         if quote:
@@ -91,38 +85,38 @@ def _split(text: str, start: int, ends: str) -> Iterator[str]:
                 at += 1
             elif character in {quote, "\n"}:
                 quote = ""
+        elif character == "\\":
+            at += 1  # the line goes on
         elif character in "'\"":
             quote = character
         elif character in _CLOSING:
             open_.append(_CLOSING[character])
         elif open_ and character == open_[-1]:
             open_.pop()
-        elif not open_ and character in ends:
-            yield text[begin:at]
-            begin = at + 1
+        elif not open_ and character in "\n#;":
+            break
         at += 1
-    yield text[begin:]
+    return text[start:at].strip()
 
 
 def _type(value: str, parameters: str, body: str) -> str:
     """Return the type of an expression: of a tuple, or of what a class makes; else empty."""
-    items = [item.strip() for item in _split(_without_parentheses(value), 0, ",")]
-    if len(items) >= _FEWEST:
-        is_plain = all(item and not item.startswith(("*", "lambda")) for item in items)
-        return f"tuple[{', '.join([_ANY] * len(items))}]" if is_plain else ""
-    if _NAME.fullmatch(value):
-        value = _made(value, parameters, body)
-    call = _CALL.match(value)
-    if call is None:
-        return ""
-    rest = [*_split(value[call.end() - 1 :], 0, " .[,")]
-    return call[1] if len(rest) == 1 and value.endswith(")") else ""
+    node = _parsed(value)
+    if isinstance(node, ast.Tuple):
+        is_plain = not any(isinstance(item, ast.Starred) for item in node.elts)
+        items = ", ".join([_ANY] * len(node.elts))
+        return f"tuple[{items}]" if is_plain and len(node.elts) >= _FEWEST else ""
+    if isinstance(node, ast.Name):
+        node = _parsed(_made(node.id, parameters, body))
+    class_ = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
+    return class_ if _CLASS.fullmatch(class_) else ""
 
 
-def _without_parentheses(value: str) -> str:
-    """Return what is in the parentheses around all of an expression."""
-    is_one = value.startswith("(") and len([*_split(value, 0, " .[,(")]) == 1
-    return value[1:-1] if is_one and value.endswith(")") else value
+def _parsed(value: str) -> ast.expr | None:
+    try:
+        return ast.parse(f"({value}\n)", mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
 
 
 def _made(name: str, parameters: str, body: str) -> str:
