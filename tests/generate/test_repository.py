@@ -185,7 +185,7 @@ def test_pre_commit_checks_the_package_in_its_directory(
     (workspace / "other.py").write_text("import nothing\n")
     assert "Skipped" in shared.commit()
     break_(workspace / "src" / "talker")
-    assert f"src/talker/talker/minimal_publisher.py:34:1: error PX020 {FINDING}" in (
+    assert f"src/talker/talker/minimal_publisher.py:35:1: error PX020 {FINDING}" in (
         shared.commit(code=1)
     )
 

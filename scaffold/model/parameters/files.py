@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Alias, Mapping, Scalar, Sequence, YamlNode
 from scaffold.record import NamedTuple
-from scaffold.source import ParseError, ViewError
+from scaffold.source import ParseError, TooLargeError, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -151,6 +151,8 @@ def _read(package: Package, path: str) -> tuple[ParameterFile | None, ParseError
     def read() -> tuple[ParameterFile | None, ParseError | None]:
         try:
             return ParameterFile(path, yaml_tree.parse(package.source(path))), None
+        except TooLargeError:
+            return None, None
         except ParseError as error:
             return None, error
         except ViewError:
