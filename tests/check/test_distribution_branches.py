@@ -432,6 +432,14 @@ _FORMS_OF_CMAKE = {
         f"if(NOT {_D} STREQUAL jazzy)\n  message(FATAL_ERROR no)\nendif()\nHERE\n",
         [4, 5, 6],
     ),
+    "a macro and a function that only other distributions call": (
+        (
+            "function(inner)\n  HERE\nendfunction()\nmacro(outer)\n  inner()\nendmacro()\n"
+            "macro(both)\n  here()\nendmacro()\nmacro(uncalled)\n  here()\nendmacro()\nboth()\n"
+            f"if({_D} STREQUAL jazzy)\n  outer()\n  both()\nendif()\n"
+        ),
+        [16, 17, 6, 3],
+    ),
     "a return in a loop": (
         f"foreach(a ${{b}})\n  if({_D} STRGREATER k)\n    return()\n  endif()\nendforeach()\nx()\n",
         [],

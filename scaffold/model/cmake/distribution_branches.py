@@ -24,7 +24,8 @@ from scaffold.model.cmake.variables import HARMLESS
 WORDS = (VARIABLE, "_VERSION")
 """Files without any of them have no such branches."""
 _CONDITIONS = frozenset({"if", "elseif", "else", "endif"})
-_BODIES = frozenset({"function", "macro", "foreach", "while"})
+_DEFINITIONS = frozenset({"function", "macro"})
+_BODIES = _DEFINITIONS | {"foreach", "while"}
 """What opens a block that runs never, once or many times."""
 _CASES = {"TOLOWER": str.lower, "TOUPPER": str.upper}
 
@@ -33,7 +34,40 @@ Lines = tuple[int, int]
 
 def lines_not_run(lists: CMakeLists) -> Iterator[Lines]:
     """Yield the first and last lines of what does not run on the target distribution."""
-    return _Walk(lists).run()
+    dead = [*_Walk(lists).run()]
+    pending = {name: body for name, body in _bodies(lists) if _calls(lists, name)}
+    for _ in range(len(pending)):  # a function may be called by one that is not called
+        unused = [
+            name
+            for name in pending
+            if all(any(first <= at <= last for first, last in dead) for at in _calls(lists, name))
+        ]
+        if not unused:
+            break
+        dead += [pending.pop(name) for name in unused]
+    yield from dead
+
+
+def _bodies(lists: CMakeLists) -> Iterator[tuple[str, Lines]]:
+    """Yield the functions and macros of a file, with the lines of their bodies."""
+    opened: list[Command] = []
+    for command in lists.commands:
+        if command.name in _DEFINITIONS:
+            opened.append(command)
+        elif command.name.removeprefix("end") in _DEFINITIONS and opened:
+            first = opened.pop()
+            if first.values:
+                lines = (_line(lists, first) + 1, _line(lists, command) - 1)
+                yield first.values[0].lower(), lines
+
+
+def _calls(lists: CMakeLists, name: str) -> list[int]:
+    """Return the lines where a function of a file is called in it."""
+    return [_line(lists, command) for command in lists.commands if command.name == name]
+
+
+def _line(lists: CMakeLists, command: Command) -> int:
+    return lists.source.location(command.start, command.start).line
 
 
 class _Block:
@@ -189,7 +223,7 @@ class _Walk:
         return Known(";".join(values) if is_all else None, any(one.is_asked for one in known))
 
     def _line(self, command: Command) -> int:
-        return self._lists.source.location(command.start, command.start).line
+        return _line(self._lists, command)
 
 
 def _word(argument: Argument) -> Word:
