@@ -72,7 +72,7 @@ class ExecutableDeprecated(Rule):
             name: change
             for change in of_kind("executable")
             for name in change.names
-            if change.is_deprecated and change.has_replacement
+            if change.is_deprecated
         }
         for name, location in _started(package) if changes else ():
             change = changes.get(name)

@@ -258,6 +258,23 @@ def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[
     assert main(["check", "--distro", "jazzy", "--select", rules]) == 0
 
 
+def test_a_deprecated_executable_without_a_successor_on_what_is_kept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = tmp_path / "twenty"
+    (package / "launch").mkdir(parents=True)
+    manifest = _MANIFEST.format(
+        name="twenty", depends="<exec_depend>rclcpp_components</exec_depend>", kind="ament_cmake"
+    )
+    (package / "package.xml").write_text(manifest)
+    (package / "launch" / "a.launch.xml").write_text(
+        "<launch>\n  <node pkg='rclcpp_components' exec='component_container_mt'/>\n</launch>\n"
+    )
+    main(["migrate", str(package), "--to", "lyrical", "--keep", "jazzy"])
+    out = capsys.readouterr().out
+    assert "new in Lyrical: nothing suits Jazzy as well, so write a branch" in out
+
+
 def test_what_is_kept_is_checked_and_recorded_once_nothing_breaks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
