@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 
+from scaffold.ament.codes import CODES
 from scaffold.diagnostic import Diagnostic
 from scaffold.distributions import VARIABLE
 from scaffold.model.cmake import distribution_branches as of_cmake
@@ -27,11 +28,14 @@ def run_on_target(package: Package, diagnostics: Iterable[Diagnostic]) -> Iterat
     """Yield the findings in code that runs on the target.
 
     A package for several distributions asks for the variable ROS_DISTRO; what is in a branch for
-    another one is right where it runs.
+    another one is right where it runs. The linters of ament read all branches.
     """
     by_path: dict[str, Sequence[Stretch]] = {}
     for diagnostic in diagnostics:
         at = diagnostic.location
+        if diagnostic.code in CODES:
+            yield diagnostic
+            continue
         if at.path not in by_path:
             by_path[at.path] = _not_run(package, at.path)
         place = (at.line, at.column)

@@ -31,7 +31,7 @@ def apply(
 ) -> list[Diagnostic]:
     """Drop what is suppressed, and report suppressions that suppress nothing.
 
-    What is in branches for other distributions is dropped as well, whatever it is.
+    What is in branches for other distributions is dropped as well.
 
     Args:
         package: Where the diagnostics were found.

@@ -639,3 +639,15 @@ def test_conditions_of_launch_in_yaml(
     )
     lines = found_in_launch(capsys, tmp_path)
     assert len(lines) == 1 + runs
+
+
+def test_the_linters_of_ament_read_all_branches(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "package.xml").write_text("<package><name>rover</name></package>\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        'if($ENV{ROS_DISTRO} STREQUAL "humble")\n\tfind_package(rclcpp REQUIRED)\nendif()\n'
+    )
+    main(["check", str(tmp_path), "--distro", "jazzy", "--format", "json", "--select", "CM"])
+    diagnostics = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [(item["code"], item["line"]) for item in diagnostics] == [("CM073", 2)]
