@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.distributions import of_program, target
-from scaffold.api.launch import UNSAID, CommandLine, Word, processes
+from scaffold.api.launch import UNSAID, CommandLine, Word, processes, start_of_value
 
 _PROGRAM = "ros2 bag record"
 _FLAGS = frozenset(
@@ -117,6 +117,45 @@ class RecordedTopicsUnnamed(Rule):
             distro="lyrical",
         ),
         Example(
+            "in quotes",
+            {
+                "launch/a.launch.yaml": 'launch:\n- executable:\n    cmd: "ros2 bag record /tf"\n',
+                "launch/b.launch.yaml": "launch:\n- executable:\n    cmd: 'ros2 bag record /tf'\n",
+            },
+            Report(
+                "launch/a.launch.yaml:3:10",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="write --topics",
+            ),
+            Report(
+                "launch/b.launch.yaml:3:10",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+                fix="write --topics",
+            ),
+            fixed={
+                "launch/a.launch.yaml": "launch:\n- executable:\n"
+                '    cmd: "ros2 bag record --topics /tf"\n',
+                "launch/b.launch.yaml": "launch:\n- executable:\n"
+                "    cmd: 'ros2 bag record --topics /tf'\n",
+            },
+            distro="lyrical",
+        ),
+        Example(
+            "in quotes with escapes",
+            {
+                "launch/c.launch.yaml": "launch:\n- executable:\n"
+                '    cmd: "ros2 bag record \\x2Ftf"\n',
+            },
+            Report(
+                "launch/c.launch.yaml:3:10",
+                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
+                "use --topics (rosbag2 2328)",
+            ),
+            distro="lyrical",
+        ),
+        Example(
             "topics that are written elsewhere",
             {
                 "launch/a.launch.py": _LAUNCH.format("'-o', name(), *'/scan /tf'.split()"),
@@ -182,9 +221,9 @@ def _edit(package: Package, line: CommandLine, topic: Word) -> Edit | None:
             start, _ = module.span(topic.node)
             return Edit(line.launch.path, start, start, "'--topics', ")
     if line.attribute is not None and topic.span is not None:
-        at, source = line.attribute.location, package.source(line.attribute.location.path)
-        start = source.offset(at.line, at.column)
-        if source.text.startswith(line.attribute.value, start):
-            place = start + topic.span[0]
-            return Edit(at.path, place, place, "--topics ")
+        path = line.attribute.location.path
+        value_start = start_of_value(package.source(path), line.attribute)
+        if value_start is not None:
+            place = value_start + topic.span[0]
+            return Edit(path, place, place, "--topics ")
     return None

@@ -14,6 +14,7 @@ from scaffold.api.launch import (
     CommandLine,
     LaunchFile,
     Word,
+    start_of_value,
     static_transforms,
 )
 
@@ -262,12 +263,12 @@ def _in_markup(
     package: Package, attribute: Attribute, words: Sequence[Word], flags: Sequence[str]
 ) -> tuple[Edit, ...]:
     """Put the names into the value of an attribute, where it is written as it is read."""
-    source, at, value = package.source(attribute.location.path), attribute.location, attribute.value
-    start = source.offset(at.line, at.column)
-    if not source.text.startswith(value, start):
+    path = attribute.location.path
+    start = start_of_value(package.source(path), attribute)
+    if start is None:
         return ()
     return tuple(
-        Edit(at.path, start + word.span[0], start + word.span[0], f"{flag} ")
+        Edit(path, start + word.span[0], start + word.span[0], f"{flag} ")
         for word, flag in zip(words, flags, strict=True)
         if word.span is not None
     )

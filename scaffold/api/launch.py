@@ -17,6 +17,7 @@ from scaffold.model.launch.command_lines import (
     CommandLine,
     Word,
     processes,
+    start_of_value,
     static_transforms,
 )
 from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
@@ -114,6 +115,7 @@ __all__ = [
     "returns",
     "set_names",
     "signature",
+    "start_of_value",
     "started_nodes",
     "static_transforms",
     "steps",

@@ -14,7 +14,7 @@ from scaffold.record import NamedTuple
 if TYPE_CHECKING:
     from scaffold.formats.xml import Attribute
     from scaffold.model.package import Package
-    from scaffold.source import Location
+    from scaffold.source import Location, Source
 
 PROGRAM = "static_transform_publisher"
 UNSAID = "$"
@@ -133,3 +133,17 @@ def _own(words: Sequence[Word]) -> Sequence[Word]:
         elif word.text == "--":
             is_for_ros = False
     return result
+
+
+def start_of_value(source: Source, attribute: Attribute) -> int | None:
+    """Return where the value of an attribute starts, within the quotes of YAML if it has them.
+
+    ``None`` where it is not written as it is read, as with escapes.
+    """
+    start = source.offset(attribute.location.line, attribute.location.column)
+    if source.text.startswith(attribute.value, start):
+        return start
+    quote = source.text[start : start + 1]
+    is_quoted = quote in {"'", '"'}
+    is_same = source.text.startswith(f"{quote}{attribute.value}{quote}", start)
+    return start + 1 if is_quoted and is_same else None
