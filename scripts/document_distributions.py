@@ -19,7 +19,7 @@ from scaffold.model.rclpy.api import names_of
 DOCS = Path(__file__).parent.parent / "docs" / "distributions"
 FIXED = frozenset({"ament_target_dependencies", "static_transform_publisher", "ros2 bag record"})
 """What rules of their own fix."""
-KINDS = ("name", "call", "command", "launch", "executable", "interface", "package")
+KINDS = ("name", "call", "command", "launch", "option", "executable", "interface", "package")
 _LISTED = 30
 """How many names of a change have a line each."""
 _INTRODUCTION = """\
