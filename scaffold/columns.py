@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import unicodedata
 from collections.abc import Iterator
 from typing import TextIO
 
@@ -33,7 +32,9 @@ def columns(text: str) -> int:
     plain = _CONTROL.sub("", text)
     if plain.isascii():
         return len(plain)
-    return sum(_columns_of(character) for character in plain)
+    from rich.cells import cell_len
+
+    return cell_len(plain)
 
 
 def cut(text: str, width: int) -> str:
@@ -71,9 +72,3 @@ def _pieces(words: str, width: int) -> list[str]:
     if all(columns(cell) <= width for cell in cells):
         return cells
     return re.split(r"( +)", words)  # linear: likewise
-
-
-def _columns_of(character: str) -> int:
-    if unicodedata.combining(character):
-        return 0
-    return 2 if unicodedata.east_asian_width(character) in {"W", "F"} else 1
