@@ -44,6 +44,10 @@ class Change(NamedTuple):
     """The keyword without which a call is meant."""
     raises: str = ""
     """The exception by which a call fails now; code that catches it is ready for the change."""
+    is_of_node: bool = False
+    """Whether only calls are meant that are given a method of a node, or a node."""
+    unless: str = ""
+    """A word of files that are ready for the change."""
 
     @property
     def is_of_call(self) -> bool:
@@ -178,4 +182,6 @@ def _change(entry: dict[str, Any]) -> Change:
         entry.get("value", ""),
         entry.get("without", ""),
         entry.get("raises", ""),
+        entry.get("of_node", False),
+        entry.get("unless", ""),
     )

@@ -57,6 +57,16 @@ _PASSED = (
     .replace("super().__init__('asker')", "self.node = node")
     .replace("self.create_client", "self.node.create_client")
 )
+_WORKER = (
+    "from multiprocessing import Process\n\nfrom rclpy.node import Node\n\n\n"
+    "class Worker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('worker')\n"
+    "        self.process = None\n"
+    "        Process(target={}).start()\n\n"
+    "    def work(self):\n"
+    "        self.process = 1\n"
+)
 _LATER = "from Kilted on, a timeout raises TimeoutError, and returned None before: handle both"
 
 
@@ -184,6 +194,24 @@ class BehaviorChanged(PythonRule):
                 "from Lyrical on, copy=False raises ValueError where a copy is "
                 "needed, as it is for a list, and copied before: use numpy.asarray "
                 "(NumPy 2.0)",
+            ),
+            distro="lyrical",
+            moved_from="jazzy",
+        ),
+        Example(
+            "a process that is given a node",
+            {
+                "work.py": _WORKER.format("self.work"),
+                "function.py": _WORKER.format("work"),
+                "forked.py": "from multiprocessing import set_start_method\n"
+                + _WORKER.format("self.work")
+                + "\nset_start_method('fork')\n",
+            },
+            Report(
+                "work.py:10:9",
+                "from Lyrical on, a process is given a pickled copy of its target, and a node "
+                "cannot be pickled: TypeError; use a function that takes what it needs, or "
+                "multiprocessing.get_context('fork').Process (CPython 84559)",
             ),
             distro="lyrical",
             moved_from="jazzy",

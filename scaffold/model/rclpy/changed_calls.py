@@ -55,18 +55,28 @@ def _called(file: RclpyFile, call: ast.Call) -> set[str]:
 
 def _is_meant(file: RclpyFile, call: ast.Call, change: Change, name: str) -> bool:
     """Tell whether a call has the arguments that the change is about, and is not ready for it."""
-    if any(word.arg is None for word in call.keywords):
-        return False
-    if change.raises and _is_caught(file.module, call, change.raises):
+    if any(word.arg is None for word in call.keywords) or _is_ready(file.module, call, change):
         return False
     if change.without and _argument(call, name, change.without) is not None:
         return False
     if not change.having:
         return True
     value = _argument(call, name, change.having)
-    if value is None or change.value:
-        return value is not None and file.module.text(value) == change.value
+    return value is not None and _is_meant_value(file, value, change)
+
+
+def _is_meant_value(file: RclpyFile, value: ast.expr, change: Change) -> bool:
+    if change.is_of_node:
+        return _is_of_node(file, value)
+    if change.value:
+        return file.module.text(value) == change.value
     return not _is_none(file.evaluator.single_value(value))
+
+
+def _is_ready(module: PythonModule, call: ast.Call, change: Change) -> bool:
+    if change.unless and module.mentions(change.unless):
+        return True
+    return bool(change.raises) and _is_caught(module, call, change.raises)
 
 
 def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
@@ -90,6 +100,12 @@ def _argument(call: ast.Call, name: str, keyword: str) -> ast.expr | None:
     if len(before) <= number or any(isinstance(item, ast.Starred) for item in before):
         return None
     return call.args[number]
+
+
+def _is_of_node(file: RclpyFile, value: ast.expr) -> bool:
+    """Tell whether an expression is a node, or a method of one."""
+    node = value.value if isinstance(value, ast.Attribute) else value
+    return file.owner_of(node) is not None
 
 
 def _is_none(node: ast.AST | None) -> bool:
