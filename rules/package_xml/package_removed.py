@@ -16,9 +16,9 @@ _NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
 class PackageRemoved(Rule):
     """A package is used that an older distribution has, and this one has no more.
 
-    Said of packages that come from ROS 2 itself, the repositories of ``ros2.repos``, whose end is
-    sure. One of this name in the workspace takes its place; a dependency, an import or a
-    ``find_package`` for other distributions only is left alone.
+    Only packages of ROS 2 itself are judged, those in the repositories of ``ros2.repos``. A package
+    of the same name in the workspace takes its place; dependencies, imports and ``find_package``
+    calls that are for other distributions only are accepted.
 
     **Why.** ``rosdep install`` finds no rule for it, CMake stops at ``find_package``, and an import
     ends with ``ModuleNotFoundError``.

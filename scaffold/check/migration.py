@@ -125,7 +125,7 @@ def _ran_on(origin: Distribution, package: Package, item: Diagnostic) -> bool:
 
 
 def _is_ignored(package: Package, path: str) -> bool:
-    """Tell whether a file is in a directory that the build or the linters are told to skip."""
+    """Tell whether a file is in a directory with COLCON_IGNORE or AMENT_IGNORE."""
     parents = path.split("/")[:-1]
     directories = ("/".join(parents[:end]) for end in range(1, len(parents) + 1))
     return any(package.has(f"{one}/{name}") for one in directories for name in IGNORE_MARKERS)

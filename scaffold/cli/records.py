@@ -37,7 +37,7 @@ def plan(directory: str, targets: Sequence[Distribution]) -> tuple[bytes, bytes]
 
     Args:
         directory: Of the package.
-        targets: What it is for now.
+        targets: The distributions that the package is for now.
     """
     names = [target.name for target in targets]
     if distro.recorded_names(directory) in (None, names):

@@ -17,7 +17,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Source, ViewError
 
 HOLE = "__unknown__"
-"""Stands in texts for what is not known; a name of Python, as expressions are texts too."""
+"""Marks unknown parts of a text. It is a valid Python name, as the text may be an expression."""
 _TRUE = frozenset({"true", "1"})
 _FALSE = frozenset({"false", "0"})
 _LONGEST = 1000
@@ -45,8 +45,8 @@ def _holds(text: Text) -> bool | None:
     return True if value in _TRUE else False if value in _FALSE else None
 
 
-def said(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  three values
-    """Return the text of a decision."""
+def as_text(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  three values
+    """Return a decision as the text that launch would read."""
     return Text(HOLE if decision is None else str(decision).lower(), is_asked)
 
 
@@ -78,13 +78,13 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
         case "equals" | "not-equals", [left, right]:
             is_open = HOLE in left.value + right.value
             is_same = (left.value == right.value) == (kind == "equals")
-            return said(None if is_open else is_same, is_asked=is_asked)
+            return as_text(None if is_open else is_same, is_asked=is_asked)
         case "not", [_]:
-            return said(None if values[0] is None else not values[0], is_asked=is_asked)
+            return as_text(None if values[0] is None else not values[0], is_asked=is_asked)
         case ("and" | "all") | ("or" | "any"), [_, *_]:
             deciding = kind in {"or", "any"}
             decided = None if None in values else not deciding
-            return said(deciding if deciding in values else decided, is_asked=is_asked)
+            return as_text(deciding if deciding in values else decided, is_asked=is_asked)
     return UNKNOWN
 
 
@@ -106,7 +106,7 @@ def _evaluated(expression: Text) -> Text:
     value, _ = worth(module, statement.value)
     if isinstance(value, str):
         return Text(value, is_asked)
-    return said(holds(module, statement.value, is_asked=True), is_asked=is_asked)
+    return as_text(holds(module, statement.value, is_asked=True), is_asked=is_asked)
 
 
 class _Holes(ast.NodeTransformer):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from scaffold.model.launch.conditions import UNKNOWN, Text, applied, joined, said, truth
+from scaffold.model.launch.conditions import UNKNOWN, Text, applied, as_text, joined, truth
 from scaffold.model.python.distribution_conditions import holds, worth
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class Conditions:
         if isinstance(value, str):
             return Text(value, is_asked)
         decided = holds(module, node)
-        return UNKNOWN if decided is None else said(decided, is_asked=True)
+        return UNKNOWN if decided is None else as_text(decided, is_asked=True)
 
     def _substituted(self, call: LaunchCall, depth: int) -> Text:
         operands = [*call.given.values()] or call.call.args
