@@ -8,16 +8,18 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import (
     Executed,
+    client_at,
+    client_of,
     in_callbacks,
     in_constructors,
-    in_goal_callbacks,
+    in_tasks,
     may_run_meanwhile,
     names_other_executor,
     share_group,
     spins_elsewhere,
     spins_in_one_thread,
 )
-from scaffold.api.rclpy import ActionServer, Entity, RclpyFile, class_of
+from scaffold.api.rclpy import Entity, RclpyFile, class_of
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -45,6 +47,14 @@ _GOAL = (
     (_CALL + _MAIN)
     .replace("self.create_timer(1.0, self.ask)", "ActionServer(self, Count, 'count', self.ask)")
     .replace("import rclpy\n", "import rclpy\nfrom rclpy.action import ActionServer\n", 1)
+)
+_DONE = (
+    "import rclpy\n"
+    + _NODE.format("        future = self.client.call_async(Trigger.Request())\n")
+    + "        future.add_done_callback(self.again)\n\n"
+    "    def again(self, future):\n"
+    "        self.client.call(Trigger.Request())\n\n\n"
+    "def main():\n    rclpy.init()\n    rclpy.spin(Caller())\n"
 )
 _THREADS = (
     "\n\ndef main():\n    rclpy.init()\n    threading.Thread(target=print).start()\n"
@@ -138,6 +148,23 @@ class CallInCallback(RclpyRule):
         ),
         Example("while a goal is worked on, in many threads", {"caller.py": _GOAL}),
         Example(
+            "when a future is done",
+            {"caller.py": _DONE},
+            Report(
+                "17:9",
+                "waits for a service response in callback 'again': deadlock, no "
+                "response is processed meanwhile",
+            ),
+        ),
+        Example(
+            "when a future is done, in many threads",
+            {
+                "caller.py": _IMPORTS
+                + _DONE.removeprefix("import rclpy\n").partition("\n\n\ndef main")[0]
+                + _MAIN
+            },
+        ),
+        Example(
             "with a timeout",
             {"caller.py": _NODE.format("        self.client.call(0, timeout_sec=1.0)\n")},
         ),
@@ -173,7 +200,7 @@ class CallInCallback(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        executions = (*in_callbacks(file), *in_constructors(file), *in_goal_callbacks(file))
+        executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
         for executed in executions:
             for node, what, client in _waits(file, executed.function):
                 if node in seen:
@@ -190,7 +217,7 @@ def _deadlock(file: RclpyFile, executed: Executed, client: Entity | None) -> str
     plain = ": deadlock, no response is processed meanwhile"
     is_same_node = executed.entity and client and executed.entity.owner is client.owner
     is_one_thread = spins_in_one_thread(file)
-    if isinstance(executed.entity, ActionServer):
+    if executed.is_task:
         return plain if is_same_node and is_one_thread else ""
     if executed.entity and client and is_same_node:
         shared = share_group(file, executed.entity, client)
@@ -211,28 +238,14 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
             case ast.Call(func=ast.Attribute(attr=method, value=asked)) if method in _BLOCKING:
                 class_, what = _BLOCKING[method]
                 if class_of(file, asked) == class_ and not _has_timeout(node):
-                    yield node, f"waits for {what}", _client(file, asked)
+                    yield node, f"waits for {what}", client_at(file, asked)
             case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
                 if isinstance(func, ast.Attribute) and _loops_until_done(file, func, node):
-                    yield node, "busy-waits for a future", _asked(file, func.value)
+                    yield node, "busy-waits for a future", client_of(file, func.value)
 
 
 def _has_timeout(call: ast.Call) -> bool:
     return len(call.args) > 1 or any(word.arg in {"timeout_sec", None} for word in call.keywords)
-
-
-def _client(file: RclpyFile, node: ast.expr) -> Entity | None:
-    """Return the client that an expression is."""
-    made = file.evaluator.single_value(node)
-    return next((x for x in (*file.clients, *file.action_clients) if x.call is made), None)
-
-
-def _asked(file: RclpyFile, future: ast.expr) -> Entity | None:
-    """Return the client that gave a future."""
-    match file.evaluator.single_value(future):
-        case ast.Call(func=ast.Attribute(value=client)):
-            return _client(file, client)
-    return None
 
 
 def _loops_until_done(file: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.programs import Executed, blocks_node, in_callbacks, in_constructors
+from scaffold.api.programs import Executed, blocks_node, in_callbacks, in_constructors, in_tasks
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -18,6 +18,22 @@ _NODE = (
     "    def tick(self):\n        pass\n"
 )
 _LOOP = "        while rclpy.ok():\n            self.tick()\n\n"
+_DONE = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, 'reset')\n"
+    "        self.tries = 0\n"
+    "        future = self.client.call_async(Trigger.Request())\n"
+    "        future.add_done_callback(self.work)\n\n"
+    "    def work(self, future):\n"
+    "        while rclpy.ok():\n"
+    "            self.tries += 1\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    {}\n"
+)
 _CALLBACK = (
     "import rclpy\nfrom rclpy.callback_groups import ReentrantCallbackGroup\n"
     "from rclpy.executors import MultiThreadedExecutor\nfrom rclpy.node import Node\n\n\n"
@@ -84,13 +100,28 @@ class EndlessLoop(RclpyRule):
             {"talker.py": _CALLBACK.format("rclpy.spin(Talker(), MultiThreadedExecutor())")},
         ),
         Example(
+            "a loop when a future is done, in one thread",
+            {"caller.py": _DONE.format("rclpy.spin(Caller())")},
+            Report("15:9", "endless loop: callback 'work' never returns; use a timer"),
+        ),
+        Example(
+            "a loop when a future is done, in many threads",
+            {
+                "caller.py": _DONE.format("rclpy.spin(Caller(), MultiThreadedExecutor())").replace(
+                    "import rclpy\n",
+                    "import rclpy\nfrom rclpy.executors import MultiThreadedExecutor\n",
+                    1,
+                )
+            },
+        ),
+        Example(
             "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}
         ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()
-        for executed in (*in_constructors(file), *in_callbacks(file)):
+        for executed in (*in_constructors(file), *in_callbacks(file), *in_tasks(file)):
             for loop in _endless(file, executed):
                 if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)

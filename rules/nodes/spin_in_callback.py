@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import in_callbacks, in_constructors
+from scaffold.api.programs import in_callbacks, in_constructors, in_tasks
 from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
@@ -88,6 +88,25 @@ class SpinInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a spin when a future is done",
+            {
+                "caller.py": _NODE.format("future.add_done_callback(self.answer)")
+                .replace(
+                    "        pass\n", "        rclpy.spin_until_future_complete(self, future)\n"
+                )
+                .replace(
+                    "        self.create_timer",
+                    "        self.client = self.create_client(Trigger, 'reset')\n"
+                    "        self.create_timer",
+                )
+            },
+            Report(
+                "16:9",
+                "rclpy.spin_until_future_complete(self) runs in callback 'answer' of "
+                "the same node: no callback runs after that",
+            ),
+        ),
+        Example(
             "a constructor that spins",
             {"talker.py": _SPINNING.format("")},
             Report(
@@ -112,7 +131,7 @@ class SpinInCallback(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_constructors(file)
-        for function, origin, entity in in_callbacks(file):
+        for function, origin, entity in (*in_callbacks(file), *in_tasks(file)):
             called = file.module.enclosing_class(entity.call) if entity else None
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:

@@ -10,9 +10,8 @@ from scaffold.api.programs import (
     Executed,
     in_callbacks,
     in_constructors,
-    in_goal_callbacks,
+    in_tasks,
     may_run_meanwhile,
-    spins_in_one_thread,
 )
 from scaffold.api.rclpy import RclpyFile
 
@@ -88,14 +87,14 @@ class WaitsForCallback(RclpyRule):
         if not file.module.mentions("while ", ".wait()"):
             return
         seen: set[ast.AST] = set()
-        executions = (*in_callbacks(file), *in_constructors(file), *in_goal_callbacks(file))
+        executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
         callbacks = {x.function for x in executions if x.entity is not None}
         for executed in executions:
             for node, name in _waits(file, executed):
                 setters = _setters(file, name, node)
                 if node in seen or not setters or not setters <= callbacks - {executed.function}:
                     continue
-                if _may_go_on(file, executed):
+                if may_run_meanwhile(file, executed):
                     continue
                 seen.add(node)
                 message = (
@@ -103,12 +102,6 @@ class WaitsForCallback(RclpyRule):
                     "one never runs meanwhile, and the node hangs"
                 )
                 yield self.report(file.module.location(node), message)
-
-
-def _may_go_on(file: RclpyFile, executed: Executed) -> bool:
-    if executed in (*in_goal_callbacks(file),):
-        return not spins_in_one_thread(file)
-    return may_run_meanwhile(file, executed)
 
 
 def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, str]]:

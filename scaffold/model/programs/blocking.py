@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.model.package import mentions
@@ -13,9 +13,12 @@ from scaffold.model.programs.threads import (
     names_callback_group,
     names_other_executor,
     spins_elsewhere,
+    spins_in_one_thread,
 )
 from scaffold.model.rclpy.entities import (
+    ActionClient,
     ActionServer,
+    Client,
     Service,
     Subscription,
     Synchronizer,
@@ -28,7 +31,7 @@ from scaffold.source import Location, ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.scopes import FunctionNode
-    from scaffold.model.rclpy.entities import Entity
+    from scaffold.model.rclpy.entities import Callback, Entity
     from scaffold.model.rclpy.file import RclpyFile
 
 
@@ -41,9 +44,16 @@ class Executed(NamedTuple):
     entity: Entity | None
     """What the callback belongs to; ``None`` for a constructor."""
 
+    @property
+    def is_task(self) -> bool:
+        """Whether it belongs to no callback group: many threads run it next to all others."""
+        return isinstance(self.entity, ActionServer | ActionClient | Client)
+
 
 def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
     """Tell whether callbacks of a node may run while a callback or constructor of it does."""
+    if executed.is_task:
+        return not spins_in_one_thread(file)
     if names_other_executor(file):
         return True
     return names_callback_group(file) if executed.entity else spins_elsewhere(file)
@@ -51,6 +61,8 @@ def may_run_meanwhile(file: RclpyFile, executed: Executed) -> bool:
 
 def blocks_node(file: RclpyFile, executed: Executed) -> bool:
     """Tell whether nothing else of a node runs while a callback or constructor of it does."""
+    if executed.is_task:
+        return spins_in_one_thread(file)
     if executed.entity is None:
         return not spins_elsewhere(file)
     return blocks_others(file, executed.entity)
@@ -58,36 +70,71 @@ def blocks_node(file: RclpyFile, executed: Executed) -> bool:
 
 def in_callbacks(file: RclpyFile) -> Sequence[Executed]:
     """Return the functions that callbacks of timers, topics and services run, each once."""
-    return _run_by(file, (Timer, Subscription, Synchronizer, Service))
-
-
-def in_goal_callbacks(file: RclpyFile) -> Sequence[Executed]:
-    """Return the functions that the callbacks of action servers run to work on goals, each once.
-
-    They belong to no callback group: an executor with many threads runs them next to all others.
-    """
-    return _run_by(file, (ActionServer,))
-
-
-def _run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Sequence[Executed]:
-    if kinds not in file.executed:
-        file.executed[kinds] = tuple(_find_run_by(file, kinds))
-    functions: Sequence[Executed] = file.executed[kinds]
+    if "callbacks" not in file.executed:
+        called = _callbacks_of(file, (Timer, Subscription, Synchronizer, Service))
+        file.executed["callbacks"] = tuple(_reached(file, called, set()))
+    functions: Sequence[Executed] = file.executed["callbacks"]
     return functions
 
 
-def _find_run_by(file: RclpyFile, kinds: tuple[type[Entity], ...]) -> Iterator[Executed]:
-    seen: set[ast.AST] = set()
-    for entity, callback in file.callbacks:
-        function = callback.function
-        if function is None or not isinstance(entity, kinds):
-            continue
-        for reached in file.reached(function, seen):
-            seen.add(reached)
-            if not isinstance(reached, ast.AsyncFunctionDef):
+def in_tasks(file: RclpyFile) -> Sequence[Executed]:
+    """Return the functions that work on goals, or run when a future is done, each once.
+
+    The executor runs them as tasks, which belong to no callback group.
+    """
+    if "tasks" not in file.executed:
+        seen: set[ast.AST] = set()
+        file.executed["tasks"] = (
+            *_reached(file, _callbacks_of(file, (ActionServer,)), seen),
+            *_reached(file, _done_callbacks(file), seen),
+        )
+    functions: Sequence[Executed] = file.executed["tasks"]
+    return functions
+
+
+def _callbacks_of(
+    file: RclpyFile, kinds: tuple[type[Entity], ...]
+) -> Iterator[tuple[Entity, Callback]]:
+    return ((entity, callback) for entity, callback in file.callbacks if isinstance(entity, kinds))
+
+
+def _done_callbacks(file: RclpyFile) -> Iterator[tuple[Entity, Callback]]:
+    """Yield what runs when a future is done, with the client that the future comes from."""
+    for attribute in file.module.index.attributes("add_done_callback"):
+        match file.module.parent(attribute):
+            case ast.Call(func=func, args=[given]) if func is attribute:
+                client = client_of(file, attribute.value)
+                if client is not None:
+                    yield client, file.callback(given)
+
+
+def client_of(file: RclpyFile, future: ast.expr) -> Entity | None:
+    """Return the client that a future comes from; ``None`` if it is not known."""
+    match file.evaluator.single_value(future):
+        case ast.Call(func=ast.Attribute(attr="get_result_async" | "cancel_goal_async")):
+            return file.action_clients[0] if len(file.action_clients) == 1 else None
+        case ast.Call(func=ast.Attribute(value=client)):
+            return client_at(file, client)
+    return None
+
+
+def client_at(file: RclpyFile, node: ast.expr) -> Entity | None:
+    """Return the client of a service or action that an expression is; ``None``: not known."""
+    made = file.evaluator.single_value(node)
+    return next((x for x in (*file.clients, *file.action_clients) if x.call is made), None)
+
+
+def _reached(
+    file: RclpyFile, called: Iterable[tuple[Entity, Callback]], seen: set[ast.AST]
+) -> Iterator[Executed]:
+    """Yield callbacks and what they run, without what was seen."""
+    for entity, callback in called:
+        for function in file.reached(callback.function, seen) if callback.function else ():
+            seen.add(function)
+            if not isinstance(function, ast.AsyncFunctionDef):
                 name = callback.name
                 origin = f"callback {name!r}" if name else "a callback"
-                yield Executed(reached, origin, entity)
+                yield Executed(function, origin, entity)
 
 
 def in_constructors(file: RclpyFile) -> Sequence[Executed]:
@@ -117,7 +164,7 @@ class Phases(NamedTuple):
 
 def phases_of(file: RclpyFile) -> Phases:
     """Return which functions constructors of nodes run, and which callbacks run."""
-    callbacks = (*in_callbacks(file), *in_goal_callbacks(file))
+    callbacks = (*in_callbacks(file), *in_tasks(file))
     return Phases(
         frozenset(executed.function for executed in in_constructors(file)),
         frozenset(executed.function for executed in callbacks),
