@@ -77,6 +77,16 @@ class ParameterRepeated(RclpyRule):
             ),
         ),
         Example(
+            "options that may be given, or that only allow what is undeclared",
+            {
+                "talker.py": _NODE.format("period").replace("'talker'", "'talker', **options"),
+                "listener.py": _NODE.format("period").replace(
+                    "'talker'", "'listener', allow_undeclared_parameters=True"
+                ),
+                "config/a.yaml": "/**:\n  ros__parameters:\n    rate: 3.0\n",
+            },
+        ),
+        Example(
             "asked for first",
             {
                 "talker.py": _NODE.format("period")
@@ -117,7 +127,7 @@ class ParameterRepeated(RclpyRule):
 
     def _automatic(self, package: Package, node: NodeDefinition) -> Iterator[Diagnostic]:
         """Report what a node declares although rclpy has declared it, if it is set."""
-        if not node.declares_automatically or "has_parameter" in node.facts.module.source.text:
+        if not node.is_declared_by_overrides or "has_parameter" in node.facts.module.source.text:
             return
         for parameter in node.parameters:
             name = parameter.name

@@ -128,6 +128,12 @@ class NodeDefinition:
         call = self.constructor_call
         return call is not None and any(word.arg is None for word in call.keywords)
 
+    @cached_property
+    def is_declared_by_overrides(self) -> bool:
+        """Whether rclpy certainly declares each parameter that is set from outside."""
+        node = self._constructor_argument("automatically_declare_parameters_from_overrides", None)
+        return node is not None and self.facts.evaluator.evaluate(node) is True
+
     def _constructor_argument(self, name: str, position: int | None) -> ast.expr | None:
         call = self.constructor_call
         if call is None:
