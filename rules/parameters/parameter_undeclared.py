@@ -51,6 +51,16 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "declared by an object that the node makes itself known to",
+            {
+                "talker/parts.py": "class Limits:\n    def configure(self):\n"
+                "        self.talker.declare_parameter('high', 4)\n",
+                "talker/node.py": _NODE.format("") + "        limits = Limits()\n"
+                "        limits.talker = self\n",
+                "a.yaml": _FILE.format("high: 4"),
+            },
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),

@@ -248,6 +248,8 @@ def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
     module = owner.facts.module
     for use in module.index.names(name):
         parent = module.parent(use)
+        if _is_kept_elsewhere(parent, name) and module.is_inside(use, scope):
+            return True
         call = module.parent(parent) if isinstance(parent, ast.keyword) else parent
         if not isinstance(call, ast.Call) or use is call.func:
             continue
@@ -256,6 +258,15 @@ def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
         if not is_harmless and not _is_base_init(call) and module.is_inside(call, scope):
             return True
     return False
+
+
+def _is_kept_elsewhere(parent: ast.AST | None, name: str) -> bool:
+    """Tell whether a statement makes a node known to another object: ``part.node = self``."""
+    return isinstance(parent, ast.Assign) and any(
+        isinstance(target, ast.Attribute | ast.Subscript)
+        and not (isinstance(target.value, ast.Name) and target.value.id == name)
+        for target in parent.targets
+    )
 
 
 def _is_base_init(call: ast.Call) -> bool:
