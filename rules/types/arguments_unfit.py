@@ -128,6 +128,19 @@ class ArgumentsUnfit(TypeRule):
             Report("rover/plan.py:8:8", "Path() lacks 'width': TypeError"),
         ),
         Example(
+            "a class whose base makes other objects, in a module of its own",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/later.py": "class Later:\n    def __new__(cls, **values):\n"
+                "        return cls.LATER(cls, values)\n",
+                "rover/servo.py": "from .later import Later\n\n\nclass Servo(Later):\n"
+                "    def __init__(self, bus, angle):\n        self.bus = bus\n",
+                "rover/arm.py": "from geometry_msgs.msg import Point\n\n"
+                "from .servo import Servo\n\nplace = Point()\nservo = Servo(angle=360)\n",
+            },
+        ),
+        Example(
             "one missing",
             {"ticker.py": _NODE.format("0.1")},
             Report("7:22", "create_timer() lacks 'callback': TypeError"),

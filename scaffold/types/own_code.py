@@ -7,7 +7,7 @@ if a file that is imported defines what the report names.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
@@ -30,6 +30,7 @@ _CHANGING = re.compile(
     rb"\b(?:setattr|__dict__|__getattribute__|__new__|metaclass|exec|globals|vars)\b"
 )
 """Matches what gives objects attributes that no assignment shows, or makes others instead."""
+_NAME = re.compile(rb"\b[A-Za-z_]\w*")
 
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
@@ -43,9 +44,27 @@ def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     if matched is None:
         return False
     name = matched[1].partition(".")[0].encode()
-    definition = re.compile(rb"^[ \t]*(?:class|(?:async )?def) %b\b" % name, re.MULTILINE)
     files = [item.data for item in sources if item.path]
-    defining = [data for data in files if definition.search(data)]
-    if not defining or any(_CHANGING.search(data) for data in defining):
+    defining = [data for data in files if _definition(name).search(data)]
+    if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
     return item.kind in _CALLS or len(defining) == 1  # else the object may be of another class
+
+
+def _definition(name: bytes) -> re.Pattern[bytes]:
+    return re.compile(
+        rb"^[ \t]*(?:class %b\b(?:\(([^()]*)\))?|(?:async )?def %b\b)" % (name, name), re.MULTILINE
+    )
+
+
+def _with_bases(name: bytes, files: Sequence[bytes]) -> Iterator[bytes]:
+    """Yield the files that define a name or, if it is a class, one that it inherits from."""
+    names, seen = [name], {name}
+    while names:
+        definition = _definition(names.pop())
+        for data in files:
+            for matched in definition.finditer(data):
+                yield data
+                bases = set(_NAME.findall(matched[1] or b"")) - seen
+                seen |= bases
+                names += bases
