@@ -65,6 +65,15 @@ class FieldValueUnfit(MessageRule):
     examples = (
         Example("values of the right types", {"talker.py": _CODE.format(*_RIGHT)}),
         Example(
+            "a list that is the default of a parameter, which may be set to a longer one",
+            {
+                "talker.py": _CODE.replace(
+                    "        self.count = 0\n",
+                    "        self.count = 0\n        self.declare_parameter('scale', [0.0])\n",
+                ).format(_RIGHT[0], "self.get_parameter('scale').value", *_RIGHT[2:])
+            },
+        ),
+        Example(
             "a counter of button presses",
             {
                 "talker.py": _CODE.replace("create_timer(0.5, self.talk)", "on_press(self.talk)")

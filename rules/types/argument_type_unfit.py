@@ -6,6 +6,7 @@ import ast
 import re
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api.rclpy import rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -304,6 +305,26 @@ class ArgumentTypeUnfit(TypeRule):
                 "not a rclpy.time.Time: it cannot be published; write .to_msg()",
             ),
         ),
+        Example(
+            "a publisher whose type depends on where the node runs",
+            {
+                "shooter.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Empty, Float32\n"
+                "\n\nclass Shooter(Node):\n"
+                "    def __init__(self, in_simulation):\n"
+                "        super().__init__('shooter')\n"
+                "        self.in_simulation = in_simulation\n"
+                "        if in_simulation:\n"
+                "            self.publisher = self.create_publisher(Empty, 'shoot', 10)\n"
+                "        else:\n"
+                "            self.publisher = self.create_publisher(Float32, 'shoot', 10)\n\n"
+                "    def shoot(self):\n"
+                "        if self.in_simulation:\n"
+                "            self.publisher.publish(Empty())\n"
+                "        else:\n"
+                "            self.publisher.publish(Float32(data=1.0))\n"
+            },
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -324,6 +345,7 @@ class ArgumentTypeUnfit(TypeRule):
         if not is_misfit or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
             return None
         is_for_others = _has_too_many(finding, matched["callee"])  # which TY004 reports
+        is_for_others = is_for_others or _is_one_of_publishers(finding)
         if is_for_others or (expected.startswith("(") and is_function(given)):
             return None  # functions differ in their annotations; ND003 counts the arguments
         owner, _, method = matched["callee"].rpartition(".")
@@ -397,6 +419,20 @@ def _has_too_many(finding: TypeFinding, callee: str) -> bool:
     """Tell whether the call has more arguments without names than its function takes."""
     call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
     return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
+
+
+def _is_one_of_publishers(finding: TypeFinding) -> bool:
+    """Tell whether the object called may be made for another type, as a condition says."""
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    if call is None or not isinstance(call.func, ast.Attribute):
+        return False
+    receiver = call.func.value
+    if not isinstance(receiver, ast.Attribute):
+        return False
+    file = rclpy_file(finding.package, finding.path)
+    values = file.evaluator.attribute_values(receiver) or ()
+    made = [value for value in values if isinstance(value, ast.Call) and value.args]
+    return len({ast.dump(value.args[0]) for value in made}) > 1
 
 
 def _is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:

@@ -11,6 +11,7 @@ from scaffold.model.messages.numpy_values import numpy_class
 from scaffold.model.python.literals import joined_names
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy.api import PARAMETER, class_of, is_method
+from scaffold.model.rclpy.evaluator import NOTE
 
 RCLPY_TIMES: Mapping[str | None, str] = {
     "rclpy.time.Time": "builtin_interfaces/msg/Time",
@@ -300,10 +301,12 @@ class TypeMismatches:
         return f"{self._shown(node)} is two-dimensional; append .flatten()" if is_table else None
 
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
-        value = self._types.facts.evaluator.evaluate(node)
+        value, notes = self._types.facts.evaluator.trace(node)
         size = type_.array_size
         if size is None or not isinstance(value, list | tuple):
             return None
+        if any(note.startswith(NOTE) for note in notes):
+            return None  # who sets the parameter sets the length as well
         count = len(value)
         if count > size or (count < size and not type_.is_upper_bound):
             most = "at most " if type_.is_upper_bound else ""
