@@ -39,6 +39,8 @@ def holds(
         depth: The names that it was followed through.
         is_asked: Whether the distribution is known to decide it.
     """
+    if not is_asked and not module.mentions(*ASKED):
+        return None
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             inner = holds(module, operand, depth, is_asked=is_asked)
