@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-COLLECT_FROM = 100_000
+COLLECT_FROM = 500_000
 """Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
 
 VERBS = {
