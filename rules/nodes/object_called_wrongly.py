@@ -66,6 +66,15 @@ class ObjectCalledWrongly(RclpyRule):
             Report("16:9", "a Publisher is not callable: TypeError; call one of its methods"),
         ),
         Example(
+            "a method of Node that is replaced after the call",
+            {
+                "talker.py": _NODE.format(*_RIGHT).replace(
+                    "        self.client = ",
+                    "        self.client = self.create_client = ",
+                )
+            },
+        ),
+        Example(
             "a method of a profile",
             {
                 "talker.py": "from rclpy.qos import qos_profile_system_default\n\n"
@@ -105,7 +114,7 @@ def _problem(file: RclpyFile, call: ast.Call) -> str:
         problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
     elif isinstance(call.func, ast.Attribute | ast.Name) and not name:
         class_ = class_of(file, call.func) or ""
-        if class_ in _NOT_CALLED:
+        if class_ in _NOT_CALLED and not _is_replaced(file, call.func):
             problem = (
                 f"a {class_.rpartition('.')[2]} is not callable: TypeError; call one of its methods"
             )
@@ -117,6 +126,13 @@ def _problem(file: RclpyFile, call: ast.Call) -> str:
             if callback.is_called and not callback.is_partial:
                 problem = f"{callback.name}() is called here; pass the function itself, without ()"
     return problem
+
+
+def _is_replaced(file: RclpyFile, func: ast.Attribute | ast.Name) -> bool:
+    """Return whether the object replaces a method of Node, which earlier calls still reach."""
+    if not isinstance(func, ast.Attribute) or file.owner_of(func.value) is None:
+        return False
+    return is_method("rclpy.node.Node", func.attr)
 
 
 def _is_value(file: RclpyFile, node: ast.Attribute) -> bool:

@@ -38,7 +38,13 @@ class NameNotInModule(TypeRule):
             Report("1:22", "'datetime' has no 'UTC': ImportError"),
             distro="humble",
         ),
-        Example("names that exist", {"talker.py": "from rclpy.node import Node\n"}),
+        Example(
+            "names that exist",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from tf2_ros import Buffer, TransformableObject\n"
+            },
+        ),
         Example(
             "what a module imports for itself",
             {

@@ -31,8 +31,12 @@ from tf2_ros.buffer_client import BufferClient as BufferClient
 from tf2_ros.buffer_interface import (
     BufferInterface as BufferInterface,
     ConvertRegistration as ConvertRegistration,
+    MsgStamped as MsgStamped,
     NotImplementedException as NotImplementedException,
+    PyKDLType as PyKDLType,
     Stamped as Stamped,
+    TransformableObject as TransformableObject,
+    TransformableObjectType as TransformableObjectType,
     TransformRegistration as TransformRegistration,
     TypeException as TypeException,
     convert as convert,

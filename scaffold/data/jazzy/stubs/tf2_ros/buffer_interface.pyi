@@ -16,6 +16,17 @@ from geometry_msgs.msg import (
 from sensor_msgs.msg import PointCloud2 as PointCloud2
 
 _T = TypeVar("_T")
+PyKDLType = TypeVar("PyKDLType")
+TransformableObjectType = TypeVar("TransformableObjectType")
+MsgStamped = PointStamped | PoseStamped | PoseWithCovarianceStamped | Vector3Stamped | PointCloud2
+TransformableObject = (
+    PointStamped
+    | PoseStamped
+    | PoseWithCovarianceStamped
+    | Vector3Stamped
+    | PointCloud2
+    | PyKDLType
+)
 
 class BufferInterface:
     registration: TransformRegistration
