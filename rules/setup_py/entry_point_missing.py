@@ -67,6 +67,14 @@ class EntryPointMissing(Rule):
             ),
             Report("setup.py:6:9", "`ros2 run` of 'b' fails: there is no directory listener/"),
         ),
+        Example(
+            "a module of another package here, which SP053 reports",
+            {
+                "setup.py": _SETUP.format("        'talker = talkr.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -83,7 +91,7 @@ class EntryPointMissing(Rule):
     def _problem(self, package: Package, entry: EntryPoint) -> str | None:
         root, *_ = entry.module.split(".")
         if not package.has_directory(root):
-            return self._missing_package(package, root)
+            return self._missing_package(package, entry.module)
         base = entry.module.replace(".", "/")
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
@@ -102,9 +110,14 @@ class EntryPointMissing(Rule):
         hint = f"; it has {closest[0]}()" if closest else ""
         return f"{path} has no {function!r}{hint}"
 
-    def _missing_package(self, package: Package, root: str) -> str | None:
+    def _missing_package(self, package: Package, module: str) -> str | None:
+        root, _, rest = module.partition(".")
         where = package.setup_py.keyword("package_dir")
         own = [path.partition("/")[0] for path in package.glob("*/__init__.py")]
+        if where is None and any(
+            package.has(f"{other}/{rest.replace('.', '/')}.py") for other in own
+        ):
+            return None  # SP053 says which module it is
         if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
             closest = get_close_matches(root, own, n=1)
             if where is None and closest and not package.has(f"{root}.py"):
