@@ -33,6 +33,12 @@ _OTHERS = (
     "    goal = Goal()\n    goal.header.frame_id = {}\n"
     "    return scan, goal\n"
 )
+_UNKNOWN = "a message of a type that is not known"
+_OF_UNKNOWN = (
+    "from motor_driver_msgs.msg import State\n\n\n"
+    "def state():\n    message = State()\n    message.header.frame_id = '{}'\n"
+    "    return message\n"
+)
 
 
 class FrameWithSlash(MessageRule):
@@ -52,7 +58,7 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a TransformStamped, or in a message of a package of one's own"
+        Severity.WARNING: "it is in a TransformStamped, in a message of one's own, or in one not known"
     }
     examples = (
         Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
@@ -112,6 +118,18 @@ class FrameWithSlash(MessageRule):
             },
             fixed={"node.py": _OTHERS.format("'laser'", "'world'")},
         ),
+        Example(
+            "in a message of a type that is not known",
+            {"node.py": "import rclpy\n" + _OF_UNKNOWN.format("/world")},
+            Report(
+                "7:31",
+                "frame '/world' starts with '/': tf2 rejects it where the frame is "
+                "looked up; remove the slash",
+                fix="remove the slash",
+                severity=Severity.WARNING,
+            ),
+            fixed={"node.py": "import rclpy\n" + _OF_UNKNOWN.format("world")},
+        ),
     )
 
     def paths(self, package: Package) -> Sequence[str]:
@@ -141,7 +159,7 @@ class FrameWithSlash(MessageRule):
 
 
 def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield the expressions that are used as frames, with the message they are in if known."""
+    """Yield the expressions that are used as frames, with the message they are in if any."""
     for name in _FIELDS:
         for store in types.facts.evaluator.stores(name):
             # ``self.frame_id`` is an attribute of the node, not of a message.
@@ -156,8 +174,8 @@ def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
 
 
 def _message(types: MessageTypes, node: ast.expr) -> str:
-    """Return the type of the message that has a frame; empty if it is not known."""
+    """Return the type of the message that has a frame, or ``_UNKNOWN``."""
     if isinstance(node, ast.Attribute) and node.attr == "header":
         node = node.value
     message = types.type_of(node)
-    return message.name if message else ""
+    return message.name if message else _UNKNOWN
