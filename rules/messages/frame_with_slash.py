@@ -58,7 +58,7 @@ class FrameWithSlash(MessageRule):
     code = "MS007"
     name = "frame-with-slash"
     other_severities = {
-        Severity.WARNING: "it is in a TransformStamped, in a message of one's own, or in one not known"
+        Severity.WARNING: "it is in a TransformStamped, or in a message not of ROS or not known"
     }
     examples = (
         Example("no slash", {"node.py": _CODE.format("'map'", "'base'", "'map'")}),
