@@ -183,6 +183,21 @@ class CallInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a loop as long as rclpy runs",
+            {
+                "caller.py": "import rclpy\n"
+                + _NODE.format(
+                    "        future = self.client.call_async(Trigger.Request())\n"
+                    "        while rclpy.ok() and not future.done():\n            pass\n"
+                )
+            },
+            Report(
+                "14:9",
+                "busy-waits for a future in callback 'ask': deadlock, no response "
+                "is processed meanwhile",
+            ),
+        ),
+        Example(
             "a loop",
             {
                 "caller.py": _NODE.format(
@@ -239,16 +254,27 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
                 class_, what = _BLOCKING[method]
                 if class_of(file, asked) == class_ and not _has_timeout(node):
                     yield node, f"waits for {what}", client_at(file, asked)
-            case ast.While(test=ast.UnaryOp(op=ast.Not(), operand=ast.Call(func=func))):
-                if isinstance(func, ast.Attribute) and _loops_until_done(file, func, node):
-                    yield node, "busy-waits for a future", client_of(file, func.value)
+            case ast.While(test=test):
+                future = _awaited(file, test)
+                if future is not None and "spin" not in ast.unparse(node):
+                    yield node, "busy-waits for a future", client_of(file, future)
 
 
 def _has_timeout(call: ast.Call) -> bool:
     return len(call.args) > 1 or any(word.arg in {"timeout_sec", None} for word in call.keywords)
 
 
-def _loops_until_done(file: RclpyFile, func: ast.Attribute, loop: ast.AST) -> bool:
-    if func.attr != "done" or "spin" in ast.unparse(loop):
-        return False
-    return class_of(file, func.value) == "rclpy.task.Future"
+def _awaited(file: RclpyFile, test: ast.expr) -> ast.expr | None:
+    """Return the future that a loop waits for: ``rclpy.ok() and not future.done()``."""
+    match test:
+        case ast.BoolOp(op=ast.And(), values=[*values, last]):
+            is_plain = all(
+                isinstance(x, ast.Call) and file.module.qualified_name(x.func) == "rclpy.ok"
+                for x in values
+            )
+            return _awaited(file, last) if is_plain else None
+        case ast.UnaryOp(
+            op=ast.Not(), operand=ast.Call(func=ast.Attribute(attr="done", value=future))
+        ) if class_of(file, future) == "rclpy.task.Future":
+            return future
+    return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import (
@@ -12,8 +12,9 @@ from scaffold.api.programs import (
     in_constructors,
     in_tasks,
     may_run_meanwhile,
+    share_group,
 )
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import Entity, RclpyFile
 
 _NODE = (
     "import threading\nimport time\n\nfrom rclpy.node import Node\n"
@@ -32,6 +33,15 @@ _NODE = (
     "{}"
     "        response.message = self.last.data\n"
     "        return response\n"
+)
+_THREADS = (
+    "\n\ndef main():\n    rclpy.init()\n    executor = MultiThreadedExecutor()\n"
+    "    executor.add_node(Relay())\n    executor.spin()\n"
+)
+_WAITS = (
+    "import rclpy\nfrom rclpy.executors import MultiThreadedExecutor\n"
+    + _NODE.format("        self.arrived.wait()\n")
+    + _THREADS
 )
 
 
@@ -80,6 +90,27 @@ class WaitsForCallback(RclpyRule):
                 "sets: that one never runs meanwhile, and the node hangs",
             ),
         ),
+        Example(
+            "an event, with many threads and one callback group",
+            {"relay.py": _WAITS},
+            Report(
+                "24:9",
+                "callback 'answer' waits for self.arrived, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+        ),
+        Example(
+            "an event, with many threads and a callback group for the other",
+            {
+                "relay.py": _WAITS.replace(
+                    "self.hear, 10)", "self.hear, 10, callback_group=G())"
+                ).replace(
+                    "import MultiThreadedExecutor\n",
+                    "import MultiThreadedExecutor\n"
+                    "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup as G\n",
+                )
+            },
+        ),
         Example("with a timeout", {"relay.py": _NODE.format("        self.arrived.wait(1.0)\n")}),
     )
 
@@ -88,13 +119,18 @@ class WaitsForCallback(RclpyRule):
             return
         seen: set[ast.AST] = set()
         executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
-        callbacks = {x.function for x in executions if x.entity is not None}
+        callbacks = {x.function: x.entity for x in executions if x.entity is not None}
         for executed in executions:
             for node, name in _waits(file, executed):
                 setters = _setters(file, name, node)
-                if node in seen or not setters or not setters <= callbacks - {executed.function}:
+                if (
+                    node in seen
+                    or not setters
+                    or not setters <= callbacks.keys() - {executed.function}
+                ):
                     continue
-                if may_run_meanwhile(file, executed):
+                entities = [entity for setter, entity in callbacks.items() if setter in setters]
+                if may_run_meanwhile(file, executed) and not _excludes(file, executed, entities):
                     continue
                 seen.add(node)
                 message = (
@@ -102,6 +138,14 @@ class WaitsForCallback(RclpyRule):
                     "one never runs meanwhile, and the node hangs"
                 )
                 yield self.report(file.module.location(node), message)
+
+
+def _excludes(file: RclpyFile, executed: Executed, others: Sequence[Entity]) -> bool:
+    """Tell whether a callback keeps others from running, however many threads there are."""
+    entity = executed.entity
+    if entity is None or executed.is_task or file.module.mentions("Thread("):
+        return False
+    return all(share_group(file, entity, other) for other in others)
 
 
 def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, str]]:
