@@ -57,6 +57,16 @@ _SERVER = (
 )
 
 
+_PARTIAL = (
+    "from functools import partial\n\n"
+    "from rclpy.node import Node\nfrom std_srvs.srv import SetBool\n\n\n"
+    "class Lamps(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('lamps')\n"
+    "        self.create_service(SetBool, 'left', partial(self.switch, 'left'))\n\n"
+    "    def switch(self, {}):\n"
+    "        return response\n"
+)
 _VIEWER = (
     "from message_filters import Subscriber, TimeSynchronizer\n"
     "from rclpy.node import Node\nfrom sensor_msgs.msg import CameraInfo, Image\n\n\n"
@@ -124,6 +134,19 @@ class CallbackArity(RclpyRule):
                 "the goal handle: the goal is aborted",
             ),
         ),
+        Example(
+            "partial",
+            {"lamps.py": _PARTIAL.format("side, request, response")},
+        ),
+        Example(
+            "partial with too much",
+            {"lamps.py": _PARTIAL.format("request, response")},
+            Report(
+                "10:46",
+                "callback 'switch' takes 1 more argument, but a service passes the "
+                "request and the response: TypeError",
+            ),
+        ),
         Example("a message of each topic", {"viewer.py": _VIEWER.format(", image, info")}),
         Example(
             "a message of one topic",
@@ -144,7 +167,8 @@ class CallbackArity(RclpyRule):
             least, most = takes.start, takes.stop - 1
             has = str(least) if least == most else f"{least} to {most}"
             noun = "argument" if has == "1" else "arguments"
-            message = f"{_shown(callback)} takes {has} {noun}, but {given[1]}"
+            more = " more" if callback.is_partial else ""
+            message = f"{_shown(callback)} takes {has}{more} {noun}, but {given[1]}"
             yield self.report(callback, message)
 
 

@@ -112,7 +112,7 @@ def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
 def numbers_taken(callback: Callback) -> range | None:
     """Return the numbers of positional arguments that a callback takes; ``None``: not known."""
     function = callback.function
-    if function is None or callback.is_called or callback.is_partial:
+    if function is None or callback.is_called:
         return None
     if not isinstance(function, ast.Lambda) and function.decorator_list:
         return None
@@ -123,4 +123,17 @@ def numbers_taken(callback: Callback) -> range | None:
         return None
     names = [*arguments.posonlyargs, *arguments.args]
     most = len(names) - int(callback.is_bound)
+    if callback.is_partial:
+        given = _given_before(callback.node)
+        if given is None or given > most - len(arguments.defaults):
+            return None
+        most -= given
     return range(most - len(arguments.defaults), most + 1)
+
+
+def _given_before(node: ast.expr) -> int | None:
+    """Return how many arguments ``partial(function, 'left')`` gives; ``None``: not known."""
+    match node:
+        case ast.Call(args=[ast.Name() | ast.Attribute(), *given], keywords=[]):
+            return None if any(isinstance(one, ast.Starred) for one in given) else len(given)
+    return None
