@@ -109,6 +109,10 @@ def test_a_manager_leads_the_managed_nodes_of_its_package() -> None:
     files = make(package="robot", extras="launch", add=[*parts, "lifecycle_manager:manager"])
     assert "autostart=" not in files["launch/robot.launch.py"]
     assert "node_names: ['laser', 'camera']" in files["config/robot.yaml"]
+    default = re.search(r"\[\n +'laser',\n +'camera',\n +\]", files["robot/manager.py"])
+    assert default is not None
+    assert "| `[laser, camera]` |" in files["README.md"]
+    assert "minimal_lifecycle" not in files["README.md"]
     only_one = "lifecycle_manager:manager managed_node=laser"
     files = make(package="robot", extras="launch", add=[*parts, only_one])
     _, laser, camera, _ = re.split(r"(?:Lifecycle)?Node\(\n", files["launch/robot.launch.py"])
@@ -176,6 +180,13 @@ def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
         check=False,
     )
     assert done.stdout.split() == paths[:-1]
+
+
+def test_markers_for_learners_are_in_no_dockerfile() -> None:
+    for comments in ("brief", "tutorial"):
+        dockerfile = make(package="robot", extras="dockerfile", comments=comments)["Dockerfile"]
+        assert "#:" not in dockerfile
+        assert "# For another distribution: docker build" in dockerfile
 
 
 def test_commas_separate_extras() -> None:
