@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ast
+
 from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api.rclpy import is_method
 from scaffold.api.types import TypeFinding, class_in, in_words, is_certain, is_function
 
 _DOES = {
@@ -99,6 +102,17 @@ class ObjectMisused(TypeRule):
             },
             Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
         ),
+        Example(
+            "a method of Node that is replaced after the call",
+            {
+                "talker.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+                "class Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talker')\n"
+                "        self.heard = self.create_subscription(String, 'a', print, 10)\n"
+                "        self.create_subscription = self.create_publisher(String, 'b', 10)\n"
+            },
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -114,9 +128,18 @@ class ObjectMisused(TypeRule):
         ) or finding.match(r"`(?P<type>[^`]+)` is not awaitable.*")
         if matched is None:
             return None
+        if finding.kind == "not-callable" and _is_replaced(finding):
+            return None  # a call before it is replaced is one of the method
         type_ = matched["type"]
         is_known = class_in(type_) and is_certain(type_)
         if not is_known and not (is_function(type_) and finding.kind != "not-callable"):
             return None
         message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
         return self.report(finding, message)
+
+
+def _is_replaced(finding: TypeFinding) -> bool:
+    """Tell whether what is called is assigned to the name of a method of Node."""
+    func = finding.expression()
+    func = func.func if isinstance(func, ast.Call) else func
+    return isinstance(func, ast.Attribute) and is_method("rclpy.node.Node", func.attr)
