@@ -82,6 +82,37 @@ class WaitsForCallback(RclpyRule):
             ),
         ),
         Example(
+            "a loop over a field of the message",
+            {
+                "relay.py": _NODE.format(
+                    "        while self.last.data != 'ready':\n            pass\n"
+                )
+            },
+            Report(
+                "22:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+        ),
+        Example(
+            "a loop that ends after some time",
+            {
+                "relay.py": _NODE.format(
+                    "        end = time.time() + 5.0\n"
+                    "        while self.last is None and time.time() < end:\n"
+                    "            time.sleep(0.1)\n"
+                )
+            },
+        ),
+        Example(
+            "a loop that calls what sets the field",
+            {
+                "relay.py": _NODE.format(
+                    "        while self.last.data != 'ready':\n            self.hear(String())\n"
+                )
+            },
+        ),
+        Example(
             "an event",
             {"relay.py": _NODE.format("        self.arrived.wait()\n")},
             Report(
@@ -125,6 +156,7 @@ class WaitsForCallback(RclpyRule):
                 setters = _setters(file, name, node)
                 if (
                     node in seen
+                    or _calls(node, setters)
                     or not setters
                     or not setters <= callbacks.keys() - {executed.function}
                 ):
@@ -175,16 +207,20 @@ def _attribute_asked(file: RclpyFile, test: ast.expr) -> str:
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name() as owner, attr=name)):
             return name if file.evaluator.self_class(owner) else ""
-        case ast.Compare(
-            left=ast.Attribute(value=ast.Name() as owner, attr=name),
-            ops=[ast.Is() | ast.Eq()],
-            comparators=[ast.Constant(value=None | False)],
-        ):
-            return name if file.evaluator.self_class(owner) else ""
-        case ast.BoolOp(op=ast.And(), values=values):
-            attributes = [_attribute_asked(file, value) for value in values]
-            return next(filter(None, attributes), "")
+        case ast.Compare(left=ast.Attribute() as left, comparators=[ast.Constant()]):
+            while isinstance(left.value, ast.Attribute):  # a field of a message
+                left = left.value
+            return left.attr if file.evaluator.self_class(left.value) else ""
+        case ast.BoolOp(op=operator, values=values):
+            is_and = isinstance(operator, ast.And)
+            asked = [value for value in values if not (is_and and _is_ok(file, value))]
+            attributes = [_attribute_asked(file, value) for value in asked]
+            return attributes[0] if attributes and all(attributes) else ""
     return ""
+
+
+def _is_ok(file: RclpyFile, test: ast.expr) -> bool:
+    return isinstance(test, ast.Call) and file.module.qualified_name(test.func) == "rclpy.ok"
 
 
 def _leaves(loop: ast.While) -> bool:
@@ -194,6 +230,12 @@ def _leaves(loop: ast.While) -> bool:
         or (isinstance(node, ast.Attribute) and "spin" in node.attr)
         for node in ast.walk(loop)
     )
+
+
+def _calls(loop: ast.AST, functions: set[ast.AST | None]) -> bool:
+    """Return whether a loop calls one of some methods itself."""
+    names = {getattr(function, "name", "") for function in functions}
+    return any(isinstance(node, ast.Attribute) and node.attr in names for node in ast.walk(loop))
 
 
 def _setters(file: RclpyFile, name: str, node: ast.AST) -> set[ast.AST | None]:
