@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
@@ -19,7 +20,8 @@ class EntryPointMissing(Rule):
     """A console script names a module or a function that does not exist.
 
     **Why.** The build passes; ``ros2 run`` ends with ``ModuleNotFoundError`` or
-    ``AttributeError: module 'talker.node' has no attribute 'run'``.
+    ``AttributeError: module 'talker.node' has no attribute 'run'``. Nothing awaits an
+    ``async`` function.
 
     **Fix.** Write the module and function that exist.
 
@@ -50,6 +52,19 @@ class EntryPointMissing(Rule):
             Report(
                 "setup.py:6:9",
                 "`ros2 run` of 'other' fails: there is no talker/nodes.py; closest: talker/node.py",
+            ),
+        ),
+        Example(
+            "a coroutine",
+            {
+                "setup.py": _SETUP.format("        'talker = talker.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "async def main():\n    pass\n",
+            },
+            Report(
+                "setup.py:5:9",
+                "`ros2 run` of 'talker' fails: talker/node.py has an async main(), which nothing "
+                "awaits; use asyncio.run()",
             ),
         ),
         Example(
@@ -104,6 +119,8 @@ class EntryPointMissing(Rule):
         except ViewError:
             return None
         function = entry.function.partition(".")[0]
+        if _is_coroutine(package, path, function):
+            return f"{path} has an async {function}(), which nothing awaits; use asyncio.run()"
         if exports.defines(function) is not False:
             return None
         closest = get_close_matches(function, exports.functions, n=1)
@@ -124,3 +141,12 @@ class EntryPointMissing(Rule):
                 return f"the package has no module {root!r}; closest: {closest[0]}"
             return None
         return f"there is no directory {root}/"
+
+
+def _is_coroutine(package: Package, path: str, function: str) -> bool:
+    """Tell whether a function is ``async``: called as usual, it returns at once."""
+    module = package.module(path)
+    match [binding.node for binding in module.index.bindings(module.tree).get(function, ())]:
+        case [ast.AsyncFunctionDef(decorator_list=[])]:
+            return True
+    return False
