@@ -132,9 +132,13 @@ def _end_of_comment(lines: Sequence[str], start: int) -> int:
 
 
 def _holder(package: Package) -> str | None:
-    """Return the copyright holder of most own sources; those without a notice count, too."""
+    """Return the copyright holder of most own sources; those without a notice count, too.
+
+    Of several that share most sources, it is the one that is named first.
+    """
     headers = own_headers(package)
-    names = (name for header in headers for name in {*map(_without_remark, header.holders)})
+    holders = (dict.fromkeys(map(_without_remark, header.holders)) for header in headers)
+    names = (name for of_file in holders for name in of_file)
     holder = majority(names, len(headers))
     if holder is None or not _is_usable(holder) or not _may_hold(package, holder):
         return None

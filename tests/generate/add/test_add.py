@@ -558,6 +558,15 @@ def test_the_holder_is_the_maintainer_or_that_of_most_own_sources(
     assert notice(demo) == [holder]
 
 
+def test_of_several_holders_of_all_sources_the_first_is_taken(tmp_path: Path) -> None:
+    files = {path: text for path, text in PYTHON.items() if path != "demo/hello.py"}
+    for number in range(8):  # the order of a set would differ from run to run
+        own = f"# Copyright 2024 Acme{number} Corp\n# Copyright 2026 Robots{number} Inc.\n"
+        demo = write(tmp_path / str(number) / "demo", {**files, "demo/a.py": own})
+        assert add(demo, "publisher", "talker") == 0
+        assert notice(demo) == [f"Acme{number} Corp"]
+
+
 def test_examples_of_open_robotics_keep_their_holder(tmp_path: Path) -> None:
     manifest = PYTHON["package.xml"].replace("grace@example.com", "grace@openrobotics.org")
     own = "# Copyright 2016 Open Source Robotics Foundation, Inc.\n"
