@@ -10,6 +10,8 @@ from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import ActionServer, RclpyFile
 
 _ENDS = frozenset({"abort", "canceled"})
+_DEEPEST = 3
+"""The most functions that a goal handle is followed through."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
     "from rclpy.node import Node\n\n\n"
@@ -46,6 +48,26 @@ class GoalNeverSucceeds(RclpyRule):
             "passes the handle on", {"server.py": _NODE.format("        self.end(goal_handle)\n")}
         ),
         Example(
+            "passes the handle on to a function that aborts",
+            {
+                "server.py": _NODE.format("        self.end(goal_handle)\n")
+                + "\n    def end(self, goal_handle):\n        goal_handle.abort()\n"
+            },
+        ),
+        Example(
+            "passes the handle on to a function that sets no state",
+            {
+                "server.py": _NODE.format("        self.end(goal_handle)\n")
+                + "\n    def end(self, goal_handle):\n"
+                "        self.order = goal_handle.request.order\n"
+            },
+            Report(
+                "16:9",
+                "result returned without succeed(): goals of the action server of "
+                "line 9 end as aborted",
+            ),
+        ),
+        Example(
             "sets no state",
             {"server.py": _NODE.format("")},
             Report(
@@ -76,7 +98,7 @@ class GoalNeverSucceeds(RclpyRule):
 
 
 def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
-    """Return the execute callback, unless it passes the goal handle on."""
+    """Return the execute callback, unless it passes the goal handle on to code of others."""
     callback = server.callback
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
@@ -84,10 +106,38 @@ def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
     arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
     if callback.is_partial or callback.is_called or function.decorator_list or not arguments:
         return None
-    name = arguments[0].arg
-    uses = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == name]
-    is_kept = all(isinstance(file.module.parent(use), ast.Attribute) for use in uses)
-    return function if is_kept else None
+    return function if _is_kept(file, function, arguments[0].arg) else None
+
+
+def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0) -> bool:
+    """Tell whether a goal handle stays in a function and those of the file that it calls."""
+    for use in ast.walk(function):
+        if not isinstance(use, ast.Name) or use.id != name:
+            continue
+        match file.module.parent(use):
+            case ast.Attribute():
+                continue
+            case ast.Call(args=args, keywords=[]) as call if use in args and depth < _DEEPEST:
+                if not _stays_open(file, call, args.index(use), depth):
+                    return False
+            case _:
+                return False
+    return True
+
+
+def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
+    """Tell whether a call of a function of the file leaves the goal that it gets as it is."""
+    callback = file.callback(call.func)
+    function = callback.function
+    if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
+        return False
+    arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
+    if at >= len(arguments) or any(isinstance(one, ast.Starred) for one in call.args):
+        return False
+    ends = (node for node in ast.walk(function) if isinstance(node, ast.Attribute))
+    if any(node.attr in _ENDS for node in ends):
+        return False
+    return _is_kept(file, function, arguments[at].arg, depth + 1)
 
 
 def _leaves_open(function: FunctionNode) -> bool:

@@ -52,6 +52,25 @@ class TransitionResult(RclpyRule):
     examples = (
         Example("passed to super", {"talker.py": _NODE.format("on_activate(self, state)", _RIGHT)}),
         Example(
+            "what another method returns",
+            {
+                "talker.py": _NODE.format("on_configure(self, state)", "return self.open()")
+                + "\n    def open(self):\n        return True\n"
+            },
+            Report(
+                "11:9",
+                "returns True from open(), not a TransitionCallbackReturn: "
+                "AttributeError at the transition",
+            ),
+        ),
+        Example(
+            "a result that another method returns",
+            {
+                "talker.py": _NODE.format("on_configure(self, state)", "return self.open()")
+                + "\n    def open(self):\n        return TransitionCallbackReturn.SUCCESS\n"
+            },
+        ),
+        Example(
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
             Report(
@@ -152,6 +171,11 @@ class TransitionResult(RclpyRule):
             if statement.value is None or isinstance(statement.value, ast.Constant):
                 value = "nothing" if statement.value is None else ast.unparse(statement.value)
                 yield self.report(module.location(statement), f"returns {value}, {happens}")
+            elif isinstance(statement.value, ast.Call):
+                name, value = _result_of(file, statement.value)
+                if value:
+                    message = f"returns {value} from {name}(), {happens}"
+                    yield self.report(module.location(statement), message)
 
     def _check_name(
         self, file: RclpyFile, function: FunctionNode, methods: Mapping[str, FunctionNode]
@@ -171,3 +195,16 @@ class TransitionResult(RclpyRule):
             f"super().on_activate(state) is not called: the publisher of line {line} stays inactive"
         )
         yield self.report(file.module.name_location(function), message)
+
+
+def _result_of(file: RclpyFile, call: ast.Call) -> tuple[str, str]:
+    """Return the name and the constant result of a function of the file; empty if not known."""
+    function = file.callback(call.func).function
+    if not isinstance(function, ast.FunctionDef) or function.decorator_list:
+        return "", ""
+    values = [statement.value for statement in returned(function)]
+    if may_end(function) or is_generator(function) or not values:
+        return "", ""
+    texts = [ast.unparse(value) for value in values if isinstance(value, ast.Constant)]
+    is_known = len(texts) == len(values)
+    return function.name, " or ".join(dict.fromkeys(texts)) if is_known else ""
