@@ -11,16 +11,25 @@ from typing import Any
 
 from scaffold import distributions
 from scaffold.distributions import Distribution
-from scaffold.errors import InputError
+from scaffold.errors import ContentError, InputError
 from scaffold.generate import target
 from scaffold.generate.parts import Part
 from scaffold.generate.questions import names
 from scaffold.generate.questions.questions import flag
 from scaffold.generate.templates import licenses
 from scaffold.generate.templates.render import Renderer
-from scaffold.generate.templates.template import DEPEND_KINDS, PARTS, Question, Role, Template
+from scaffold.generate.templates.template import (
+    DEPEND_KINDS,
+    MANIFEST,
+    PARTS,
+    Question,
+    Role,
+    Template,
+)
 from scaffold.model.catalog import BUILD_TOOLS
 
+_DEPENDENCY = re.compile(r"[A-Za-z0-9][\w.+-]*")
+"""A package or a key of rosdep."""
 _IMPORT = re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
 
 VERSION = "0.1.0"
@@ -247,7 +256,7 @@ def _depends(
     for layer, scope in scopes:
         for kind, texts in layer.depends.items():
             for text in texts:
-                result[kind].update(renderer.text(text, scope).split())
+                result[kind].update(_names(layer, kind, text, renderer.text(text, scope)))
     for name in context["dependencies"]:
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")
@@ -260,6 +269,17 @@ def _depends(
             result[kind] -= result[wider]
             wider = _WIDER.get(wider)
     return {kind: sorted(result[kind] - {context["package"]}) for kind in DEPEND_KINDS}
+
+
+def _names(layer: Template, kind: str, text: str, rendered: str) -> list[str]:
+    """Return the names in a rendered entry of ``depends``."""
+    found = rendered.split()
+    if not all(map(_DEPENDENCY.fullmatch, found)):
+        raise ContentError(
+            f"{os.path.join(layer.directory, MANIFEST)}: depends: {kind}: {text!r} is "
+            f"{rendered!r}, not names separated by spaces; a list needs join(' ')"
+        )
+    return found
 
 
 def _texts(

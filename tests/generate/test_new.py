@@ -1015,7 +1015,7 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
         ("{{ package }}/a.py.jinja", "{{ nobody }}", "UndefinedError: 'nobody' is undefined"),
         ("a.jinja", "{% if %}", "a.jinja':1: TemplateSyntaxError"),
         ("a.jinja", "{{ ''.__class__.__mro__ }}", "SecurityError"),
-        ("a.jinja", "{% include '../../x' %}", "TemplateNotFound"),
+        ("a.jinja", "{% include '../../x' %}", "a.jinja:1: no template has the file '../../x'"),
         ("{{ package | upper }}.jinja", "", "a path holds only {{ names }} that are defined"),
         ("{{ nobody }}.jinja", "", "a path holds only {{ names }} that are defined"),
         ("README.md.jinja", "", "README.md is rendered twice"),
@@ -1035,6 +1035,22 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
         draft.draft(roots, template.load(roots), given, User("."))
     assert message in str(told.value)
     assert "\n" not in str(told.value)
+
+
+def test_dependencies_of_a_template_are_names(team: Path) -> None:
+    extra = team / "extras" / "listing"
+    extra.mkdir(parents=True)
+    extra.joinpath("template.yaml").write_text(
+        "summary: x\ndepends: { exec: ['{{ extras }}', \"{{ extras | join(' ') }} std-msgs\"] }\n"
+    )
+    roots = [*ROOTS, str(team)]
+    given = {"package": Given("talker", "PACKAGE"), "extras": Given("listing", "--extras")}
+    with pytest.raises(ContentError) as told:
+        draft.draft(roots, template.load(roots), given, User("."))
+    assert str(told.value) == (
+        f"{extra / 'template.yaml'}: depends: exec: '{{{{ extras }}}}' is \"('listing',)\", "
+        "not names separated by spaces; a list needs join(' ')"
+    )
 
 
 @pytest.mark.parametrize(

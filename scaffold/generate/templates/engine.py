@@ -195,6 +195,8 @@ class _TemplateErrors:
         line = getattr(error, "lineno", None) if isinstance(error, TemplateError) else None
         at = f":{line}" if line else _line_of(error)
         message = f"template {self._where!r}{at}: {type(error).__name__}: {error}"
+        if isinstance(error, TemplateNotFound):
+            message = f"template {self._where!r}{at}: no template has the file '{error}'"
         if isinstance(error, MemoryError):
             message = f"template {self._where!r}{at}: {TOO_MUCH_MEMORY}"
         raise ContentError(" ".join(message.split())) from error
