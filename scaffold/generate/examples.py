@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ScaffoldError
@@ -87,6 +88,9 @@ def _tried(
     templates: Mapping[str, Template],
     rules: Sequence[type[Rule]],
 ) -> Tried:
+    unknown = tuple(_unknown(example, templates))
+    if unknown:
+        return Tried(example, None, unknown)
     answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
     origin = f"example {example.title!r} of {example.template}"
     given = {
@@ -98,6 +102,16 @@ def _tried(
     except ScaffoldError as error:
         return Tried(example, None, (str(error),))
     return Tried(example, made, tuple(map(_line, draft.defects(made, rules))))
+
+
+def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:
+    """Yield a line about each answer of an example that no template asks for."""
+    asked = {question.name for one in templates.values() for question in one.questions}
+    for name in example.answers:
+        if name not in asked:
+            closest = get_close_matches(name, asked, n=1)
+            hint = f"; did you mean {closest[0]!r}?" if closest else ""
+            yield f"example {example.title!r}: no template has a question {name!r}{hint}"
 
 
 def _line(defect: Diagnostic) -> str:

@@ -78,6 +78,21 @@ def test_one_that_cannot_be_rendered(team: Path, capsys: pytest.CaptureFixture[s
     assert "    template 'citation/CITATION.cff.jinja'" in capsys.readouterr().out
 
 
+def test_an_example_that_answers_nothing_is_wrong(
+    team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = team / "templates" / "extras" / "citation" / "template.yaml"
+    path.write_text(path.read_text().replace("cited_package", "cited_package, year_of_papr: 2020"))
+    assert main(["templates", "test", str(team)]) == 1
+    assert capsys.readouterr().out.splitlines()[:2] == [
+        "citation: plain, ament_cmake: wrong",
+        (
+            "    example 'plain, ament_cmake': no template has a question 'year_of_papr'; "
+            "did you mean 'year_of_paper'?"
+        ),
+    ]
+
+
 def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().partition("examples:")[0])
