@@ -25,6 +25,8 @@ _OF_ROS1 = {
 _MAX_LENGTH_DIFFERENCE = 2
 """More letters than that are not a typo."""
 PROVIDERS = {
+    "add_launch_test": ("launch_testing_ament_cmake", "ros_testing"),
+    "add_ros_test": ("ros_testing",),
     "ament_add_gmock": ("ament_cmake_gmock", "ament_cmake_auto", "ament_cmake_ros"),
     "ament_add_gtest": ("ament_cmake_gtest", "ament_cmake_auto", "ament_cmake_ros"),
     "ament_add_pytest_test": (
@@ -97,6 +99,18 @@ class CommandUndefined(Rule):
                 "2:1",
                 "ament_add_pytest_test() is undefined without "
                 "find_package(ament_cmake_pytest REQUIRED)",
+            ),
+        ),
+        Example(
+            "launch tests",
+            {
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_pytest REQUIRED)\n"
+                "add_launch_test(test/test_talk.py)\n"
+            },
+            Report(
+                "3:1",
+                "add_launch_test() is undefined without "
+                "find_package(launch_testing_ament_cmake REQUIRED)",
             ),
         ),
         Example("a command of ament", {"CMakeLists.txt": _CALL.format("ament_package")}),
