@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from scaffold.errors import ScaffoldError
 from scaffold.generate import draft
 from scaffold.generate.draft import Draft
-from scaffold.generate.parts import ADD
+from scaffold.generate.parts import ADD, KIND
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates.template import PARTS, Role, Template, of_role
@@ -88,9 +88,9 @@ def _tried(
     templates: Mapping[str, Template],
     rules: Sequence[type[Rule]],
 ) -> Tried:
-    unknown = tuple(_unknown(example, templates))
-    if unknown:
-        return Tried(example, None, unknown)
+    mistakes = (*_unknown(example, templates), *_without_template(example, templates))
+    if mistakes:
+        return Tried(example, None, mistakes)
     answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
     origin = f"example {example.title!r} of {example.template}"
     given = {
@@ -112,6 +112,20 @@ def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[st
             closest = get_close_matches(name, asked, n=1)
             hint = f"; did you mean {closest[0]!r}?" if closest else ""
             yield f"example {example.title!r}: no template has a question {name!r}{hint}"
+
+
+def _without_template(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:
+    """Yield a line if the parts of an example are all of other templates."""
+    parts = example.answers.get(ADD)
+    if templates[example.template].role not in PARTS or not isinstance(parts, list):
+        return
+    kinds = [
+        str(part.get(KIND)) if isinstance(part, Mapping) else str(part).partition(":")[0]
+        for part in parts
+    ]
+    if example.template not in {*kinds, example.answers.get("node_kind")}:
+        listed = ", ".join(dict.fromkeys(kinds))
+        yield f"example {example.title!r}: has no {example.template}, but {listed}"
 
 
 def _line(defect: Diagnostic) -> str:

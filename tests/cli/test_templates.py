@@ -93,6 +93,21 @@ def test_an_example_that_answers_nothing_is_wrong(
     ]
 
 
+def test_an_example_without_its_own_template_is_wrong(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["templates", "copy", "timer", str(tmp_path), "--name", "watchdog"]) == 0
+    manifest = tmp_path / "templates" / "nodes" / "watchdog" / "template.yaml"
+    assert '"watchdog:seconds"' in manifest.read_text()
+    manifest.write_text(manifest.read_text().replace("watchdog:", "timer:"))
+    capsys.readouterr()
+    assert main(["templates", "test", str(tmp_path)]) == 1
+    said = capsys.readouterr().out.splitlines()
+    assert "watchdog: slow, ament_python: ok" in said
+    where = said.index("watchdog: several, ament_python: wrong")
+    assert said[where + 1] == ("    example 'several, ament_python': has no watchdog, but timer")
+
+
 def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().partition("examples:")[0])

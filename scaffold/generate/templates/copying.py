@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Mapping
 from difflib import get_close_matches
+from pathlib import Path
 
 from scaffold.errors import ConflictError, InputError
-from scaffold.generate.templates.template import BASE, FOLDERS, Template
+from scaffold.generate.templates.template import BASE, FOLDERS, MANIFEST, Template
 
 
 def copy(templates: Mapping[str, Template], what: str, content: str, name: str = "") -> str:
@@ -43,4 +45,12 @@ def copy(templates: Mapping[str, Template], what: str, content: str, name: str =
         shutil.copyfile(source, place)
     else:
         shutil.copytree(source, place, copy_function=shutil.copyfile)
+        _rename_in_examples(os.path.join(place, MANIFEST), original, names[-1])
     return place
+
+
+def _rename_in_examples(path: str, original: str, name: str) -> None:
+    """Let examples with parts ``KIND:NAME`` make the copy."""
+    text = Path(path).read_text(encoding="utf-8")
+    renamed = re.sub(rf"\b{re.escape(original)}:(?=\w)", f"{name}:", text)
+    Path(path).write_text(renamed, encoding="utf-8")
