@@ -752,7 +752,7 @@ ASKED = [
     for question in TEMPLATES[kind].questions
     if question.type not in {"parts", "several"} and question.name != "node_kind"
 ]
-FEW = 4
+FEW = 2
 """Answers for the second and later kinds that ask the same: all of them would take minutes."""
 
 
