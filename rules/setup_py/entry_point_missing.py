@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
@@ -119,7 +118,7 @@ class EntryPointMissing(Rule):
         except ViewError:
             return None
         function = entry.function.partition(".")[0]
-        if _is_coroutine(package, path, function):
+        if function in exports.coroutines:
             return f"{path} has an async {function}(), which nothing awaits; use asyncio.run()"
         if exports.defines(function) is not False:
             return None
@@ -141,12 +140,3 @@ class EntryPointMissing(Rule):
                 return f"the package has no module {root!r}; closest: {closest[0]}"
             return None
         return f"there is no directory {root}/"
-
-
-def _is_coroutine(package: Package, path: str, function: str) -> bool:
-    """Tell whether a function is ``async``: called as usual, it returns at once."""
-    module = package.module(path)
-    match [binding.node for binding in module.index.bindings(module.tree).get(function, ())]:
-        case [ast.AsyncFunctionDef(decorator_list=[])]:
-            return True
-    return False

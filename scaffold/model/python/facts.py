@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from scaffold.source import ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.imports import Import
+    from scaffold.model.python.scopes import FunctionNode
 
 
 class Exports(NamedTuple):
@@ -25,6 +27,8 @@ class Exports(NamedTuple):
     is_open: bool
     """Whether there may be more: a star import, a module ``__getattr__``, ``globals()``."""
     functions: tuple[str, ...]
+    coroutines: tuple[str, ...]
+    """The functions that are ``async`` and have no decorator."""
     classes: tuple[str, ...]
 
     def defines(self, name: str) -> bool | None:
@@ -50,8 +54,13 @@ def exports_of(package: Package, path: str) -> Exports:
         frozenset(name for name in names if module.defines(name) is None),
         module.defines("") is None,
         (*module.functions,),
+        tuple(name for name, one in module.functions.items() if _is_coroutine(one.node)),
         (*module.classes,),
     )
+
+
+def _is_coroutine(function: FunctionNode) -> bool:
+    return isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list
 
 
 def imports_by_path(package: Package) -> Iterator[tuple[str, tuple[Import, ...]]]:
