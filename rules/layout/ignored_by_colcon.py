@@ -37,6 +37,19 @@ class IgnoredByColcon(Rule):
                 "COLCON_IGNORE hides the package from colcon: it is never built",
             ),
         ),
+        Example(
+            "the markers of other tools",
+            {"package.xml": "<package/>\n", "AMENT_IGNORE": "", "CATKIN_IGNORE": ""},
+            Report(
+                "AMENT_IGNORE:1:1",
+                "AMENT_IGNORE hides the package from colcon-ros and the ament "
+                "tools: it is never built",
+            ),
+            Report(
+                "CATKIN_IGNORE:1:1",
+                "CATKIN_IGNORE hides the package from colcon-ros: it is never built",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

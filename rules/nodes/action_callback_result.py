@@ -79,6 +79,19 @@ class ActionCallbackResult(MessageRule):
             ),
         ),
         Example(
+            "on one path only",
+            {
+                "server.py": _NODE.format(
+                    _JUDGED, "if self.get_logger():\n            return Fibonacci.Result()"
+                )
+            },
+            Report(
+                "15:9",
+                "work() does not return the result on every path for the action "
+                "server of line 9: AssertionError",
+            ),
+        ),
+        Example(
             "the class of the result",
             {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result")},
             Report(
