@@ -131,7 +131,8 @@ class SpinInCallback(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_constructors(file)
-        for function, origin, entity in (*in_callbacks(file), *in_tasks(file)):
+        executions = (*in_callbacks(file), *in_tasks(file))
+        for function, origin, entity in {x.function: x for x in reversed(executions)}.values():
             called = file.module.enclosing_class(entity.call) if entity else None
             for call in file.spin_calls:
                 if call.name.startswith("executor.") or len(call.call.args) > MOST:

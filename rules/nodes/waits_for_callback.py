@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import (
@@ -14,7 +14,7 @@ from scaffold.api.programs import (
     may_run_meanwhile,
     share_group,
 )
-from scaffold.api.rclpy import Entity, RclpyFile
+from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
     "import threading\nimport time\n\nfrom rclpy.node import Node\n"
@@ -142,6 +142,29 @@ class WaitsForCallback(RclpyRule):
                 )
             },
         ),
+        Example(
+            "an event that a callback of another group sets, too",
+            {
+                "relay.py": _WAITS.replace(
+                    "        self.create_service",
+                    "        self.create_timer(1.0, self.start, callback_group=G())\n"
+                    "        self.create_service",
+                )
+                .replace(
+                    "        self.last = msg\n        self.arrived.set()\n",
+                    "        self.start()\n",
+                )
+                .replace(
+                    "    def answer",
+                    "    def start(self):\n        self.arrived.set()\n\n    def answer",
+                )
+                .replace(
+                    "import MultiThreadedExecutor\n",
+                    "import MultiThreadedExecutor\n"
+                    "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup as G\n",
+                )
+            },
+        ),
         Example("with a timeout", {"relay.py": _NODE.format("        self.arrived.wait(1.0)\n")}),
     )
 
@@ -150,7 +173,7 @@ class WaitsForCallback(RclpyRule):
             return
         seen: set[ast.AST] = set()
         executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
-        callbacks = {x.function: x.entity for x in executions if x.entity is not None}
+        callbacks = {x.function for x in executions if x.entity is not None}
         for executed in executions:
             for node, name in _waits(file, executed):
                 setters = _setters(file, name, node)
@@ -158,11 +181,10 @@ class WaitsForCallback(RclpyRule):
                     node in seen
                     or _calls(node, setters)
                     or not setters
-                    or not setters <= callbacks.keys() - {executed.function}
+                    or not setters <= callbacks - {executed.function}
                 ):
                     continue
-                entities = [entity for setter, entity in callbacks.items() if setter in setters]
-                if may_run_meanwhile(file, executed) and not _excludes(file, executed, entities):
+                if may_run_meanwhile(file, executed) and not _excludes(file, executed, setters):
                     continue
                 seen.add(node)
                 message = (
@@ -172,11 +194,18 @@ class WaitsForCallback(RclpyRule):
                 yield self.report(file.module.location(node), message)
 
 
-def _excludes(file: RclpyFile, executed: Executed, others: Sequence[Entity]) -> bool:
-    """Tell whether a callback keeps others from running, however many threads there are."""
+def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None]) -> bool:
+    """Tell whether a callback keeps all that set what it waits for from running at that time."""
     entity = executed.entity
     if entity is None or executed.is_task or file.module.mentions("Thread("):
         return False
+    if any(task.function in setters for task in in_tasks(file)):
+        return False
+    others = [
+        other
+        for other, callback in file.callbacks
+        if callback.function and not setters.isdisjoint(file.reached(callback.function))
+    ]
     return all(share_group(file, entity, other) for other in others)
 
 
