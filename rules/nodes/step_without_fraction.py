@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import RclpyFile, unit_problems
 
 _PARTS = ("sec", "nanosec")
 _STEPS = frozenset({"dt", "delta_t", "delta_time", "time_delta", "time_step", "timestep", "d_t"})
@@ -29,16 +29,18 @@ _BOTH = "now.sec - self.last.sec + (now.nanosec - self.last.nanosec) / 1e9"
 
 
 class StepWithoutFraction(RclpyRule):
-    """A time is computed from ``sec`` alone, from ``nanosec`` alone, or from a sum of both.
+    """A time is computed from one of its parts, or in another unit than it is used in.
 
-    **Why.** The step is 0 within a second, and 1 from one second to the next: what is integrated
-    stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec`` begins at 0
-    with every second: its difference is negative then. ``sec + nanosec`` grows by a thousand
-    million within a second.
+    **Why.** A step of ``sec`` is 0 within a second, and 1 from one second to the next: what is
+    integrated stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec``
+    begins at 0 with every second: its difference is negative then. ``sec + nanosec`` grows by a
+    thousand million within a second. ``nanoseconds > 0.5`` is true after any time at all, and a
+    step in milliseconds moves the odometry a thousand times too far.
 
-    **Fix.** ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``.
+    **Fix.** ``(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9``;
+    ``elapsed > Duration(seconds=0.5)``; ``Time.from_msg(stamp)``.
 
-    **Source.** ``builtin_interfaces/msg/Time``.
+    **Source.** ``builtin_interfaces/msg/Time``; ``rclpy/time.py``, ``rclpy/duration.py``.
     """
 
     code = "ND106"
@@ -81,11 +83,52 @@ class StepWithoutFraction(RclpyRule):
                 )
             },
         ),
+        Example(
+            "milliseconds where a speed takes seconds",
+            {
+                "odometry.py": _NODE.format(
+                    "(Time.from_msg(now) - self.last).nanoseconds / 1e6"
+                ).replace("from sensor", "from rclpy.time import Time\nfrom sensor")
+            },
+            Report(
+                "16:50",
+                "dt is in milliseconds, a speed is per second: multiply nanoseconds by 1e-9",
+            ),
+        ),
+        Example(
+            "nanoseconds compared with seconds, and with all of a time",
+            {
+                "odometry.py": _NODE.format(
+                    "1.0\n"
+                    "            late = self.get_clock().now().nanoseconds - now.nanosec\n"
+                    "            if self.age.nanoseconds > 0.5 or self.age.nanoseconds > 0:\n"
+                    "                return late"
+                )
+            },
+            Report(
+                "15:20",
+                "'nanosec' is only the part of a time below a second, 'nanoseconds' "
+                "is all of it; use Time.from_msg(stamp).nanoseconds",
+            ),
+            Report("16:16", "nanoseconds are compared with 0.5: divide by 1e9 to compare seconds"),
+        ),
+        Example(
+            "a time of whole seconds",
+            {
+                "odometry.py": _NODE.format(
+                    "Time(seconds=now.sec) - Time(seconds=now.sec, nanoseconds=now.nanosec)"
+                ).replace("from sensor", "from rclpy.time import Time\nfrom sensor")
+            },
+            Report("15:18", "the fraction in 'nanosec' is left out: use Time.from_msg()"),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions(".sec", "seconds_nanoseconds", ".nanosec"):
             return
+        if not file.module.in_tests:
+            for node, problem in unit_problems(file):
+                yield self.report(file.module.location(node), problem)
         for node in file.module.walk(ast.BinOp):
             if isinstance(node.op, ast.Add) and _is_of_one_time(file, node.left, node.right):
                 message = "nanoseconds are added to seconds: divide 'nanosec' by 1e9"

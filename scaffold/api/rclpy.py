@@ -67,6 +67,7 @@ from scaffold.model.rclpy.parameters.objects import (
 from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
 from scaffold.model.rclpy.qos import conflict_of
 from scaffold.model.rclpy.stopping import only_while_stopping
+from scaffold.model.rclpy.time_units import unit_problems
 from scaffold.model.rclpy.times import clocks_of
 from scaffold.model.rclpy.transforms import (
     Lookup,
@@ -151,6 +152,7 @@ __all__ = [
     "rclpy_paths",
     "topic_problem",
     "types_compared",
+    "unit_problems",
     "use_as_value",
     "used_by_classes",
     "wrong_value",

@@ -1,0 +1,132 @@
+"""Times and durations of rclpy that are used in another unit than they are in."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.rclpy.file import RclpyFile
+
+_LARGEST = 10_000
+"""Nanoseconds that nobody waits for: in a comparison, such a number is of another unit."""
+# linear: fixed words
+_SPEED = re.compile(r"\.(?:linear|angular|angular_velocity|linear_acceleration)\.[xyz]$")
+_UNITS = {1.0: "nanoseconds", 1e-3: "microseconds", 1e-6: "milliseconds"}
+"""What ``nanoseconds`` are after a factor."""
+_TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
+
+
+def unit_problems(file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
+    """Yield expressions whose unit is certainly wrong, and what is wrong about them."""
+    for compared in file.module.walk(ast.Compare):
+        if len(compared.ops) == 1 and isinstance(
+            compared.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE
+        ):
+            for one, other in (
+                (compared.left, compared.comparators[0]),
+                (compared.comparators[0], compared.left),
+            ):
+                yield from _compared(file, one, other)
+    for node in file.module.walk(ast.BinOp):
+        if isinstance(node.op, ast.Sub):
+            yield from _mixed(node)
+        elif isinstance(node.op, ast.Mult) and _is_outermost(file, node):
+            yield from _multiplied(file, node)
+    for call in file.module.walk(ast.Call):
+        yield from _made_of_seconds(file, call)
+
+
+def _compared(file: RclpyFile, time: ast.expr, limit: ast.expr) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``duration.nanoseconds > 0.5``."""
+    number = file.evaluator.evaluate(limit)
+    if not isinstance(number, int | float) or isinstance(number, bool):
+        return
+    if 0 < number <= _LARGEST and _scale(file, time) == 1.0:
+        yield (
+            time,
+            f"nanoseconds are compared with {number:g}: divide by 1e9 to compare seconds",
+        )
+
+
+def _scale(file: RclpyFile, node: ast.expr) -> float | None:
+    """Return the factor that ``nanoseconds`` of rclpy are multiplied by in an expression."""
+    value = file.evaluator.single_value(node)
+    match value:
+        case ast.Attribute(attr="nanoseconds"):
+            return 1.0
+        case ast.BinOp(left=left, op=ast.Sub(), right=right):
+            first = _scale(file, left)
+            return first if first == _scale(file, right) else None
+        case ast.BinOp(left=left, op=ast.Mult() | ast.Div() as op, right=right):
+            factor = file.evaluator.number(right)
+            inner = _scale(file, left)
+            if inner is None or not isinstance(factor, int | float) or not factor:
+                return None
+            return inner * factor if isinstance(op, ast.Mult) else inner / factor
+    return None
+
+
+def _mixed(node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``now.nanoseconds - stamp.nanosec``."""
+    names = {side.attr for side in (node.left, node.right) if isinstance(side, ast.Attribute)}
+    if names == {"nanoseconds", "nanosec"}:
+        message = "'nanosec' is only the part of a time below a second, 'nanoseconds' is all of it"
+        yield node, message + "; use Time.from_msg(stamp).nanoseconds"
+
+
+def _is_outermost(file: RclpyFile, node: ast.BinOp) -> bool:
+    parent = file.module.parent(node)
+    return not (isinstance(parent, ast.BinOp) and isinstance(parent.op, ast.Mult | ast.Div))
+
+
+def _factors(node: ast.expr) -> Iterator[ast.expr]:
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+        yield from _factors(node.left)
+        yield from _factors(node.right)
+    else:
+        yield node
+
+
+def _multiplied(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
+    """Find a speed that is multiplied by a step in milliseconds, and by nothing else known."""
+    factors = list(_factors(node))
+    if not any(_SPEED.search(file.module.text(item)) for item in factors):
+        return
+    if any(isinstance(file.evaluator.number(item), int | float) for item in factors):
+        return
+    for item in factors:
+        scale = _scale(file, item)
+        for factor, unit in _UNITS.items():
+            if scale is not None and abs(scale / factor - 1.0) < _NEAR:
+                message = f"{file.module.text(item)} is in {unit}, a speed is per second: "
+                yield item, message + "multiply nanoseconds by 1e-9"
+
+
+_NEAR = 1e-6
+
+
+def _made_of_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``Time(seconds=stamp.sec)``, which leaves ``nanosec`` out."""
+    if file.module.qualified_name(call.func) not in _TIMES:
+        return
+    match call:
+        case ast.Call(
+            args=[], keywords=[ast.keyword(arg="seconds", value=ast.Attribute(attr="sec"))]
+        ):
+            pass
+        case ast.Call(
+            args=[],
+            keywords=[
+                ast.keyword(arg="seconds", value=ast.Attribute(attr="sec")),
+                ast.keyword(arg="clock_type"),
+            ],
+        ):
+            pass
+        case _:
+            return
+    name = file.module.text(call.func).rpartition(".")[2]
+    message = f"the fraction in 'nanosec' is left out: use {name}.from_msg()"
+    yield call, message
