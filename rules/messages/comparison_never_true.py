@@ -32,13 +32,14 @@ _NODE = (
 
 
 class ComparisonNeverTrue(MessageRule):
-    """A field of a message is compared with a value that its type never has.
+    """A message or field is compared with a value that it never has, or anything with NaN.
 
     **Why.** ``==`` is false whatever arrives, and nothing complains: ``'1'`` is not ``1``, a cell
-    of a map is an int8 and never 255, the level of a diagnostic status is ``bytes``.
+    of a map is an int8 and never 255, the level of a diagnostic status is ``bytes``, the result
+    of an action is not its status, and NaN equals nothing, itself included.
 
     **Fix.** Compare with a value of the type, best with a constant of the message:
-    ``DiagnosticStatus.OK``.
+    ``DiagnosticStatus.OK``; ask ``math.isnan(distance)``.
 
     **Source.** ``ros2 interface show``; https://github.com/ros2/rcl_interfaces/issues/158.
     """
@@ -63,6 +64,20 @@ class ComparisonNeverTrue(MessageRule):
             Report("22:16", "msg.data is of type bool, which never equals 'true'"),
             Report("25:16", "msg.data is of type int, which never equals '1'"),
         ),
+        Example(
+            "a header for a text, and NaN",
+            {
+                "watch.py": _NODE.format(
+                    "100 or msg.header == 'map'",
+                    "100 and cell != cell",
+                    "DiagnosticStatus.OK",
+                    "True",
+                    "(float('nan'), 2) or msg.data == float('nan')",
+                )
+            },
+            Report("16:38", "msg.header is a std_msgs/msg/Header, which never equals 'map'"),
+            Report("25:49", "NaN equals nothing, itself included: use math.isnan(msg.data)"),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -70,11 +85,11 @@ class ComparisonNeverTrue(MessageRule):
             if len(node.ops) != 1 or is_for_ros1(types.module, node):
                 continue
             left, right = node.left, node.comparators[0]
-            problem = ""
+            problem = _nan_problem(types, node)
             if isinstance(node.ops[0], ast.In | ast.NotIn):
                 problems = [_problem(types, left, item) for item in _items(right)]
                 problem = problems[0] if problems and all(problems) else ""
-            elif isinstance(node.ops[0], ast.Eq | ast.NotEq):
+            elif isinstance(node.ops[0], ast.Eq | ast.NotEq) and not problem:
                 problem = _problem(types, left, right) or _problem(types, right, left)
             if problem:
                 yield self.report(types.module.location(node), problem)
@@ -84,10 +99,33 @@ def _items(node: ast.expr) -> list[ast.expr]:
     return node.elts if isinstance(node, ast.List | ast.Tuple | ast.Set) else []
 
 
+def _nan_problem(types: MessageTypes, node: ast.Compare) -> str:
+    """Return why a comparison with NaN is useless; empty if it is none."""
+    if not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+        return ""
+    for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+        is_named = types.module.qualified_name(side) in _NAN
+        match side:
+            case ast.Call(func=ast.Name(id="float"), args=[ast.Constant(value=str(text))]):
+                is_named = text.strip().lstrip("+-").lower() == "nan"
+        if is_named:
+            text = types.module.text(other)
+            return f"NaN equals nothing, itself included: use math.isnan({text})"
+    return ""
+
+
+_NAN = frozenset({"math.nan", "numpy.nan", "numpy.NaN", "numpy.NAN"})
+
+
 def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
     """Return why a field never equals a value; empty if it may."""
-    type_ = types.field_type_of(field)
     value = types.facts.evaluator.evaluate(other)
+    if isinstance(field, ast.Attribute) and isinstance(value, bool | int | float | str):
+        message = types.type_of(field)
+        if message is not None:
+            text = types.module.text(field)
+            return f"{text} is a {message.name}, which never equals {value!r}"
+    type_ = types.field_type_of(field)
     is_plain = type_ is not None and type_.is_primitive and not type_.is_array
     if type_ is None or not is_plain or not isinstance(value, bool | int | float | str | bytes):
         return ""
