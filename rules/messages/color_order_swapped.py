@@ -29,6 +29,10 @@ _OTHER = {"BGR": "RGB", "RGB": "BGR"}
 _CODE = re.compile(r"COLOR_(BGR|RGB)A?2(?!BGR|RGB)\w+")
 
 
+# linear: a name of OpenCV
+_CONVERTED = re.compile(r"COLOR_(?:BGR2(?=RGB)|RGB2(?=BGR)|(?:GRAY|HSV|HLS|YUV|LAB)2)(BGR|RGB)")
+
+
 class ColorOrderSwapped(MessageRule):
     """An image with red first is treated as one with blue first, or the other way round.
 
@@ -62,6 +66,28 @@ class ColorOrderSwapped(MessageRule):
             ),
             Report("b.py:8:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
         ),
+        Example(
+            "a converted image, and one of a camera",
+            {
+                "a.py": _FILE.format("bgr8").replace(
+                    "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2RGB)"
+                ),
+                "b.py": _FILE.format("rgb8").replace(
+                    "frame = cv2.imread(path)",
+                    "camera = cv2.VideoCapture(path)\n    ok, frame = camera.read()",
+                ),
+                "c.py": _FILE.format("rgb8").replace(
+                    "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2RGB)"
+                ),
+                "d.py": _FILE.format("bgr8").replace(
+                    "frame = cv2.imread(path)",
+                    "image = bridge.imgmsg_to_cv2(path, 'rgb8')\n"
+                    "    frame = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)",
+                ),
+            },
+            Report("a.py:8:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
+            Report("b.py:9:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -93,8 +119,14 @@ class ColorOrderSwapped(MessageRule):
                         yield self.report(module.location(call), message)
 
 
-def _order(types: MessageTypes, image: ast.Name) -> str:
+_DEEPEST = 5
+"""The most conversions that an image is followed through."""
+
+
+def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     """Return the order of colors that an image has; empty if it is not known."""
+    if _is_frame(types, image):
+        return "BGR"
     made = types.facts.evaluator.single_value(image)
     if not isinstance(made, ast.Call):
         return ""
@@ -102,7 +134,40 @@ def _order(types: MessageTypes, image: ast.Name) -> str:
         return "BGR" if len(made.args) == 1 and not made.keywords else ""
     if isinstance(made.func, ast.Attribute) and made.func.attr == "imgmsg_to_cv2":
         return _ORDER.get(_encoding(types, made, "desired_encoding"), "")
-    return ""
+    return _converted_order(types, made, depth)
+
+
+def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
+    """Return the order of colors that ``cv2.cvtColor`` gives; empty for other calls."""
+    if types.module.qualified_name(call.func) != "cv2.cvtColor" or not call.args[1:]:
+        return ""
+    code = (types.module.qualified_name(call.args[1]) or "").removeprefix("cv2.")
+    converted = _CONVERTED.fullmatch(code)
+    if converted is None:
+        return ""
+    before = ""
+    if code.startswith(("COLOR_BGR", "COLOR_RGB")) and isinstance(call.args[0], ast.Name):
+        before = _order(types, call.args[0], depth - 1) if depth else ""
+    return _OTHER[before] if before else converted[1]
+
+
+def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
+    """Tell whether an image comes from a camera of OpenCV: ``ok, frame = capture.read()``."""
+    lookup = types.module.index.lookup(image.id, image)
+    if lookup is None or len(lookup[1]) != 1:
+        return False
+    match types.module.parent(types.module.parent(lookup[1][0].node) or image):
+        case ast.Assign(
+            targets=[ast.Tuple(elts=[_, ast.Name(id=name)])],
+            value=ast.Call(func=ast.Attribute(attr="read", value=camera), args=[], keywords=[]),
+        ) if name == image.id:
+            made = types.facts.evaluator.single_value(camera)
+            return (
+                isinstance(made, ast.Call)
+                and types.module.qualified_name(made.func) == "cv2.VideoCapture"
+                and not types.module.mentions("CAP_PROP_CONVERT_RGB")
+            )
+    return False
 
 
 def _encoding(types: MessageTypes, call: ast.Call, keyword: str) -> str:

@@ -1,11 +1,11 @@
-"""MS013: a transform is between two frames."""
+"""MS013: a transform leads from one frame to another, which is below it."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile, lookups_in
 
 _NODE = (
@@ -26,25 +26,39 @@ _NODE = (
 
 
 class FrameOfItself(RclpyRule):
-    """A transform leads from a frame to the same frame, or is looked up between one frame.
+    """A transform leads from a frame to the same frame, or from the robot to the ground.
 
     **Why.** tf2 ignores it: ``TF_SELF_TRANSFORM: Ignoring transform ... with frame_id and
     child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever
-    moves.
+    moves. A frame has one parent, and all ROS expects the order map, odom, base_link: the other
+    way round the tree falls apart, and the robot moves backwards.
 
     **Fix.** Name the frame that moves as the child: ``child_frame_id = 'base_link'``.
 
-    **Source.** ``tf2/src/buffer_core.cpp``, ``setTransformImpl``.
+    **Source.** ``tf2/src/buffer_core.cpp``, ``setTransformImpl``; REP 105, "Relationship between
+    Frames".
     """
 
     code = "MS013"
     name = "frame-of-itself"
+    other_severities = {Severity.WARNING: "a child that is above its parent in REP 105"}
     examples = (
         Example("two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}),
         Example(
             "the same name",
             {"odometry.py": _NODE.format("self.frame", "'odom'")},
             Report("16:36", "the child frame is the parent frame: tf2 ignores the transform"),
+        ),
+        Example(
+            "the robot as the parent of the ground",
+            {"odometry.py": _NODE.format("'base_footprint'", "'odom'")},
+            Report(
+                "16:36",
+                "'odom' is above 'base_link' in the tree of frames, not its child: "
+                "exchange frame_id and child_frame_id, and invert the transform if "
+                "it needs it",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "the frame of a header",
@@ -92,11 +106,36 @@ class FrameOfItself(RclpyRule):
             if _are_same(file, child, parent):
                 message = "the child frame is the parent frame: tf2 ignores the transform"
                 yield self.report(file.module.location(child), message)
+            else:
+                yield from self._check_order(file, child, parent)
         for lookup in lookups_in(file):
             target, source = map(lookup.arguments.get, ("target_frame", "source_frame"))
             if target is not None and source is not None and _are_same(file, source, target):
                 message = "both frames are the same: the transform is always the identity"
                 yield self.report(file.module.location(source), message)
+
+    def _check_order(
+        self, file: RclpyFile, child: ast.expr, parent: ast.expr
+    ) -> Iterator[Diagnostic]:
+        below, above = _rank(file, child), _rank(file, parent)
+        if below is None or above is None or below >= above:
+            return
+        message = (
+            f"{_ORDER[below]!r} is above {_ORDER[above]!r} in the tree of frames, not its child: "
+            "exchange frame_id and child_frame_id, and invert the transform if it needs it"
+        )
+        yield self.report(file.module.location(child), message, severity=Severity.WARNING)
+
+
+_ORDER = ("earth", "map", "odom", "base_link")
+"""The frames of REP 105, parents first."""
+
+
+def _rank(file: RclpyFile, frame: ast.expr) -> int | None:
+    text, notes = file.evaluator.trace(frame) if hasattr(frame, "lineno") else (None, None)
+    name = text.lstrip("/") if isinstance(text, str) and not notes else ""
+    name = "base_link" if name == "base_footprint" else name
+    return _ORDER.index(name) if name in _ORDER else None
 
 
 def _stored_frames(file: RclpyFile) -> Iterator[tuple[ast.expr, ast.expr]]:

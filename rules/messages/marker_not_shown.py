@@ -1,4 +1,4 @@
-"""MS030: markers have a color that can be seen, and an id of their own."""
+"""MS030: markers have a color that can be seen, a size, and an id of their own."""
 
 from __future__ import annotations
 
@@ -34,12 +34,13 @@ _NODE = (
 
 
 class MarkerNotShown(MessageRule):
-    """A marker has no alpha, or all markers of a loop have the same id.
+    """A marker has no alpha or no size, or all markers of a loop have the same id.
 
-    **Why.** ``color.a`` is 0 unless it is set: RViz draws nothing. A marker replaces the one of
-    the same ``ns`` and ``id``: of a whole array, the last one is left.
+    **Why.** ``color.a`` and ``scale`` are 0 unless they are set: RViz draws nothing. A marker
+    replaces the one of the same ``ns`` and ``id``: of a whole array, the last one is left.
 
-    **Fix.** ``marker.color.a = 1.0``; ``marker.id = number`` of ``enumerate(...)``.
+    **Fix.** ``marker.color.a = 1.0``; ``marker.scale.x = 0.1``; ``marker.id = number`` of
+    ``enumerate(...)``.
 
     **Source.** ``visualization_msgs/msg/Marker``; RViz User Guide, "Marker Display".
     """
@@ -58,6 +59,16 @@ class MarkerNotShown(MessageRule):
                 "show.py": _NODE.format("number", "r", "marker.action = Marker.DELETE"),
                 "b.py": _NODE.format("0", "a", "marker.ns = f'place{number}'"),
             },
+        ),
+        Example(
+            "no size",
+            {
+                "show.py": _NODE.format("number", "a", "marker.ns = 'a'").replace(
+                    "marker.scale.x = marker.scale.y = marker.scale.z = 0.1",
+                    "marker.lifetime.sec = 1",
+                )
+            },
+            Report("13:22", "nothing sets scale, which is 0 then: RViz does not show this marker"),
         ),
         Example(
             "no alpha, one id",
@@ -90,6 +101,8 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     fields = {types.module.text(use).partition(".")[2] for use in uses}
     if actions <= _ADDING and fields.isdisjoint(_COLORS):
         yield "nothing sets color.a, which is 0 then: RViz does not show this marker"
+    if actions <= _ADDING and not any(field.startswith("scale") for field in fields):
+        yield "nothing sets scale, which is 0 then: RViz does not show this marker"
     loop = next((p for p in types.module.parents(made) if isinstance(p, ast.For)), None)
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
