@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.rclpy import NODE, RclpyFile, class_of, is_method
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, class_of, is_method
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
@@ -43,7 +43,7 @@ _PARTS = _HEAD + (
 
 
 class MethodNotCalled(RclpyRule):
-    """A method of an rclpy object is referenced where only a call makes sense.
+    """A method of rclpy or of the node is referenced where only a call makes sense.
 
     **Why.** ``AttributeError: 'function' object has no attribute 'now'``; as a condition, a
     method is always true; as a statement, it does nothing.
@@ -70,6 +70,17 @@ class MethodNotCalled(RclpyRule):
             Report("14:9", "rclpy.shutdown is not called; add the parentheses"),
         ),
         Example("as values, one of which is called later", {"talker.py": _VALUES}),
+        Example(
+            "a method of the node as a condition, and as a value",
+            {
+                "talker.py": _NODE.format("()", "()", "()", "()", "()")
+                + "        if not self.is_done and self.on_done:\n"
+                "            self.later = self.is_done\n\n"
+                "    def is_done(self):\n        return True\n\n"
+                "    @property\n    def on_done(self):\n        return None\n"
+            },
+            Report("15:16", "'is_done' is a method that is not called; write is_done()"),
+        ),
         Example(
             "in parts of conditions",
             {"talker.py": _PARTS},
@@ -101,7 +112,7 @@ class MethodNotCalled(RclpyRule):
             elif file.module.qualified_name(node) in _FUNCTIONS:
                 message = f"{file.module.text(node)} is not called; add the parentheses"
                 yield self.report(file.module.location(node), message)
-            elif _is_method_of_rclpy(file, node):
+            elif _is_method_of_rclpy(file, node) or _is_own_method(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
                 yield self.report(file.module.location(node), message)
 
@@ -130,6 +141,14 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
             is_tested = isinstance(op, ast.And) and values[-1] is not node
             return is_tested or _is_condition(file, both)
     return False
+
+
+def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Tell whether a node tests one of its own methods, and nothing replaces that."""
+    owner = file.owner_of(node.value)
+    function = owner.method(node.attr) if isinstance(owner, NodeClass) else None
+    is_plain = function is not None and not function.decorator_list
+    return is_plain and _is_condition(file, node) and not file.evaluator.stores(node.attr)
 
 
 def _is_method_of_rclpy(file: RclpyFile, node: ast.Attribute) -> bool:

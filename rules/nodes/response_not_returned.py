@@ -103,6 +103,18 @@ class ResponseNotReturned(MessageRule):
             ),
         ),
         Example(
+            "a response of its own is filled, and the given one returned",
+            {
+                "server.py": _NODE.format(
+                    "        answer = Trigger.Response()\n        answer.success = True\n"
+                    "        return response\n"
+                ).replace("        response.success = True\n", "")
+            },
+            Report(
+                "11:18", "returns the given response as it came: what was set in this one is lost"
+            ),
+        ),
+        Example(
             "a dict",
             {"server.py": _NODE.format("        return {'success': True}\n")},
             Report("12:9", "returns a dict, not the response (service of line 8): TypeError"),
@@ -136,6 +148,10 @@ class ResponseNotReturned(MessageRule):
             value = value_set_before(function, statement) or statement.value
             wrong = _wrong(types, service, value)
             is_last = statement is function.body[-1]
+            filled = _filled_instead(types, service, function) if is_last and not wrong else None
+            if filled is not None and _is_untouched(types, function, statement.value):
+                message = "returns the given response as it came: what was set in this one is lost"
+                yield self.report(module.location(filled), message)
             if not wrong and is_last and _is_new(types, function, statement.value):
                 message = "returns a new response: what was set in the given one is lost"
                 yield self.report(module.location(statement), message)
@@ -155,6 +171,34 @@ def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None)
         and node.value.id == given
         for node in types.module.below(function, ast.Attribute)
     )
+
+
+def _filled_instead(
+    types: MessageTypes, service: Service, function: FunctionNode
+) -> ast.Call | None:
+    """Return where a response is made whose fields are set, and that nothing else is done with."""
+    module = types.module
+    for assigned in module.below(function, ast.Assign):
+        match assigned:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call(args=[]) as made):
+                owner = types.type_of(made)
+                uses = [
+                    module.parent(use)
+                    for use in module.below(function, ast.Name)
+                    if use.id == name and isinstance(use.ctx, ast.Load)
+                ]
+                if owner is None or owner.name != f"{service.interface}.Response" or not uses:
+                    continue
+                if all(isinstance(x, ast.Attribute) and isinstance(x.ctx, ast.Store) for x in uses):
+                    return made
+    return None
+
+
+def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
+    """Tell whether a value is the given response, and nothing else is done with that."""
+    given = function.args.args[-1].arg if function.args.args else ""
+    uses = [x for x in types.module.below(function, ast.Name) if x.id == given]
+    return bool(given) and uses == [value]
 
 
 def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str:

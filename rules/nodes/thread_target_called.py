@@ -1,4 +1,4 @@
-"""ND064: threads get functions, timers a period, and coroutines are awaited."""
+"""ND064: threads get functions and are started, timers get a period, coroutines are awaited."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ _NODE = (
 
 
 class ThreadTargetCalled(RclpyRule):
-    """A thread target is called instead of passed, or a coroutine is never awaited.
+    """A thread target is called instead of passed, a thread never started, a coroutine not awaited.
 
     **Why.** ``Thread(target=self.work())`` does the work immediately, in the constructor, and the
-    thread has nothing to do; a coroutine that is not awaited never runs; a timer with period 0
-    uses all CPU time.
+    thread has nothing to do; a thread that is not started and a coroutine that is not awaited
+    never run; a timer with period 0 uses all CPU time.
 
-    **Fix.** ``target=self.work``; ``await self.ask()``; a period above 0.
+    **Fix.** ``target=self.work``; ``thread.start()``; ``await self.ask()``; a period above 0.
 
     **Source.** Python documentation, ``threading.Thread``, "Coroutines"; rclpy, ``timer.py``.
     """
@@ -68,6 +68,17 @@ class ThreadTargetCalled(RclpyRule):
             Report("9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"),
         ),
         Example(
+            "never started, and started elsewhere",
+            {
+                "talker.py": _NODE.format("", "0.1", "await ") + "\n    def more(self):\n"
+                "        first = threading.Thread(target=self.work)\n"
+                "        first.daemon = True\n"
+                "        second = threading.Thread(target=self.work)\n"
+                "        return second\n"
+            },
+            Report("22:17", "nothing starts this thread: its target never runs; call start()"),
+        ),
+        Example(
             "spun immediately",
             {
                 "talker.py": "import rclpy\n"
@@ -98,8 +109,30 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
     return isinstance(node, ast.Name | ast.Attribute) and file.owner_of(node) is not None
 
 
+def _is_never_started(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether all that is done with a thread is to make, configure and join it."""
+    index = file.module.index
+    match file.module.parent(call):
+        case ast.Assign(targets=[ast.Name() as name]):
+            scope = index.lookup(name.id, name)
+            uses = [use for use in index.names(name.id) if index.lookup(use.id, use) == scope]
+        case ast.Expr():
+            return True
+        case _:
+            return False
+    reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
+    is_local = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
+    return is_local and all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
+
+
+_IDLE = frozenset({"daemon", "name", "join", "is_alive"})
+"""What does not start a thread."""
+
+
 def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     if file.module.qualified_name(call.func) == "threading.Thread":
+        if _is_never_started(file, call):
+            yield call, "nothing starts this thread: its target never runs; call start()"
         for word in call.keywords:
             if word.arg == "target" and isinstance(word.value, ast.Call):
                 callback = file.callback(word.value)
