@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
 from scaffold.api.cmake import Install
+from scaffold.api.install import paths_imported_by
 
 _NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
 _LISTS = (
@@ -44,6 +45,17 @@ class ProgramInstalledAsFile(Rule):
             executable=("talker/node.py",),
         ),
         Example(
+            "a module with a demo, next to the program that imports it",
+            {
+                "CMakeLists.txt": _LISTS.format("FILES").replace(
+                    "ament_p", "install(PROGRAMS talker/run.py DESTINATION lib/talker)\nament_p"
+                ),
+                "talker/node.py": _NODE,
+                "talker/run.py": "#!/usr/bin/env python3\nfrom node import Node\n\nNode()\n",
+            },
+            executable=("talker/node.py", "talker/run.py"),
+        ),
+        Example(
             "as a file",
             {"CMakeLists.txt": _LISTS.format("FILES"), "talker/node.py": _NODE},
             Report(
@@ -76,13 +88,16 @@ class ProgramInstalledAsFile(Rule):
             for install in package.cmake.installs
             if install.kind == "PROGRAMS"
             for item in install.items
+            if item.path
         }
+        imported = tuple(f"/{path}" for path in paths_imported_by(package, programs))
         for install in package.cmake.installs:
             if not self._loses_bits(package, install):
                 continue
             for item in install.items:
                 path = self._script(package, item.path or "", install.kind)
-                if path and path not in programs and not _is_run_by_cmake(package, path):
+                is_module = path in programs or f"/{path}".endswith(imported)
+                if path and not is_module and not _is_run_by_cmake(package, path):
                     message = (
                         f"install({install.kind}) drops the executable bit of {path}: `ros2 run` "
                         "finds no executable; install it with PROGRAMS"

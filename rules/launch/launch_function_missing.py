@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Package, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Package, Report, fact
 from scaffold.api.launch import FUNCTION, LaunchFile
 
+_LOADERS = frozenset(
+    {
+        "runpy.run_path",
+        "importlib.util.spec_from_file_location",
+        "importlib.machinery.SourceFileLoader",
+    }
+)
 _LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
 
 
@@ -37,6 +45,15 @@ class LaunchFunctionMissing(LaunchRule):
             fixed={"launch/a.launch.py": _LAUNCH.format(FUNCTION)},
         ),
         Example(
+            "a helper that another launch file runs",
+            {
+                "launch/a.launch.py": "import runpy\nfrom pathlib import Path\n\n"
+                "HELPER = runpy.run_path(str(Path(__file__).with_name('nodes_launch.py')))\n"
+                + _LAUNCH.format(FUNCTION),
+                "launch/nodes_launch.py": _LAUNCH.format("nodes"),
+            },
+        ),
+        Example(
             "not there",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
             Report(
@@ -52,7 +69,7 @@ class LaunchFunctionMissing(LaunchRule):
         if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
             return
         is_test = "generate_test_description" in module.functions
-        if "/launch/" not in f"/{launch.path}" or is_test:
+        if "/launch/" not in f"/{launch.path}" or is_test or name in _loaded_files(package):
             return
         closest = get_close_matches(FUNCTION, module.functions, 1, 0.85)
         if closest:
@@ -64,3 +81,16 @@ class LaunchFunctionMissing(LaunchRule):
         else:
             message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
             yield self.report(package.start_of(launch.path), message)
+
+
+@fact
+def _loaded_files(package: Package) -> frozenset[str]:
+    """Return the names of the files that launch files load as modules, and not as launch files."""
+    return frozenset(
+        text.value.rpartition("/")[2]
+        for launch in LaunchFile.of_package(package)
+        for call in launch.module.walk(ast.Call)
+        if launch.module.qualified_name(call.func) in _LOADERS
+        for text in ast.walk(call)
+        if isinstance(text, ast.Constant) and isinstance(text.value, str)
+    )

@@ -64,6 +64,18 @@ class ObjectAppendedAgain(MessageRule):
                     "        pose.position.x = float(x)\n"
                     "        array.poses.append(copy(pose))\n"
                 ),
+                "c.py": _LOOP.format(
+                    "    pose = Pose()\n    for x in range(3):\n"
+                    "        array.poses = []\n"
+                    "        pose.position.x = float(x)\n"
+                    "        array.poses.append(pose)\n"
+                ),
+                "d.py": _LOOP.format(
+                    "    pose = Pose()\n    for x in range(3):\n"
+                    "        array = PoseArray()\n"
+                    "        pose.position.x = float(x)\n"
+                    "        array.poses.append(pose)\n"
+                ),
             },
         ),
         Example(
@@ -128,7 +140,8 @@ def _made_once(
         ]
         if not loops or loops[0] in module.parents(made) or _leaves(loops[0], call):
             return None
-        return made if _is_changed(types, loops[0], item) else None
+        is_filled = _is_changed(types, loops[0], item) and not _is_emptied(types, loops[0], holder)
+        return made if is_filled else None
     is_kept = isinstance(holder, ast.Attribute) and module.text(holder).startswith("self.")
     maker = module.enclosing_function(made)
     if not is_kept or function is None or maker is function or maker is None:
@@ -172,11 +185,11 @@ def _is_changed(types: MessageTypes, block: ast.AST, item: ast.expr) -> bool:
     )
 
 
-def _is_emptied(types: MessageTypes, function: ast.AST, holder: ast.expr) -> bool:
-    """Tell whether a function creates a list, or the object that holds it, each time it runs."""
+def _is_emptied(types: MessageTypes, block: ast.AST, holder: ast.expr) -> bool:
+    """Tell whether a block creates a list, or the object that holds it, each time it runs."""
     text = types.module.text(holder)
-    for node in ast.walk(function):
-        if isinstance(node, ast.Attribute):
+    for node in ast.walk(block):
+        if isinstance(node, ast.Attribute | ast.Name):
             is_made = isinstance(node.ctx, ast.Store)
             above = types.module.parent(node)
             is_cleared = isinstance(above, ast.Attribute) and above.attr in {"clear", "pop"}

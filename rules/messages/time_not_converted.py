@@ -9,7 +9,7 @@ from scaffold.api import Diagnostic, Edit, Example, Fix, MessageRule, Report
 from scaffold.api.messages import MessageTypes, rclpy_time
 from scaffold.api.python import PythonModule
 
-_OF_BUFFERS = frozenset({"set_transform", "set_transform_static"})
+_OF_BUFFERS = frozenset({"set_transform", "set_transform_static", "transform"})
 
 _CODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
@@ -45,7 +45,15 @@ class TimeNotConverted(MessageRule):
                 "def fill():\n"
                 "    transform = TransformStamped()\n"
                 "    transform.header.stamp = Time(seconds=1)\n"
-                "    BufferCore().set_transform(transform, 'test')\n"
+                "    BufferCore().set_transform(transform, 'test')\n",
+                "ask.py": "from geometry_msgs.msg import Vector3Stamped\n"
+                "from rclpy.time import Time\n\n\n"
+                "def ask(buffer, vector):\n"
+                "    stamped = Vector3Stamped()\n"
+                "    stamped.header.frame_id = 'tool0'\n"
+                "    stamped.header.stamp = Time()\n"
+                "    stamped.vector = vector\n"
+                "    return buffer.transform(stamped, 'base')\n",
             },
         ),
         Example(

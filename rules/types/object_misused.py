@@ -103,6 +103,24 @@ class ObjectMisused(TypeRule):
             Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
         ),
         Example(
+            "tuples of several kinds, told apart by their first element",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/zones.py": "from rclpy.node import Node\n\n\n"
+                "class Zones(Node):\n"
+                "    def tick(self):\n"
+                "        zones = []\n"
+                "        zones.append(('queue', 'a', 3))\n"
+                "        zones.append(('pair', 'b', 0.5, True))\n"
+                "        for zone in zones:\n"
+                "            if zone[0] == 'queue':\n"
+                "                _, name, members = zone\n"
+                "            else:\n"
+                "                _, name, width, is_fresh = zone\n",
+            },
+        ),
+        Example(
             "a method of Node that is replaced after the call",
             {
                 "talker.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -119,7 +137,8 @@ class ObjectMisused(TypeRule):
         unpacked = finding.match(r"(?P<problem>.+) values to unpack: Expected (?P<names>\d+)")
         if unpacked is not None:
             problem = f"{unpacked['problem'].lower()} values for {unpacked['names']} names"
-            return self.report(finding, f"{problem}: ValueError")
+            message = f"{problem}: ValueError"
+            return None if _is_asked_for(finding) else self.report(finding, message)
         if finding.kind not in _DOES:
             return None
         matched = finding.match(
@@ -136,6 +155,29 @@ class ObjectMisused(TypeRule):
             return None
         message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
         return self.report(finding, message)
+
+
+def _is_asked_for(finding: TypeFinding) -> bool:
+    """Tell whether a condition around asks what is unpacked, which may be of several kinds."""
+    inner: ast.AST | None = finding.innermost
+    name = ""
+    for node in finding.parents():
+        match node:
+            case ast.Assign(value=ast.Name(id=unpacked)):
+                name = unpacked
+            case ast.If(test=condition) | ast.IfExp(test=condition) | ast.While(test=condition):
+                if inner is not condition and _mentions(condition, name):
+                    return True
+            case ast.Match(subject=subject) if _mentions(subject, name):
+                return True
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                return False
+        inner = node
+    return False
+
+
+def _mentions(node: ast.expr, name: str) -> bool:
+    return any(isinstance(item, ast.Name) and item.id == name for item in ast.walk(node))
 
 
 def _is_replaced(finding: TypeFinding) -> bool:

@@ -1,4 +1,2 @@
-from collections.abc import Callable
-from contextlib import AbstractContextManager
-
-def domain_id(selector: Callable[[], int] | None = None) -> AbstractContextManager[int]: ...
+from . import impl as impl
+from .impl import domain_id as domain_id
