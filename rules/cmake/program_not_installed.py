@@ -35,8 +35,8 @@ class ProgramNotInstalled(Rule):
     code = "CM012"
     name = "program-not-installed"
     other_severities = {
-        Severity.WARNING: "no other program of its directory is installed, or it is called test or "
-        "example: it may be a helper"
+        Severity.WARNING: "no other program of its directory is installed, it is called test or "
+        "example, or it imports rospy: it may be a helper, or is not ported"
     }
     examples = (
         Example(
@@ -107,6 +107,20 @@ class ProgramNotInstalled(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "one that is left from ROS 1",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                "talker/node.py": _NODE,
+                "talker/other.py": _NODE.replace("import rclpy\n", "import rclpy\nimport rospy\n"),
+            },
+            Report(
+                "CMakeLists.txt:3:1",
+                "talker/other.py is a node with a main function, but not installed: "
+                "`ros2 run` does not find it",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -138,10 +152,15 @@ class ProgramNotInstalled(Rule):
             directory = path.rpartition("/")[0]
             has_neighbor = any(other.rpartition("/")[0] == directory for other in installed)
             is_trial = path.rpartition("/")[2].startswith(_TRIALS)
-            severity = Severity.ERROR if has_neighbor and not is_trial else Severity.WARNING
+            is_whole = has_neighbor and not is_trial and not _is_of_ros1(package, path)
+            severity = Severity.ERROR if is_whole else Severity.WARNING
             yield self.report(place, message, severity=severity)
 
     def _is_misspelled(self, package: Package, path: str) -> bool:
         """Tell whether an installed file that does not exist must be this one."""
         missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))
+
+
+def _is_of_ros1(package: Package, path: str) -> bool:
+    return any(item.module.partition(".")[0] == "rospy" for item in package.module(path).imports)

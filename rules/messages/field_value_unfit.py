@@ -60,7 +60,8 @@ class FieldValueUnfit(MessageRule):
     code = "MS006"
     name = "field-value-unfit"
     other_severities = {
-        Severity.WARNING: "the value is another message with the same fields: it is sent",
+        Severity.WARNING: "the value is another message with the same fields, or the int 0 for a "
+        "float, which arrive as they should; the condition before it is never true",
     }
     examples = (
         Example("values of the right types", {"talker.py": _CODE.format(*_RIGHT)}),
@@ -278,6 +279,36 @@ class FieldValueUnfit(MessageRule):
             ),
         ),
         Example(
+            "the int 0 for a float; what is done for a field that is None, which no field is",
+            {
+                "planner.py": "from geometry_msgs.msg import Twist\n"
+                "from nav_msgs.srv import GetPlan\nfrom rclpy.node import Node\n\n\n"
+                "class Planner(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('planner')\n"
+                "        self.create_service(GetPlan, 'plan', self.plan)\n\n"
+                "    def plan(self, request, response):\n"
+                "        stop = Twist()\n"
+                "        stop.linear.x = 0\n"
+                "        goal = request.goal\n"
+                "        if goal is None:\n"
+                "            response.plan = None\n"
+                "            return response\n"
+                "        response.plan.poses = [goal]\n"
+                "        return response\n"
+            },
+            Report(
+                "13:25",
+                "'x' of geometry_msgs/msg/Vector3 is float64, but 0 is an int",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "16:29",
+                "'plan' of nav_msgs/srv/GetPlan.Response is nav_msgs/Path, but None is None",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "an int for a float, another message, a single number for an array, out of range",
             {
                 "talker.py": "from geometry_msgs.msg import Pose, Twist, Vector3\n"
@@ -315,5 +346,8 @@ class FieldValueUnfit(MessageRule):
             if problem:
                 field = f"{item.field.name!r} of {item.owner.name}"
                 message = f"{field} is {item.field.type}, but {problem}"
-                severity = Severity.WARNING if misfits.is_alike(item) else Severity.ERROR
+                is_harmless = (
+                    misfits.is_alike(item) or misfits.is_zero(item) or misfits.is_unreachable(item)
+                )
+                severity = Severity.WARNING if is_harmless else Severity.ERROR
                 yield self.report(types.module.location(item.value), message, severity=severity)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
 from scaffold.api.rclpy import RclpyFile
 
+_PARSERS = frozenset({"argparse", "click", "docopt", "optparse", "typer"})
+"""Modules that read a command line."""
 _MAIN = "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
 
 
@@ -24,8 +26,13 @@ class InitWithoutArguments(RclpyRule):
 
     code = "ND006"
     name = "init-without-arguments"
+    other_severities = {Severity.WARNING: "the program reads its command line itself"}
     examples = (
         Example("the command line", {"talker.py": _MAIN.format("args=args")}),
+        Example(
+            "a context of its own, next to the one of the program",
+            {"talker.py": _MAIN.format("args=[], context=rclpy.Context()")},
+        ),
         Example(
             "an empty list",
             {"talker.py": _MAIN.format("args=[]")},
@@ -36,6 +43,15 @@ class InitWithoutArguments(RclpyRule):
             ),
             fixed={"talker.py": _MAIN.format("args=args")},
         ),
+        Example(
+            "an empty list, for a program with options of its own",
+            {"talker.py": f"import argparse\n{_MAIN.format('[]')}".replace("args=None", "")},
+            Report(
+                "6:16",
+                "an empty list replaces the command line: --ros-args have no effect",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -44,10 +60,16 @@ class InitWithoutArguments(RclpyRule):
             given = given or call.call.args[:1]
             if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
                 continue
+            if any(word.arg == "context" for word in call.call.keywords):
+                continue
             own = call.function.args.args if call.function else []
             fix = None
             if any(argument.arg == "args" for argument in own):
                 edit = Edit(file.module.path, *file.module.span(given[0]), "args")
                 fix = Fix("pass the arguments on", (edit,))
             message = "an empty list replaces the command line: --ros-args have no effect"
-            yield self.report(file.module.location(given[0]), message, fix)
+            is_meant = any(
+                item.module.partition(".")[0] in _PARSERS for item in file.module.imports
+            )
+            severity = Severity.WARNING if is_meant else Severity.ERROR
+            yield self.report(file.module.location(given[0]), message, fix, severity=severity)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping, Sequence
 
+from scaffold.distributions import target
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.model.messages.inference import Assigned, MessageTypes
 from scaffold.model.messages.numpy_values import numpy_class
@@ -283,6 +284,48 @@ class TypeMismatches:
             return False
         fields = [(field.name, str(field.type)) for field in expected.sections[0].fields]
         return fields == [(field.name, str(field.type)) for field in given.section.fields]
+
+    def is_zero(self, item: Assigned) -> bool:
+        """Tell whether a float field is given the int 0, which arrives as a zero."""
+        if not target().fact("messages.has_check_fields"):
+            return False  # setters always look at values
+        value = self._types.facts.evaluator.evaluate(item.value)
+        return item.field.type.name in {"float32", "float64"} and type(value) is int and value == 0
+
+    def is_unreachable(self, item: Assigned) -> bool:
+        """Tell whether a value is assigned only if a field that holds a message is ``None``."""
+        inner: ast.AST = item.value
+        for node in self._types.module.parents(item.value):
+            match node:
+                case ast.If(
+                    test=ast.Compare(
+                        left=left, ops=[ast.Is()], comparators=[ast.Constant(value=None)]
+                    )
+                ) if inner in node.body and self._is_field(node, left):
+                    return True
+                case ast.FunctionDef() | ast.AsyncFunctionDef():
+                    return False
+            inner = node
+        return False
+
+    def _is_field(self, condition: ast.If, node: ast.expr) -> bool:
+        """Tell whether an expression is a field with a message: that is never ``None``."""
+        if isinstance(node, ast.Name):
+            found = self._assigned_before(condition, node.id)
+            return found is not None and self._is_field(condition, found)
+        is_of_message = (
+            isinstance(node, ast.Attribute) and self._types.type_of(node.value) is not None
+        )
+        return is_of_message and self._types.type_of(node) is not None
+
+    def _assigned_before(self, condition: ast.If, name: str) -> ast.Attribute | None:
+        """Return the attribute that the statement right before a condition assigns to a name."""
+        body = getattr(self._types.module.parent(condition), "body", [])
+        place = body.index(condition) if condition in body else 0
+        match body[place - 1 : place]:
+            case [ast.Assign(targets=[ast.Name(id=target)], value=ast.Attribute() as value)]:
+                return value if target == name else None
+        return None
 
     def _table(self, node: ast.expr) -> str | None:
         """Report a numpy array with two dimensions: rosidl reads beyond the first row."""
