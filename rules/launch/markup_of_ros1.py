@@ -23,6 +23,7 @@ _SUBSTITUTIONS: Mapping[str, str] = {
     "find": "$(find-pkg-share package)",
     "optenv": "$(env NAME default)",
 }
+_CAUSE = "launch files of ROS 1"
 _LAUNCH = "<launch>\n  <node pkg='talker' {}='node' name='{}'/>\n</launch>\n"
 
 
@@ -70,13 +71,13 @@ class MarkupOfRos1(Rule):
     def _check(self, element: Element) -> Iterator[Diagnostic]:
         if element.tag in _TAGS:
             message = f"<{element.tag}> belongs to ROS 1; ROS 2 has {_TAGS[element.tag]}"
-            yield self.report(element.name_location, message)
+            yield self.report(element.name_location, message, cause=_CAUSE)
         for name, attribute in element.attributes.items():
             new = _ATTRIBUTES.get((element.tag, name))
             if new is not None:
                 message = f"{name!r} of <{element.tag}> belongs to ROS 1; ROS 2 has {new}"
-                yield self.report(attribute.location, message)
+                yield self.report(attribute.location, message, cause=_CAUSE)
             for kind in re.findall(r"\$\((\w+) ", attribute.value):
                 if kind in _SUBSTITUTIONS:
                     message = f"$({kind} ...) belongs to ROS 1; ROS 2 has {_SUBSTITUTIONS[kind]}"
-                    yield self.report(attribute.location, message)
+                    yield self.report(attribute.location, message, cause=_CAUSE)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import paths_of, why_missing
+from scaffold.api.launch import missing_in, paths_of, why_missing
 
 _LAUNCH = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
@@ -87,6 +87,21 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a text of several lines, in a directory of which nothing is installed",
+            {
+                **_FILES,
+                "tests/a.test": "",
+                "launch/a.launch.py": _LAUNCH.format("'tests', 'a.test'").replace(
+                    "os.path.join(share, 'tests', 'a.test')", "share + '/tests/a.test \\n'"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:12:26",
+                "share/talker/tests/a.test does not exist: setup.py of talker does not install "
+                "tests/a.test",
+            ),
+        ),
+        Example(
             "another name; another directory; not installed",
             {
                 **_FILES,
@@ -117,4 +132,4 @@ class SharePathMissing(Rule):
             why = why_missing(package, path)
             if why is not None:
                 message = f"share/{path.package}/{path.path} does not exist: {why}"
-                yield self.report(path.location, message)
+                yield self.report(path.location, message, cause=missing_in(path))

@@ -80,4 +80,5 @@ class DependencyOfRos1(Rule):
             if heir and dependency.active and package.workspace.get(name) is None:
                 which = f"Gazebo classic, which {title} lacks" if name in _CLASSIC else "ROS 1"
                 message = f"{name!r} belongs to {which}; use {heir}"
-                yield self.report(dependency, message)
+                cause = "" if name in _CLASSIC else "dependencies of ROS 1"
+                yield self.report(dependency, message, cause=cause)

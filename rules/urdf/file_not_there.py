@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
 from scaffold.api.install import share_of
-from scaffold.api.launch import NamedPath, why_missing
+from scaffold.api.launch import NamedPath, missing_in, why_missing
 from scaffold.api.robot import NamedFile, named_files, robot_paths
 
 _SETUP = (
@@ -50,7 +50,8 @@ class FileNotThere(Rule):
     code = "UR001"
     name = "file-not-there"
     other_severities = {
-        Severity.WARNING: "for a mesh that is missing next to others: it may be kept elsewhere"
+        Severity.WARNING: "for a mesh that is missing next to others: it may be kept elsewhere; in "
+        "a file that is not installed: it may be copied to where it is used"
     }
     examples = (
         Example(
@@ -120,6 +121,28 @@ class FileNotThere(Rule):
             ),
         ),
         Example(
+            "two templates that are not installed: one cause",
+            {
+                **_FILES,
+                **dict.fromkeys(
+                    ("batch/a/robot.xacro", "batch/b/robot.xacro"),
+                    _ROBOT.format("parts/wheels.xacro", "file:///base.stl"),
+                ),
+            },
+            Report(
+                "batch/a/robot.xacro:2:28",
+                "batch/a/parts/wheels.xacro does not exist: xacro stops with 'No "
+                "such file'; closest: 'wheel.xacro'",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "batch/b/robot.xacro:2:28",
+                "batch/b/parts/wheels.xacro does not exist: xacro stops with 'No "
+                "such file'; closest: 'wheel.xacro'",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "nothing like it",
             {**_FILES, "urdf/robot.xacro": _ROBOT.format("parts/laser.xacro", "file:///base.stl")},
             Report(
@@ -137,15 +160,24 @@ class FileNotThere(Rule):
                 if why is not None:
                     message = f"share/{path.package}/{path.path} does not exist: {why}"
                     is_data = _may_be_kept_elsewhere(package, named)
-                    severity = Severity.WARNING if is_data else None
-                    yield self.report(named, message, severity=severity)
+                    severity = Severity.WARNING if is_data else _severity(package, named.user)
+                    cause = missing_in(path)
+                    yield self.report(named, message, severity=severity, cause=cause)
             elif not _is_there(package, named):
                 name = named.path.rpartition("/")[2]
                 names = [item.rpartition("/")[2] for item in robot_paths(package)]
                 closest = closest_name(package, name, names, 0.7)
                 hint = f"; closest: {closest!r}" if closest else ""
                 message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
-                yield self.report(named, message)
+                severity = _severity(package, named.user)
+                yield self.report(named, message, severity=severity, cause=f"missing {name}")
+
+
+def _severity(package: Package, user: str) -> Severity:
+    """Return the severity of what a file names, by whether the file itself is installed."""
+    share = share_of(package)
+    is_used = not share.complete or user in share.files.values()
+    return Severity.ERROR if is_used else Severity.WARNING
 
 
 def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:

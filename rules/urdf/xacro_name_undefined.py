@@ -128,7 +128,8 @@ class XacroNameUndefined(Rule):
             for undefined in robot.problems.undefined:
                 message = _message(package, undefined, is_used_here=is_used_here)
                 if message:
-                    yield self.report(undefined, message)
+                    cause = "macros without a prefix" if undefined[0] == "tag" else ""
+                    yield self.report(undefined, message, cause=cause)
 
 
 def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:

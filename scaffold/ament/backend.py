@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from scaffold.ament.ruff import RuffDiagnostic
 
 
+_UNDEFINED = "F821"
+"""All names that a file lacks have one cause: an import, or a part of it that is gone."""
 _OWN_CODES = {
     UNPARSABLE: ("unparsable-file", Severity.ERROR),
     CRASHED: ("rule-crashed", Severity.ERROR),
@@ -275,7 +277,8 @@ def _diagnostic(package: Package, path: str, finding: Finding) -> Diagnostic:
     fix = _fix(package, path, finding) if finding.fix else None
     message = finding.message or code.summary
     severity = Severity.WARNING if finding.is_doubtful else code.severity
-    return Diagnostic(code.code, code.name, severity, location, message, fix)
+    cause = f"undefined names in {path}" if code.code == _UNDEFINED else ""
+    return Diagnostic(code.code, code.name, severity, location, message, fix, cause)
 
 
 def _fix(package: Package, path: str, finding: Finding) -> Fix | None:

@@ -53,7 +53,7 @@ from scaffold.model.launch.python_file import (
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
 from scaffold.model.launch.remappings import Remapped, has_name, names_of, remapped_nodes
-from scaffold.model.launch.share_paths import NamedPath, paths_of, why_missing
+from scaffold.model.launch.share_paths import NamedPath, missing_in, paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
 
@@ -102,6 +102,7 @@ __all__ = [
     "markup_paths",
     "may_be_set_elsewhere",
     "meant_package",
+    "missing_in",
     "names_alike",
     "names_of",
     "node_names",

@@ -26,6 +26,7 @@ from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity
+from scaffold.files.tree import CMAKE_LISTS
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
@@ -327,7 +328,7 @@ def _of_ros1(package: Package) -> Sequence[Diagnostic]:
     """Return what is reported of a package of ROS 1 instead of all else; nothing for others."""
     try:
         catkin = package.manifest.catkin
-        if catkin is None or uses_ament(package):
+        if catkin is None or (package.has(CMAKE_LISTS) and uses_ament(package)):
             return ()
     except ViewError:
         return ()

@@ -160,7 +160,8 @@ def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]
 
 def _further(entry: Entry) -> list[Text]:
     """Return the other places; in one line if the same message goes for all of them."""
-    first, *others = entry.places
+    first = entry.first
+    others = _new_first(entry)
     shown = others[:_MAX_PLACES]
     rest = len(others) - len(shown)
     more = f" and {count(rest, 'more place')}" if rest else ""
@@ -172,6 +173,17 @@ def _further(entry: Entry) -> list[Text]:
         for at, item in zip(places, shown, strict=True)
     ]
     return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
+
+
+def _new_first(entry: Entry) -> list[Diagnostic]:
+    """Return the further places of an entry, those that repeat what others say after these."""
+    said = {entry.first.text}
+    new: list[Diagnostic] = []
+    again: list[Diagnostic] = []
+    for item in entry.places[1:]:
+        (again if item.text in said else new).append(item)
+        said.add(item.text)
+    return [*new, *again]
 
 
 def _room(blocks: Sequence[Text], height: int, width: int) -> int:

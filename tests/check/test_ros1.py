@@ -57,6 +57,13 @@ def test_a_package_that_calls_ament_is_checked() -> None:
     assert "SC007" not in {item.code for item in session.check(Package.of(files))}
 
 
+def test_a_package_of_ros1_without_a_build_file_has_one_finding() -> None:
+    session = Session(registry.load(content.roots("rules")), Selection())
+    files = {**FILES, "package.xml": MANIFEST.format(CATKIN, "")}
+    del files["CMakeLists.txt"]
+    assert [item.code for item in session.check(Package.of(files))] == ["SC007"]
+
+
 def test_a_workspace_with_both_is_checked_but_for_the_old_one(tmp_path: Path) -> None:
     from scaffold.cli.main import main
 

@@ -10,6 +10,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from scaffold.model.install.share import share_of
+from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.workspace.gitignore import is_untracked
@@ -42,7 +43,7 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
             if launch.is_optional(share_path.node) or _is_given_to_unknown(launch, share_path.node):
                 continue
             if not _is_written(launch, share_path.node):
-                yield NamedPath(share_path.package, share_path.path, share_path.location)
+                yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
@@ -98,6 +99,11 @@ def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
     return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
 
+def missing_in(named: NamedPath) -> str:
+    """Return the cause that the missing files of one directory share."""
+    return f"files of {named.package}/{named.path.rpartition('/')[0]}"
+
+
 def why_missing(package: Package, named: NamedPath) -> str | None:
     """Return why a path certainly does not exist; ``None`` if it does or that is unknown."""
     owner = package if named.package == package.name else package.workspace.get(named.package)
@@ -132,8 +138,11 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
 
 
 def _nothing_of(path: str, installed: dict[str, str]) -> bool:
+    """Tell whether nothing of a usual directory of data is installed."""
     directory = path.partition("/")[0]
-    return not any(source.startswith(f"{directory}/") for source in installed.values())
+    return directory in {"launch", *DATA_DIRECTORIES} and not any(
+        source.startswith(f"{directory}/") for source in installed.values()
+    )
 
 
 def _name(path: str) -> str:
