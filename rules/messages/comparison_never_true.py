@@ -120,11 +120,11 @@ _NAN = frozenset({"math.nan", "numpy.nan", "numpy.NaN", "numpy.NAN"})
 def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
     """Return why a field never equals a value; empty if it may."""
     value = types.facts.evaluator.evaluate(other)
-    if isinstance(field, ast.Attribute) and isinstance(value, bool | int | float | str):
-        message = types.type_of(field)
-        if message is not None:
-            text = types.module.text(field)
-            return f"{text} is a {message.name}, which never equals {value!r}"
+    is_value = isinstance(value, bool | int | float | str) or _is_constant(types, other)
+    message = types.type_of(field) if is_value and isinstance(field, ast.Attribute) else None
+    if message is not None:
+        text, other_text = types.module.text(field), types.module.text(other)
+        return f"{text} is a {message.name}, which never equals {other_text}"
     type_ = types.field_type_of(field)
     is_plain = type_ is not None and type_.is_primitive and not type_.is_array
     if type_ is None or not is_plain or not isinstance(value, bool | int | float | str | bytes):
@@ -139,6 +139,12 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
         if not low <= value <= high:
             return f"{text} is of {type_.name}, {low} to {high}: it never equals {value}"
     return ""
+
+
+def _is_constant(types: MessageTypes, node: ast.expr) -> bool:
+    """Tell whether an expression is a constant of a message: ``GoalStatus.STATUS_SUCCEEDED``."""
+    is_named = isinstance(node, ast.Attribute) and node.attr.isupper()
+    return is_named and isinstance(node, ast.Attribute) and types.class_of(node.value) is not None
 
 
 def _allowed(type_: FieldType) -> tuple[type, ...]:

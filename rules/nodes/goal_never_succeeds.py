@@ -29,12 +29,13 @@ _NODE = (
 
 
 class GoalNeverSucceeds(RclpyRule):
-    """An execute callback returns the result without setting the goal state.
+    """An execute callback returns a result without setting the goal state.
 
     **Why.** rclpy treats the goal as failed: "Goal state not set, assuming aborted"; the client
     gets ``STATUS_ABORTED``, with the result.
 
-    **Fix.** Call ``goal_handle.succeed()`` before returning the result.
+    **Fix.** Call ``goal_handle.succeed()`` before returning the result, ``canceled()`` where a
+    cancellation ends the goal.
 
     **Source.** ``rclpy/action/server.py``, ``_execute_goal``.
     """
@@ -68,6 +69,20 @@ class GoalNeverSucceeds(RclpyRule):
             ),
         ),
         Example(
+            "canceled, and not so",
+            {
+                "server.py": _NODE.format("        goal_handle.succeed()\n"),
+                "other.py": _NODE.format("        goal_handle.succeed()\n").replace(
+                    "goal_handle.canceled()", "self.get_logger().info('canceled')"
+                ),
+            },
+            Report(
+                "other.py:14:13",
+                "a canceled goal is returned without canceled(): it ends as "
+                "aborted; call goal_handle.canceled() before",
+            ),
+        ),
+        Example(
             "sets no state",
             {"server.py": _NODE.format("")},
             Report(
@@ -81,6 +96,12 @@ class GoalNeverSucceeds(RclpyRule):
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if package.name == "rclpy":
             return
+        for returned in _returned_uncanceled(file):
+            message = (
+                "a canceled goal is returned without canceled(): it ends as aborted; call "
+                "goal_handle.canceled() before"
+            )
+            yield self.report(file.module.location(returned), message)
         seen: set[FunctionNode] = set()
         if file.module.index.attributes("succeed"):
             return
@@ -95,6 +116,38 @@ class GoalNeverSucceeds(RclpyRule):
                         f"line {line} end as aborted"
                     )
                     yield self.report(file.module.location(function.body[-1]), message)
+
+
+def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
+    """Yield where an execute callback returns because of a cancellation that nothing confirms."""
+    for server in file.action_servers:
+        function = _work(file, server)
+        if function is None or any(x.finalbody for x in file.module.below(function, ast.Try)):
+            continue
+        for test in file.module.below(function, ast.If):
+            asks = isinstance(test.test, ast.Attribute) and test.test.attr == _ASKED
+            last = test.body[-1]
+            if asks and isinstance(last, ast.Return) and not _ends_in(file, test.body):
+                yield last
+
+
+_ASKED = "is_cancel_requested"
+
+
+def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
+    """Tell whether statements, or the functions of the file that they call, may end a goal."""
+    for statement in body:
+        for node in ast.walk(statement):
+            if isinstance(node, ast.Attribute) and node.attr in {*_ENDS, "succeed"}:
+                return True
+            function = file.callback(node.func).function if isinstance(node, ast.Call) else None
+            if function is not None and any(
+                isinstance(inner, ast.Attribute) and inner.attr in {*_ENDS, "succeed"}
+                for reached in file.reached(function)
+                for inner in ast.walk(reached)
+            ):
+                return True
+    return False
 
 
 def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.programs import topics_of
-from scaffold.api.rclpy import Endpoint, Publisher, RclpyFile, latched_topics
+from scaffold.api.programs import published_at_start, topics_of
+from scaffold.api.rclpy import Endpoint, Publisher, RclpyFile, Subscription, latched_topics
 
 _PUBLISHED_ONCE = frozenset({"robot_description", "tf_static"})
 """Topics that nobody publishes again and again, as some do a map."""
@@ -19,15 +19,17 @@ _NODE = (
     "        super().__init__('viewer')\n"
     "        self.create_{}\n"
 )
+_USE = "use QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
 class LatchedTopicVolatile(RclpyRule):
-    """A well-known topic that is transient local is used with volatile durability.
+    """A topic that is transient local is used with volatile durability.
 
     **Why.** The map, the description of the robot and static transforms are published once, when
-    their node starts. A volatile subscription that comes later gets nothing, without any
-    warning; to a volatile publisher, those who request transient local do not connect.
+    their node starts; so is what a constructor publishes. A volatile subscription that comes
+    later gets nothing, without any warning; to a volatile publisher, those who request transient
+    local do not connect.
 
     **Fix.** ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)``.
 
@@ -75,6 +77,23 @@ class LatchedTopicVolatile(RclpyRule):
             ),
         ),
         Example(
+            "published by a constructor",
+            {
+                "server.py": _NODE.format(f"publisher(String, 'zones', {_LATCHED})").replace(
+                    "self.create", "self.pub = self.create"
+                )
+                + "        self.pub.publish(String())\n",
+                "viewer.py": _NODE.format("subscription(String, 'zones', print, 1)"),
+            },
+            Report(
+                "viewer.py:10:58",
+                "'zones' is published in a constructor alone: this volatile "
+                "subscription gets nothing if it comes later; use "
+                "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
+                severity=Severity.ERROR,
+            ),
+        ),
+        Example(
             "another type", {"server.py": _NODE.format("subscription(String, 'map', print, 1)")}
         ),
     )
@@ -85,6 +104,13 @@ class LatchedTopicVolatile(RclpyRule):
         latched = latched_topics()
         for endpoint in (*file.publishers, *file.subscriptions):
             topic = endpoint.name.lstrip("/") if isinstance(endpoint.name, str) else ""
+            if isinstance(endpoint, Subscription) and _is_late(package, endpoint, topic):
+                message = (
+                    f"{topic!r} is published in a constructor alone: this volatile subscription "
+                    f"gets nothing if it comes later; {_USE}"
+                )
+                yield self.report(endpoint.qos or endpoint, message, severity=Severity.ERROR)
+                continue
             if latched.get(topic) != endpoint.interface or topic not in latched:
                 continue
             if endpoint.qos is None or endpoint.qos.durability != "VOLATILE":
@@ -93,18 +119,30 @@ class LatchedTopicVolatile(RclpyRule):
 
     def _judge(self, package: Package, endpoint: Endpoint, topic: str) -> Iterator[Diagnostic]:
         there = topics_of(package).get(topic)
-        use = "use QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
         if isinstance(endpoint, Publisher):
             message = (
                 f"{topic!r} is transient local everywhere: who requests that does not connect to "
-                f"this volatile publisher; {use}"
+                f"this volatile publisher; {_USE}"
             )
             yield self.report(endpoint.qos or endpoint, message)
         elif there is None or not there.publishers:
             message = (
                 f"{topic!r} is latched: a volatile subscription gets nothing of what was published "
-                f"before it; {use}"
+                f"before it; {_USE}"
             )
             is_sure = topic in _PUBLISHED_ONCE
             severity = Severity.ERROR if is_sure else None
             yield self.report(endpoint.qos or endpoint, message, severity=severity)
+
+
+def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
+    """Tell whether all that the package publishes for a volatile subscription is published once."""
+    there = topics_of(package).get(topic)
+    if endpoint.qos is None or endpoint.qos.durability != "VOLATILE" or there is None:
+        return False
+    return bool(there.publishers) and all(
+        publisher.qos is not None
+        and publisher.qos.durability == "TRANSIENT_LOCAL"
+        and topic in published_at_start(package, publisher.location.path)
+        for publisher in there.publishers
+    )

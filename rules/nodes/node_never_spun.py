@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import NodeDefinition, RclpyCall, RclpyFile
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api.rclpy import NodeClass, NodeDefinition, RclpyCall, RclpyFile
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
@@ -54,6 +54,21 @@ class NodeNeverSpun(RclpyRule):
             ),
         ),
         Example(
+            "one of two nodes, and a node of a node",
+            {
+                "talker.py": _NODE.replace(
+                    "        self.create_timer(1",
+                    "        self.inner = rclpy.create_node('other')\n"
+                    "        self.inner.create_timer(1.0, print)\n"
+                    "        self.create_timer(1",
+                ).format("    other = Talker()\n    rclpy.spin(other)\n"),
+            },
+            Report(
+                "8:22", "nothing spins what this rclpy.create_node makes: its callbacks never run"
+            ),
+            Report("18:12", "nothing spins what this Talker makes: its callbacks never run"),
+        ),
+        Example(
             "spun in a loop",
             {"talker.py": _NODE.format("    while rclpy.ok():\n        rclpy.spin_once(node)\n")},
         ),
@@ -72,8 +87,13 @@ class NodeNeverSpun(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         waiting = {node.name: node for node in file.classes if _waits(node)}
+        if file.init_calls and file.spin_calls:
+            for call in _left_out(package, file, waiting):
+                name = file.module.text(call.func)
+                message = f"nothing spins what this {name} makes: its callbacks never run"
+                yield self.report(file.module.location(call), message)
         if not file.init_calls or not waiting:
             return
         lasts = any(node.timers or node.services for node in waiting.values())
@@ -94,6 +114,56 @@ class NodeNeverSpun(RclpyRule):
         names = {node.attr for node in file.module.walk(ast.Attribute)}
         names |= {node.id for node in file.module.walk(ast.Name)}
         return any(word in name.lower() for name in names for word in _RUNNING)
+
+
+def _left_out(
+    package: Package, file: RclpyFile, waiting: Mapping[str, NodeClass]
+) -> Iterator[ast.Call]:
+    """Yield where nodes are made that others cannot spin: they are given to nobody."""
+    objects = {node.constructor_call for node in file.objects if _waits(node)}
+    for call in file.module.walk(ast.Call):
+        uses: Sequence[ast.Name | ast.Attribute]
+        class_ = waiting.get(call.func.id) if isinstance(call.func, ast.Name) else None
+        if call not in objects and (class_ is None or _spins_itself(file, class_)):
+            continue
+        match file.module.parent(call):
+            case ast.Assign(targets=[ast.Name() as name]):
+                scope = file.module.index.lookup(name.id, name)
+                uses = [
+                    use
+                    for use in file.module.index.names(name.id)
+                    if file.module.index.lookup(use.id, use) == scope
+                ]
+                is_own = scope is not None and len(scope[1]) == 1
+                is_own = is_own and not isinstance(scope and scope[0], ast.Module)
+            case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):
+                uses = file.module.index.attributes(attribute)
+                is_own = not any(
+                    module.index.attributes(attribute)
+                    for module in package.modules()
+                    if module is not file.module
+                )
+            case _:
+                continue
+        if is_own and not any(_hands_on(file, use) for use in uses):
+            yield call
+
+
+def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
+    """Tell whether a node may see to it that it is spun, or a base class that is not here."""
+    words = ast.unparse(class_.node).lower()
+    if any(word in words for word in ("spin", "executor", "thread", "add_node")):
+        return True
+    if class_.base is None:
+        return False
+    return class_.base.facts is not file or _spins_itself(file, class_.base)
+
+
+def _hands_on(file: RclpyFile, use: ast.Name | ast.Attribute) -> bool:
+    """Tell whether more is done with a node than to call its methods and read its attributes."""
+    parent = file.module.parent(use)
+    is_read = isinstance(parent, ast.Attribute) and isinstance(parent.ctx, ast.Load)
+    return isinstance(use.ctx, ast.Load) and not is_read
 
 
 def _is_once(file: RclpyFile, spin: RclpyCall) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import SequenceMatcher
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints
@@ -19,12 +20,14 @@ _NODE = (
     "        super().__init__('caller')\n"
     "        self.client = self.create_client(Trigger, '{}')\n"
 )
+_SIMILAR = 0.75
+"""What the names of an action have in common: few packages serve two of a type."""
 _ALIKE = 4
 """Length that a name needs before a different letter counts as a typo."""
 
 
 class ServiceNameDiffers(Rule):
-    """A client's service does not exist, but one of the same type has almost the same name.
+    """A client's service or action does not exist, but one of its type has almost the same name.
 
     **Why.** No response and no error: the client waits forever.
 
@@ -42,6 +45,21 @@ class ServiceNameDiffers(Rule):
             "a typo",
             {"nodes.py": _NODE.format("reports")},
             Report("17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"),
+        ),
+        Example(
+            "an action",
+            {
+                "server.py": "from nav2_msgs.action import Spin\n"
+                "from rclpy.action import ActionServer\n\n\n"
+                "def serve(node):\n    return ActionServer(node, Spin, 'rotate_base', print)\n",
+                "client.py": "from nav2_msgs.action import Spin\n"
+                "from rclpy.action import ActionClient\n\n\n"
+                "def ask(node):\n    return ActionClient(node, Spin, 'rotate_the_base')\n",
+            },
+            Report(
+                "client.py:6:37",
+                "no service 'rotate_the_base'; did you mean 'rotate_base' (server.py:6)?",
+            ),
         ),
         Example(
             "private on one side",
@@ -87,9 +105,12 @@ def _is_slip(client: NamedEndpoint, service: NamedEndpoint) -> bool:
     if name.startswith("~") is not other.startswith("~"):
         return name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
     short, long = sorted((name, other), key=len)
-    if len(short) < _ALIKE or len(long) - len(short) > 1 or any(map(str.isdigit, name + other)):
+    is_short = len(short) < _ALIKE or short.strip("/") == long.strip("/")
+    if is_short or any(map(str.isdigit, name + other)):
         return False
-    if short.strip("/") == long.strip("/"):
+    if client.kind == "ActionClient" and client.location.path != service.location.path:
+        return SequenceMatcher(None, short, long).ratio() >= _SIMILAR
+    if len(long) - len(short) > 1:
         return False
     same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
     rest = same if len(long) > len(short) else same + 1

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api.programs import publish_calls
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
@@ -35,7 +36,7 @@ _WITH_STATE = 2
 
 
 class TransitionResult(RclpyRule):
-    """A transition callback has a wrong name, signature or result.
+    """A transition callback has a wrong name, signature or result, or publishes too early.
 
     **Why.** The node dies with ``AttributeError: 'NoneType' object has no attribute 'to_label'``
     at the transition; a method with another name is never called; publishers of
@@ -103,6 +104,24 @@ class TransitionResult(RclpyRule):
             ),
         ),
         Example(
+            "published before the publisher is active",
+            {
+                "talker.py": _NODE.format(
+                    "on_configure(self, state)",
+                    "self.say()\n        return TransitionCallbackReturn.SUCCESS",
+                )
+                + "\n    def on_activate(self, state):\n"
+                "        result = super().on_activate(state)\n"
+                "        self.pub.publish(String())\n        return result\n\n"
+                "    def say(self):\n        self.pub.publish(String())\n"
+            },
+            Report(
+                "20:9",
+                "the publisher of line 8 is not active yet: it drops this message; "
+                "publish after super().on_activate(state)",
+            ),
+        ),
+        Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
             Report("10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"),
@@ -137,6 +156,8 @@ class TransitionResult(RclpyRule):
                     elif name.startswith("on_") and not file.module.index.attributes(name):
                         yield from self._check_name(file, function, class_.methods)
                 yield from self._check_publishers(file, class_)
+                for call, problem in _published_inactive(file, class_):
+                    yield self.report(file.module.location(call), problem)
 
     def _check_plain(self, file: RclpyFile, class_: NodeClass) -> Iterator[Diagnostic]:
         """Check a node without a lifecycle: rclpy never calls its transition callbacks."""
@@ -195,6 +216,30 @@ class TransitionResult(RclpyRule):
             f"super().on_activate(state) is not called: the publisher of line {line} stays inactive"
         )
         yield self.report(file.module.name_location(function), message)
+
+
+def _published_inactive(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[ast.Call, str]]:
+    """Yield what is published while the publisher drops it: before ``super().on_activate()``."""
+    activating = class_.methods.get("on_activate")
+    supers = [
+        call
+        for call in (() if activating is None else file.calls_in(activating))
+        if isinstance(call.func, ast.Attribute) and call.func.attr == "on_activate"
+    ]
+    if len(supers) != len(file.module.index.attributes("on_activate")):
+        return  # publishers may be activated one by one
+    configuring = class_.methods.get("on_configure")
+    early = [] if configuring is None else file.reached(configuring)
+    for publisher in class_.publishers:
+        for call in publish_calls(file, publisher) or () if publisher.is_lifecycle else ():
+            function = file.function_of(call)
+            is_early = function in early and not file.is_conditional(call)
+            if function is activating and supers:
+                is_early = call.lineno < supers[0].lineno
+            if is_early:
+                line = publisher.location.line
+                problem = f"the publisher of line {line} is not active yet: it drops this message; "
+                yield call, problem + "publish after super().on_activate(state)"
 
 
 def _result_of(file: RclpyFile, call: ast.Call) -> tuple[str, str]:

@@ -74,6 +74,23 @@ class NodeUnknown(Rule):
             },
         ),
         Example(
+            "the name in the code, which the launch file replaces",
+            {
+                "package.xml": _MANIFEST,
+                "demo/talker.py": _NODE + "\n\ndef main():\n    Talker()\n",
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='demo', packages=['demo'],\n"
+                "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+                "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
+                "config/demo.yaml": _FILE.format("talker"),
+            },
+            Report(
+                "config/demo.yaml:1:1",
+                "no node is named 'talker': the section is ignored; "
+                "launch/a.launch.py:10 starts camera",
+            ),
+        ),
+        Example(
             "not the name in the launch file",
             {
                 "package.xml": _MANIFEST,
@@ -108,6 +125,8 @@ class NodeUnknown(Rule):
             return
         useless = not any(s.is_pattern or s.name in names for s in file.sections)
         everywhere = node_names(package)
+        owners = [node.owner(package) for node in use.nodes]
+        codes = {owner.node_name for owner in owners if owner is not None}
         in_one_process = any(node.package == _CONTROL for node in use.nodes)
         for section in file.sections:
             name = section.name
@@ -115,7 +134,8 @@ class NodeUnknown(Rule):
             if section.is_pattern or name in names or (in_one_process and name != _CONTROL):
                 continue
             alike = names_alike(file, names, name)
-            if alike or (useless and use.complete and name not in everywhere):
+            is_renamed = name not in everywhere or name in codes
+            if alike or (useless and use.complete and is_renamed):
                 first = use.nodes[0].location
                 message = (
                     f"no node is named {name!r}: the section is ignored; "

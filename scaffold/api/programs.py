@@ -22,7 +22,7 @@ from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
 from scaffold.model.programs.known_nodes import KnownNode
-from scaffold.model.programs.publishing import publish_calls
+from scaffold.model.programs.publishing import publish_calls, published_at_start
 from scaffold.model.programs.threads import (
     names_other_executor,
     share_group,
@@ -67,6 +67,7 @@ __all__ = [
     "phases_of",
     "programs_of",
     "publish_calls",
+    "published_at_start",
     "run_of",
     "services_of",
     "share_group",

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.returns import returned
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy.entities import (
     ActionClient,
@@ -161,13 +162,33 @@ class Creation:
     def _qos(self, created: Created, method: str) -> Qos | None:
         given = created.arguments.get("qos_profile")
         if given is not None:
-            return qos_of(self._facts.evaluator, given.node)
+            return self._qos_given(given.node)
         if method == "Subscriber" and not created.has_unknown_arguments:
             more = created.call.args[len(_FILTERS[method]) :]
             if more:  # a TypeError: the value is meant as the quality of service
                 return qos_of(self._facts.evaluator, more[0])
             return Qos(created.location, None, _DEFAULT_DEPTH, *PROFILES["default"][1:])
         return None
+
+    def _qos_given(self, node: ast.expr) -> Qos:
+        """Return the quality of service of an expression, also of a constant or function."""
+        qos = qos_of(self._facts.evaluator, node)
+        if qos != Qos(qos.location):
+            return qos
+        value = self._facts.evaluator.single_value(node)
+        is_call = isinstance(value, ast.Call)
+        defined = self._facts.definition_of(value.func if isinstance(value, ast.Call) else value)
+        if defined is None:
+            return qos
+        facts, definition = defined
+        if is_call is not isinstance(definition, ast.FunctionDef):
+            return qos
+        if isinstance(definition, ast.FunctionDef):
+            given = [statement.value for statement in returned(definition)]
+            if len(given) != 1 or given[0] is None or definition.decorator_list:
+                return qos
+            definition = given[0]
+        return qos_of(facts.evaluator, definition)._replace(location=qos.location)
 
     def _callback_of(self, created: Created, method: str) -> Callback | None:
         if method == "Subscriber":

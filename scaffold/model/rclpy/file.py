@@ -229,6 +229,24 @@ class RclpyFile:
                     return None
         return None
 
+    def definition_of(self, node: ast.expr) -> tuple[RclpyFile, ast.FunctionDef | ast.expr] | None:
+        """Return the function, or the value of the constant, that a name of the package stands for.
+
+        With the file that it is in. A name that is bound more than once has none.
+        """
+        callback = self.callback(node)
+        if isinstance(callback.function, ast.FunctionDef):
+            return self, callback.function
+        module, _, name = (self.module.qualified_name(node) or "").rpartition(".")
+        facts = self._facts_of(module)
+        bindings = facts.module.index.bindings(facts.module.tree).get(name, ()) if facts else ()
+        if facts is None or len(bindings) != 1:
+            return None
+        definition = bindings[0].node
+        if isinstance(definition, ast.FunctionDef):
+            return facts, definition
+        return (facts, bindings[0].value) if bindings[0].value is not None else None
+
     def is_own_module(self, module: str) -> bool:
         """Tell whether a dotted name is a module of the package."""
         modules = self.modules
