@@ -114,6 +114,27 @@ class ArgumentUnknown(RclpyRule):
             ),
         ),
         Example(
+            "the keyword of ROS 1 for the depth of the queue",
+            {
+                "server.py": _RIGHT.replace(
+                    "self.create_timer(0.1, print)",
+                    "self.create_publisher(Trigger, 'a', queue_size=10)",
+                )
+            },
+            Report(
+                "12:56",
+                "create_publisher() has no argument 'queue_size': TypeError; write "
+                "qos_profile=, which takes a depth as well",
+                fix="write qos_profile=",
+            ),
+            fixed={
+                "server.py": _RIGHT.replace(
+                    "self.create_timer(0.1, print)",
+                    "self.create_publisher(Trigger, 'a', qos_profile=10)",
+                )
+            },
+        ),
+        Example(
             "a message for the getter of the logger",
             {"server.py": _RIGHT.replace("super().__init__('server')", "self.get_logger('up')")},
             Report("10:25", "get_logger() takes no positional arguments: TypeError"),
@@ -134,6 +155,8 @@ def _message(excess: Excess) -> str:
         names = sorted({*signature.positional, *signature.keywords})
         closest = get_close_matches(excess.keyword, names, n=1)
         hint = f"; did you mean {closest[0]!r}?" if closest else ""
+        if _is_queue_size(excess):
+            hint = "; write qos_profile=, which takes a depth as well"
         return f"{excess.function}() has no argument {excess.keyword!r}: TypeError{hint}"
     count = len(signature.positional)
     most = f"at most {count}" if count else "no"
@@ -145,6 +168,10 @@ def _message(excess: Excess) -> str:
 
 def _fix(file: RclpyFile, excess: Excess) -> Fix | None:
     """Return the fix that names an argument, where the name is obvious."""
+    if _is_queue_size(excess) and type(file.evaluator.evaluate(excess.node)) is int:
+        start, _ = file.module.span(_keyword(excess))
+        edit = Edit(file.module.path, start, start + len(excess.keyword), "qos_profile")
+        return Fix("write qos_profile=", (edit,))
     if excess.keyword or excess.node is not excess.call.args[-1]:
         return None
     name = ""
@@ -157,6 +184,18 @@ def _fix(file: RclpyFile, excess: Excess) -> Fix | None:
         return None
     start, _ = file.module.span(excess.node)
     return Fix(f"pass it as {name}=", (Edit(file.module.path, start, start, f"{name}="),))
+
+
+def _is_queue_size(excess: Excess) -> bool:
+    """Tell whether a publisher or a subscription has the depth of its queue as ROS 1 names it."""
+    given = {word.arg for word in excess.call.keywords}
+    given.update(excess.signature.positional[: len(excess.call.args)])
+    takes_profile = "qos_profile" in {*excess.signature.positional, *excess.signature.keywords}
+    return excess.keyword == "queue_size" and takes_profile and "qos_profile" not in given
+
+
+def _keyword(excess: Excess) -> ast.keyword:
+    return next(word for word in excess.call.keywords if word.arg == excess.keyword)
 
 
 def _is_command_line(file: RclpyFile, node: ast.expr) -> bool:

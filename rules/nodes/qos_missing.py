@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import Publisher, RclpyFile, Subscription
+from scaffold.api.rclpy import Publisher, RclpyFile, Subscription, excess_arguments
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"
@@ -33,6 +33,10 @@ class QosMissing(RclpyRule):
     examples = (
         Example("a depth", {"talker.py": _NODE.format("", ", 10")}),
         Example(
+            "a keyword of ROS 1, which ND040 reports",
+            {"talker.py": _NODE.format("", ", queue_size=10")},
+        ),
+        Example(
             "no argument",
             {"talker.py": _NODE.format("", "")},
             Report("8:9", "create_publisher() is missing a depth or a QoS profile: TypeError"),
@@ -46,8 +50,9 @@ class QosMissing(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         entities: list[Publisher | Subscription] = [*file.publishers, *file.subscriptions]
+        refused = {excess.call for excess in excess_arguments(file)}  # ND040 reports these calls
         for entity in entities:
-            problem = self._problem(entity)
+            problem = None if entity.call in refused else self._problem(entity)
             if problem:
                 yield self.report(entity, problem)
 
