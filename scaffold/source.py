@@ -54,7 +54,7 @@ class Source:
             line = data.count(b"\n", 0, error.start) + 1
             at = Location.start_of(path, line)
             message = f"byte 0x{data[error.start]:02x} is not valid {encoding.upper()}"
-            raise ParseError(at, message) from error
+            raise EncodingError(at, message) from error
         except LookupError as error:
             message = f"the declared encoding {encoding!r} is not known"
             raise ParseError(Location.start_of(path), message) from error
@@ -122,6 +122,10 @@ class ParseError(ViewError):
         super().__init__(message)
         self.location = location
         self.message = message
+
+
+class EncodingError(ParseError):
+    """A file is not text of its encoding; not everybody who reads it minds."""
 
 
 class TooLargeError(ParseError):

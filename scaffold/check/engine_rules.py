@@ -33,6 +33,10 @@ class UnparsableFile(_Internal):
 
     code = "SC001"
     name = "unparsable-file"
+    other_severities: ClassVar[dict[Severity, str]] = {
+        Severity.WARNING: "the file is not UTF-8, which CMake and compilers do not mind: "
+        "only this tool cannot check it"
+    }
 
 
 class RuleCrashed(_Internal):

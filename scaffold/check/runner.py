@@ -12,19 +12,24 @@ from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFil
 from scaffold.check.file_rules import FileRule
 from scaffold.check.result import Earlier, Part, Verdict
 from scaffold.check.rule import Rule
-from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, crash_message
+from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
 from scaffold.model.facts import Fact
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
-from scaffold.source import Location, TooLargeError, ViewError
+from scaffold.source import EncodingError, Location, ParseError, TooLargeError, ViewError
 
 if TYPE_CHECKING:
     from scaffold.check.cache.facts import Settled
 
 MOST_REFUSED = 100
 """Files of one package that exhaust a rule one after the other."""
+_OF_ANY_ENCODING = (
+    *("CMakeLists.txt", ".cmake", ".in", ".txt", ".md", ".rst"),
+    *(".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".cu"),
+)
+"""How the names of files end whose readers, such as CMake and compilers, take any bytes."""
 
 
 def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
@@ -194,11 +199,12 @@ def _file_at_fault(package: Package, error: Exception) -> str | None:
 
 
 def _unparsable(package: Package) -> list[Diagnostic]:
-    fromkeys = dict.fromkeys(
-        (isinstance(error, TooLargeError), error.location, error.message)
-        for error in package.parse_errors
-    )
-    return [
-        (FileTooLarge if too_large else UnparsableFile)().report(location, message)
-        for too_large, location, message in fromkeys
-    ]
+    return [*dict.fromkeys(_diagnostic(error) for error in package.parse_errors)]
+
+
+def _diagnostic(error: ParseError) -> Diagnostic:
+    if isinstance(error, TooLargeError):
+        return FileTooLarge().report(error.location, error.message)
+    is_read = isinstance(error, EncodingError) and error.location.path.endswith(_OF_ANY_ENCODING)
+    severity = Severity.WARNING if is_read else None
+    return UnparsableFile().report(error.location, error.message, severity=severity)

@@ -16,7 +16,7 @@ from scaffold.check.rule import Example, Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session, all_rules
 from scaffold.configuration import content
-from scaffold.diagnostic import Diagnostic
+from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Edit
 from scaffold.errors import ConfigError, ContentError
 from scaffold.files.tree import MemoryTree
@@ -157,6 +157,26 @@ def test_an_unparsable_file_is_reported_once() -> None:
     assert [(d.code, d.location.path, d.location.line) for d in said] == [
         ("SC001", "package.xml", 2)
     ]
+
+
+@pytest.mark.parametrize(
+    ("path", "severity"),
+    [
+        ("CMakeLists.txt", Severity.WARNING),
+        ("talker.hpp", Severity.WARNING),
+        ("a.msg", Severity.ERROR),
+    ],
+)
+def test_bytes_that_are_not_utf8_are_an_error_where_they_stop_something(
+    path: str, severity: Severity
+) -> None:
+    class NeedsFile(NeedsManifest):
+        def check(self, package: Package) -> Iterator[Diagnostic]:
+            package.source(path)
+            return iter(())
+
+    said = runner.check(Package.of({path: b"# \xb2\xe2\xca\xd4\n"}), [NeedsFile()])
+    assert [(item.code, item.severity) for item in said] == [("SC001", severity)]
 
 
 @pytest.mark.parametrize(
