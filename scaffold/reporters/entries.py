@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 from collections.abc import Sequence
 
 from scaffold.ament.codes import STYLE
@@ -9,14 +11,21 @@ from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
+from scaffold.reporters.paths import shown
 
 SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 """Worst first."""
 
 _LAST = ("PX", "LY", "NM", "TS")
 """Areas whose findings stop no build and no program: the manifest, files, names, tests."""
-_LATER = ("CM", *_LAST)
-"""Areas whose findings do not crash a running program."""
+_LATER = ("CM", "SC007", *_LAST)
+"""Areas whose findings do not crash a running program, and packages that are for ROS 1 alone."""
+_SET_ASIDE = re.compile(
+    r"(?:.*[_ .-])?(?:archived?|archives|attic|backups?|bak|deprecated|junk|legacy|obsolete|old"
+    r"|trash|unused)",
+    re.IGNORECASE,
+)
+"""Matches the name of a directory with code that nobody works on anymore."""
 DEPENDENCY = "dependency "
 """Begins the cause of what only happens on a machine that lacks a package."""
 
@@ -66,7 +75,10 @@ def by_cause(result: Result) -> list[Entry]:
 
 
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
-    """Return entries by severity; of one severity, what crashes or builds wrong comes first."""
+    """Return entries by severity; of one severity, what crashes or builds wrong comes first.
+
+    What is in a directory such as ``archive`` or ``old`` comes after all others.
+    """
     return sorted(entries, key=_rank)
 
 
@@ -75,8 +87,17 @@ def is_style(diagnostic: Diagnostic) -> bool:
     return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
 
 
-def _rank(entry: Entry) -> tuple[int, bool, bool, bool]:
+def _is_set_aside(entry: Entry) -> bool:
+    """Tell whether all places of an entry are in directories with code that is kept, not used."""
+    return all(
+        any(_SET_ASIDE.fullmatch(name) for name in shown(entry.package, path).split(os.sep)[:-1])
+        for path in {item.location.path for item in entry.places}
+    )
+
+
+def _rank(entry: Entry) -> tuple[int, bool, bool, bool, bool]:
     first = entry.first
     is_last = first.code.startswith(_LAST) or first.cause.startswith(DEPENDENCY)
     is_later = first.code.startswith(_LATER)
-    return SEVERITIES.index(entry.severity), is_style(first), is_last, is_later
+    level = SEVERITIES.index(entry.severity)
+    return level, is_style(first), _is_set_aside(entry), is_last, is_later
