@@ -47,7 +47,7 @@ class Distribution:
         self.title = name.capitalize()
         self._directory = os.path.join(DATA, ALIASES.get(name, name))
 
-    @property
+    @cached_property
     def place(self) -> int:
         """Its place in time: a later distribution has a higher one."""
         return ORDER.index(ALIASES.get(self.name, self.name))

@@ -72,6 +72,7 @@ class Session:
         has_types: Whether the type checker runs.
         is_reference: Whether style is checked with the configuration that ament ships with.
         line_length: The characters of a line where the tests of a package do not run flake8.
+        is_remembered: Whether a later run may ask what was found, part by part.
     """
 
     def __init__(
@@ -83,7 +84,9 @@ class Session:
         has_types: bool = False,
         is_reference: bool = False,
         line_length: int | None = None,
+        is_remembered: bool = True,
     ) -> None:
+        self._is_remembered = is_remembered
         self._is_reference = is_reference
         self._line_length = line_length
         self.selection = selection
@@ -279,7 +282,8 @@ class Session:
         reported = suppression.apply(package, diagnostics, self._ran)
         _ = package.identity  # while the manifest is at hand
         verdict = None
-        if len(package.python_files) >= WORTH_PARTS and not of_ros1:
+        is_worth = self._is_remembered and len(package.python_files) >= WORTH_PARTS
+        if is_worth and not of_ros1:
             verdict = check.verdict(earlier.verdict.style if earlier else {})
         check.end()
         if verdict is not None:

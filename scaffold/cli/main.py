@@ -6,6 +6,7 @@ import atexit
 import gc
 import os
 import sys
+from contextlib import nullcontext
 
 from scaffold import __version__
 from scaffold.check.cache import runs
@@ -23,6 +24,9 @@ from scaffold.errors import ScaffoldError
 TYPE_CHECKING = False  # the one of typing is slow to import
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from contextlib import AbstractContextManager
+
+    from scaffold.generate.checking import RuleProcess
 
 
 COLLECT_FROM = 500_000
@@ -86,11 +90,25 @@ def _run(given: list[str]) -> int:
 
     from scaffold.cli.parser import build_parser
 
-    parser = build_parser(verb, comes_first=given[:1] == [verb], words=given)
-    options = parser.parse_args(given)
-    options.entry = entry
-    os.getcwd()  # if it was removed, each verb would report something else
-    return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
+    with _rules_ahead(verb, given) as process:
+        parser = build_parser(verb, comes_first=given[:1] == [verb], words=given)
+        options = parser.parse_args(given)
+        options.entry = entry
+        options.rule_process = process
+        os.getcwd()  # if it was removed, each verb would report something else
+        return int(import_module(f"scaffold.cli.verbs.{options.verb}").run(options))
+
+
+def _rules_ahead(verb: str, given: list[str]) -> AbstractContextManager[RuleProcess | None]:
+    """Have the rules loaded in a second process, if the verb will need them late.
+
+    It is started before the flags of `new` are laid out, for which all templates are read.
+    """
+    if verb != "new" or not {"-h", "--help"}.isdisjoint(given):
+        return nullcontext()
+    from scaffold.generate import checking
+
+    return checking.ahead()
 
 
 def _failed(error: Exception | KeyboardInterrupt) -> int:

@@ -1,4 +1,4 @@
-"""Turns the user's answers into a package in memory, checked before anything is written."""
+"""Turns the user's answers into a package in memory."""
 
 from __future__ import annotations
 
@@ -7,28 +7,23 @@ from collections.abc import Mapping, Sequence
 from datetime import date
 from itertools import zip_longest
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from scaffold import distributions
 from scaffold.configuration.config import USER_FILE
 from scaffold.distributions import Distribution
 from scaffold.errors import ContentError, InputError
 from scaffold.files import home
-from scaffold.generate import connections, parts, target
+from scaffold.generate import connections, parts, payload, target
 from scaffold.generate.connections import Open, Use, clashes, conflicts, uses
 from scaffold.generate.context import package_context, part_scopes, today
 from scaffold.generate.parts import Part, Request
 from scaffold.generate.questions import questions
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.repository import NOWHERE, Place, inside, unread
+from scaffold.generate.repository import NOWHERE, Place, unread
 from scaffold.generate.templates.render import Rendered, Renderer
 from scaffold.generate.templates.template import BASE, PARTS, Question, Role, Template
-
-if TYPE_CHECKING:
-    from scaffold.check.rule import Rule
-    from scaffold.diagnostic import Diagnostic
-    from scaffold.model.package import Package
 
 
 class Draft(NamedTuple):
@@ -192,6 +187,7 @@ def compose(
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
+    payload.forget()
     order = choose(templates, given)
     asked = questions.unique(order.frame)
     _refuse_useless(given, order)
@@ -232,49 +228,6 @@ def _contents(order: Order) -> str:
     return parts.contents(order.requests) or " and ".join(
         f"{summary[0].lower()}{summary[1:]}" for summary in alone
     )
-
-
-def defects(package: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-    """Return the findings about a draft: each is a defect of the templates."""
-    return Check(package).end(rules)
-
-
-class Check:
-    """The check of a draft; style begins at once, in the background.
-
-    Whoever loads the rules before they are needed does so while ruff runs.
-    """
-
-    def __init__(self, draft: Draft) -> None:
-        from scaffold.ament import StyleCheck
-
-        self._draft = draft
-        self._package = self._fresh()
-        with distributions.targeting(draft.targets[0]):
-            self._style = StyleCheck([self._package])
-
-    def end(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-        """Wait, and return the findings of the rules and the style check, for each target."""
-        from scaffold.check.selection import Selection
-        from scaffold.check.session import Session
-
-        session = Session(rules, Selection())
-        first, *others = self._draft.targets
-        with distributions.targeting(first):
-            diagnostics = session.check(self._package, self._style)
-        for other in others:
-            with distributions.targeting(other):
-                diagnostics += session.check(self._fresh())
-        return diagnostics
-
-    def _fresh(self) -> Package:
-        """Return the package; what is remembered of one is for one distribution."""
-        from scaffold.files.tree import MemoryTree
-        from scaffold.model.package import Package
-
-        rendered = self._draft.rendered
-        tree = MemoryTree(inside(rendered.files), rendered.executable)
-        return Package(tree, directory=self._draft.name)
 
 
 def choose(templates: Mapping[str, Template], given: Mapping[str, Given]) -> Order:

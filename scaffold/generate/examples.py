@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from scaffold.errors import ScaffoldError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.draft import Draft
 from scaffold.generate.parts import ADD, KIND
 from scaffold.generate.questions.defaults import User
@@ -101,7 +101,7 @@ def _tried(
         made = draft.draft(roots, templates, given, User("."))
     except ScaffoldError as error:
         return Tried(example, None, (str(error),))
-    return Tried(example, made, tuple(map(_line, draft.defects(made, rules))))
+    return Tried(example, made, tuple(map(_line, checking.defects(made, rules))))
 
 
 def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:

@@ -20,7 +20,7 @@ from scaffold.cli.main import main
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.errors import InputError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import licenses, template
@@ -39,7 +39,7 @@ def make(**answers: object) -> dict[str, str]:
     given = {"maintainer_name": "Ada", "maintainer_email": "ada@example.com", **answers}
     asked = {name: Given(value, f"--{name}") for name, value in given.items()}
     made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
-    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    assert checking.defects(made, registry.load(content.roots("rules"))) == []
     return dict(made.rendered.files)
 
 

@@ -21,7 +21,7 @@ from scaffold.check import registry
 from scaffold.cli.main import main
 from scaffold.configuration import content
 from scaffold.errors import InputError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.questions import questions
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
@@ -717,7 +717,7 @@ def judged(wanted: dict[str, Any]) -> draft.Draft | None:
         return None
     said = [
         f"{one.location.path}:{one.location.line} {one.code} {one.message}"
-        for one in draft.defects(made, RULES)
+        for one in checking.defects(made, RULES)
     ]
     assert not said, said
     for path, text in made.rendered.files.items():

@@ -16,7 +16,7 @@ import pytest
 from scaffold.check import registry
 from scaffold.configuration import content
 from scaffold.errors import InputError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.fields import fields
 from scaffold.generate.questions.questions import Given
@@ -33,7 +33,7 @@ def make(**answers: object) -> draft.Draft:
     given = {"maintainer_name": "Ada", "maintainer_email": "ada@example.com", **answers}
     asked = {name: Given(value, f"--{name}") for name, value in given.items()}
     made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
-    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    assert checking.defects(made, registry.load(content.roots("rules"))) == []
     return made
 
 

@@ -17,7 +17,7 @@ from scaffold.check.rule import Rule
 from scaffold.cli.main import main
 from scaffold.configuration import content, trust
 from scaffold.errors import ContentError, InputError
-from scaffold.generate import draft, examples, payload
+from scaffold.generate import checking, draft, examples, payload
 from scaffold.generate.questions import answer_types, names
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.qos import qos
@@ -297,14 +297,14 @@ def test_private_topics_frames_profiles_and_class_names() -> None:
 @pytest.mark.parametrize("comments", COMMENTS)
 def test_examples_pass_every_rule(given: dict[str, Any], comments: str) -> None:
     made = make(**{"comments": comments, **given})
-    assert draft.defects(made, rules()) == []
+    assert checking.defects(made, rules()) == []
 
 
 @pytest.mark.parametrize("license_", licenses.names(ROOTS))
 def test_every_licence_passes_every_rule(license_: str) -> None:
     for build_type in BUILD_TYPES:
         made = make(build_type=build_type, license=license_)
-        assert draft.defects(made, rules()) == []
+        assert checking.defects(made, rules()) == []
 
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
@@ -321,7 +321,7 @@ def test_the_longest_names_pass_every_rule(build_type: str) -> None:
         maintainer_name="M" * answer_types.MAX_PERSON,
         maintainer_email="m" * (answer_types.MAX_PERSON - 12) + "@example.com",
     )
-    assert draft.defects(made, rules()) == []
+    assert checking.defects(made, rules()) == []
 
 
 def rules() -> list[type[Rule]]:
@@ -361,7 +361,7 @@ def test_descriptions_come_out_right(description: str, build_type: str) -> None:
     if build_type == "ament_python":
         assert setup_arguments(files["setup.py"])["description"] == expected
         assert max(map(len, files["setup.py"].splitlines())) <= filters.MAX_COLUMNS
-    assert draft.defects(made, rules()) == []
+    assert checking.defects(made, rules()) == []
 
 
 def test_line_breaks_in_a_description_are_folded() -> None:
@@ -1178,7 +1178,7 @@ def package_variables() -> list[str]:
 def test_several_nodes_in_one_package() -> None:
     made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
     files = made.rendered.files
-    assert draft.defects(made, rules()) == []
+    assert checking.defects(made, rules()) == []
     assert made.executables == ("talker.py", "announcer.py")
     assert {"conversation/talker.py", "conversation/announcer.py"} < set(files)
     assert {"test/test_talker.py", "test/test_announcer.py"} < set(files)

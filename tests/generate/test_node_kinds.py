@@ -9,7 +9,7 @@ import pytest
 from scaffold.check import registry
 from scaffold.configuration import content
 from scaffold.errors import InputError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.questions import questions
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
@@ -31,7 +31,7 @@ def files_of(kind: str, **answers: object) -> Mapping[str, str]:
     }
     asked = {name: Given(value, name) for name, value in given.items()}
     made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
-    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    assert checking.defects(made, registry.load(content.roots("rules"))) == []
     return made.rendered.files
 
 

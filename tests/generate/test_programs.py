@@ -14,7 +14,7 @@ from lxml import etree
 from scaffold.check import registry
 from scaffold.configuration import content
 from scaffold.errors import InputError
-from scaffold.generate import draft
+from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates import template
@@ -51,7 +51,7 @@ def write(destination: Path, **answers: object) -> Path:
     given = {"package": PACKAGE, "maintainer_name": "Ada", "maintainer_email": "ada@example.com"}
     asked = {name: Given(value, name) for name, value in {**given, **answers}.items()}
     made = draft.draft(ROOTS, TEMPLATES, asked, User(str(destination)))
-    assert draft.defects(made, registry.load(content.roots("rules"))) == []
+    assert checking.defects(made, registry.load(content.roots("rules"))) == []
     plan = WritePlan.of(destination / made.name, made.rendered.files)
     plan.write()
     return destination / made.name

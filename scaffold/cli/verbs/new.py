@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = f"{parser.prog} [PACKAGE] [OPTION ...]"
     own = settings.load(flags.content_in(parser)).content
     templates = template.load(content.roots("templates", own))
-    parser.set_defaults(templates=templates)
+    parser.set_defaults(templates=templates, rule_process=None)
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
     parser.epilog = question_groups.SEE_ALSO
     question_groups.add(parser, _in_order(templates), kinds)
@@ -76,12 +76,10 @@ def _run(
     given: dict[str, Given],
 ) -> int:
     """Write a package for the target, asking on a terminal what is not given."""
-    from scaffold.check import registry
     from scaffold.cli import distro
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
-    from scaffold.configuration import content
     from scaffold.errors import ScaffoldError
-    from scaffold.generate import dependency_names, destination, draft, repository
+    from scaffold.generate import checking, dependency_names, destination, draft, repository
     from scaffold.generate.questions.defaults import User
 
     command = None
@@ -94,6 +92,7 @@ def _run(
         made = draft.draft(roots, templates, given, user, place=around)
         _refuse_conflicts(made.conflicts)
         destination.check(options.destination_directory, made.name)
+        check = checking.Check(made, options.rule_process)
         left = _left_to_owners(options, made, around)
         plan = _plan(options, made, left)
         above = _plan_above(made, around, left, force=options.force)
@@ -101,9 +100,7 @@ def _run(
         if command is not None:
             terminal.say_lines(f"Your answers as a command, to correct:\n    {command}")
         raise
-    check = draft.Check(made)
-    findings = check.end(registry.load(content.roots("rules")))
-    defects = [defect for defect in findings if not dependency_names.is_about(defect, named)]
+    defects = [defect for defect in check.end() if not dependency_names.is_about(defect, named)]
     if defects:
         _report_defects(defects)
         return INTERNAL_ERROR

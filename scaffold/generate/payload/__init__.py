@@ -6,7 +6,9 @@ What makes a payload is imported when one is asked for: most packages need a sin
 from __future__ import annotations
 
 import os
+from functools import cache
 
+from scaffold import distributions
 from scaffold.generate.payload.payloads import (
     ActionPayload,
     Payload,
@@ -22,6 +24,7 @@ __all__ = [
     "ServicePayload",
     "action",
     "definitions",
+    "forget",
     "payload",
     "service",
 ]
@@ -58,17 +61,28 @@ def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
 
 
 def definitions(directory: str = ".") -> Definitions:
-    """Return the definitions of the workspace around a directory, installed ones, common ones."""
+    """Return the definitions of the workspace around a directory, installed ones, common ones.
+
+    They are looked for once in a directory for a target, and again after `forget`.
+    """
+    return _definitions(os.path.realpath(directory), distributions.target().name)
+
+
+def forget() -> None:
+    """Drop the definitions: what is in a workspace may have changed."""
+    _definitions.cache_clear()
+
+
+@cache
+def _definitions(real: str, _target: str) -> Definitions:
     from scaffold.files.disk import Disk
     from scaffold.model.discovery import colcon
     from scaffold.model.discovery.unchecked import MOST_DIRECTORIES
     from scaffold.model.package import Package
     from scaffold.model.workspace.workspace import Workspace
 
-    disk = Disk()
     workspace = Workspace()
-    real = disk.real(directory)
-    for package_directory in colcon.packages_around(disk, real, most=MOST_DIRECTORIES):
+    for package_directory in colcon.packages_around(Disk(), real, most=MOST_DIRECTORIES):
         if _has_interfaces(package_directory):
             workspace.add(Package.at(package_directory, workspace))
     return Definitions.around(workspace)

@@ -1,0 +1,226 @@
+"""Checks a draft before anything of it is written: by all rules, and by ament's style.
+
+The rules take as long to load as a package takes to draft. `ahead` has a second process load them
+meanwhile; it runs them as soon as it is told the package, and the first process checks style.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, BinaryIO, NoReturn
+
+from scaffold import changes, distributions
+from scaffold.ament import StyleCheck
+from scaffold.distributions import Distribution
+from scaffold.files.tree import MemoryTree
+from scaffold.generate.repository import inside
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.check.rule import Rule
+    from scaffold.diagnostic import Diagnostic
+    from scaffold.generate.draft import Draft
+
+    Style = Mapping[str, Sequence[Diagnostic]]
+    """What is found about the style of files, by path."""
+
+
+class _Judged(NamedTuple):
+    """What is checked of a draft; it goes to another process."""
+
+    name: str
+    files: Mapping[str, str]
+    executable: frozenset[str]
+    distributions: Sequence[str]
+    """The names of its targets."""
+
+    @property
+    def targets(self) -> list[Distribution]:
+        """What it is for, oldest first."""
+        return [distributions.named(name) for name in self.distributions]
+
+    def packages(self) -> list[Package]:
+        """Return the package once for each target: what is remembered of one is for one."""
+        return [
+            Package(MemoryTree(self.files, self.executable), directory=self.name)
+            for _ in self.distributions
+        ]
+
+
+class Check:
+    """The check of a draft; style begins at once, in the background.
+
+    Args:
+        draft: The draft.
+        process: What has loaded the rules, if anything has.
+    """
+
+    def __init__(self, draft: Draft, process: RuleProcess | None = None) -> None:
+        rendered = draft.rendered
+        targets = [target.name for target in draft.targets]
+        self._judged = _Judged(draft.name, inside(rendered.files), rendered.executable, targets)
+        self._process = process
+        if process is not None:
+            process.send(self._judged)
+        self._packages = self._judged.packages()
+        self._checks: list[StyleCheck] = []
+        for target, package in zip(draft.targets, self._packages, strict=True):
+            with distributions.targeting(target):
+                self._checks.append(StyleCheck([package]))
+
+    def end(self) -> list[Diagnostic]:
+        """Return the findings of the built-in rules and of style, for each target."""
+        styles: list[Style] | None = None
+        if self._process is not None:
+            styles = self._styles()
+            found = self._process.findings(styles)
+            if found is not None:
+                return found
+        return _findings(
+            _built_in(), self._judged, self._packages, lambda: styles or self._styles()
+        )
+
+    def by(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
+        """Return the findings of these rules and of style, for each target."""
+        return _findings(rules, self._judged, self._packages, self._styles)
+
+    def _styles(self) -> list[Style]:
+        result: list[Style] = []
+        parts = zip(self._judged.targets, self._packages, self._checks, strict=True)
+        for target, package, check in parts:
+            with distributions.targeting(target):
+                result.append(check.by_file(package))
+        return result
+
+
+def defects(draft: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
+    """Return the findings about a draft: each is a defect of the templates."""
+    return Check(draft).by(rules)
+
+
+def _built_in() -> Sequence[type[Rule]]:
+    from scaffold.check import registry
+    from scaffold.configuration import content
+
+    return registry.load(content.roots("rules"))
+
+
+def _findings(
+    rules: Sequence[type[Rule]],
+    judged: _Judged,
+    packages: Sequence[Package],
+    styles: Callable[[], Sequence[Style]],
+) -> list[Diagnostic]:
+    """Run the rules, wait for what is found about style, and combine both."""
+    from scaffold.check.selection import Selection
+    from scaffold.check.session import Session
+    from scaffold.model.discovery.targets import Target
+
+    session = Session(rules, Selection(), is_remembered=False)
+    ruled = []
+    for target, package in zip(judged.targets, packages, strict=True):
+        with distributions.targeting(target):
+            ruled.append(session.check_rules(package))
+    result: list[Diagnostic] = []
+    parts = zip(judged.targets, packages, ruled, styles(), strict=True)
+    for target, package, found, style in parts:
+        with distributions.targeting(target):
+            result += session.result(Target(package), found, style).diagnostics
+    return result
+
+
+@contextmanager
+def ahead() -> Iterator[RuleProcess | None]:
+    """Have a second process load the rules, which ends with the block.
+
+    It is ``None`` where that is not possible or does not pay: without ``fork``, with one
+    processor, or beside threads, whose locks the process would inherit.
+    """
+    threading = sys.modules.get("threading")
+    is_alone = threading is None or threading.active_count() == 1
+    if not (is_alone and hasattr(os, "sched_getaffinity") and len(os.sched_getaffinity(0)) > 1):
+        yield None
+        return
+
+    process = RuleProcess()
+    try:
+        yield process
+    finally:
+        process.close()
+
+
+class RuleProcess:
+    """A process that loads the built-in rules, and runs them over the package that it is sent."""
+
+    def __init__(self) -> None:
+        requests, to = os.pipe()
+        answers, back = os.pipe()
+        self.number = os.fork()
+        """Of the process, as the system counts them."""
+        if self.number == 0:
+            os.close(to)
+            os.close(answers)
+            _serve(requests, back)
+        os.close(requests)
+        os.close(back)
+        self._to: BinaryIO = os.fdopen(to, "wb")
+        self._answers: BinaryIO = os.fdopen(answers, "rb")
+
+    def send(self, message: object) -> None:
+        """Send the package, and then its style; whoever has died is noticed by `findings`."""
+        import pickle
+
+        with suppress(BrokenPipeError):
+            pickle.dump(message, self._to)
+            self._to.flush()
+
+    def findings(self, styles: Sequence[Style]) -> list[Diagnostic] | None:
+        """Return what is found in the package, ``None`` if the process did not get to its end."""
+        import pickle
+
+        self.send(styles)
+        try:
+            found: list[Diagnostic] = pickle.load(self._answers)  # noqa: S301  a process of ours
+        except (EOFError, pickle.UnpicklingError):
+            return None
+        return found
+
+    def close(self) -> None:
+        """End the process, wherever it is."""
+        import signal
+
+        with suppress(BrokenPipeError):
+            self._to.close()
+        self._answers.close()
+        os.kill(self.number, signal.SIGKILL)
+        os.waitpid(self.number, 0)
+
+
+def _serve(requests: int, back: int) -> NoReturn:
+    """Load the rules, check the package that comes, send what is found, and end.
+
+    Whatever goes wrong, the first process finds out by checking the package itself.
+    """
+    code = 1
+    try:
+        import pickle
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process says what is interrupted
+        with open(requests, "rb") as source, open(back, "wb") as sink:
+            rules = _built_in()
+            changes.of_kind("name")  # read now, while there is nothing else to do
+            judged: _Judged = pickle.load(source)  # noqa: S301  a process of ours
+
+            def styles() -> Sequence[Style]:
+                sent: Sequence[Style] = pickle.load(source)  # noqa: S301  a process of ours
+                return sent
+
+            pickle.dump(_findings(rules, judged, judged.packages(), styles), sink)
+        code = 0
+    finally:
+        os._exit(code)
