@@ -147,10 +147,14 @@ def encode(value: object) -> object:
         return _ENCODERS[kind](value)
     if isinstance(value, tuple | Enum):
         values = value if isinstance(value, tuple) else (value.value,)
-        return (f"{kind.__module__}:{kind.__qualname__}", *map(encode, values))
+        if kind not in _names:
+            _names[kind] = f"{kind.__module__}:{kind.__qualname__}"
+        return (_names[kind], *map(encode, values))
     raise TypeError(f"a fact cannot hold {kind.__name__}")
 
 
+_names: dict[type, str] = {}
+"""Each once: marshal writes what is the same object once."""
 _ENCODERS: Mapping[type, Callable[[Any], object]] = {
     tuple: lambda value: ("", *map(encode, value)),
     list: lambda value: ("[", *map(encode, value)),

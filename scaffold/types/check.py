@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping, Sequence
 from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.types import environment, python_modules, ty
-from scaffold.types.callbacks import with_callback_types
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
@@ -282,14 +281,14 @@ def _annotated(source: Source) -> bytes:
     """Return a file with annotations of its callbacks and of plain results."""
     if not source.path:  # a stub
         return source.data
-    return with_result_types(with_callback_types(source.data))
+    return with_result_types(source.with_callback_types)
 
 
 def _unannotated(source: Source) -> bytes:
     """Return a file with no other annotations; nothing of one that does not parse."""
     if not source.path:
         return source.data
-    return with_result_types(without_annotations(with_callback_types(source.data)) or b"")
+    return with_result_types(without_annotations(source.with_callback_types) or b"")
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

@@ -63,7 +63,7 @@ def _is_decorated(text: str, start: int) -> bool:
 
 def _result(parameters: str, body: str) -> str:
     """Return the type of all that a function returns; empty if it is not plain."""
-    if "return" not in body or _OTHER_SCOPES.search(body):
+    if "return" not in body or _has_other_scopes(body):
         return ""
     types: set[str] = set()
     for match in _RETURN.finditer(body):
@@ -71,6 +71,13 @@ def _result(parameters: str, body: str) -> str:
         if value not in {"", "None"}:
             types.add(_type(value, parameters, body))
     return types.pop() if len(types) == 1 else ""
+
+
+def _has_other_scopes(body: str) -> bool:
+    """Tell whether a function is a generator, or has functions or classes of its own."""
+    if not any(word in body for word in ("def", "class", "yield")):
+        return False
+    return _OTHER_SCOPES.search(body) is not None
 
 
 def _expression(text: str, start: int) -> str:

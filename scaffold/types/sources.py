@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 
 from scaffold.files.disk import digest
 from scaffold.files.limits import most_bytes, why_unread
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
+from scaffold.types.callbacks import with_callback_types
 from scaffold.types.environment import marked
 from scaffold.types.stubs import interface_stub_files
 from scaffold.types.ty import LIBRARY
@@ -53,6 +55,11 @@ class Source:
         self.imports = frozenset(_imports(data, module))
         """Dotted names: modules, and what may be modules or names in them."""
         self.roots = frozenset(name.partition(".")[0] for name in self.imports)
+
+    @cached_property
+    def with_callback_types(self) -> bytes:
+        """What is in it, with annotations for its callbacks."""
+        return with_callback_types(self.data)
 
 
 def _imports(data: bytes, module: str) -> Iterator[str]:

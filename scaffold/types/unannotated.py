@@ -13,6 +13,9 @@ import re
 import tokenize
 from collections.abc import Iterator
 
+from scaffold.model.python.module import MAX_DEPTH
+from scaffold.model.python.scopes import ScopeIndex
+
 _UNKNOWN = "_"
 """A name that tells a type checker nothing."""
 _AROUND = {
@@ -29,44 +32,44 @@ def without_annotations(data: bytes) -> bytes | None:
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         text = data.decode(encoding)
-        tree = ast.parse(text)
+        index = ScopeIndex(ast.parse(text))
     except (SyntaxError, ValueError, LookupError, RecursionError, MemoryError):
         return None
+    if not index.build(MAX_DEPTH):
+        return None
     edits = _Edits(text)
-    for kind, annotation in _annotations(tree):
+    for kind, annotation in _annotations(index):
         edits.replace(kind, annotation)
     return edits.text().encode(encoding)
 
 
-def _annotations(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:
+def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
     """Yield the annotations to replace, each with what it is of."""
-    nodes = list(ast.walk(tree))
-    handed_over = _handed_over(nodes)
-    for node in nodes:
-        match node:
-            case ast.FunctionDef() | ast.AsyncFunctionDef():
-                if node.returns is not None:
-                    yield "result", node.returns
-                kept = _never_rebound(node) if node.name in handed_over else set()
-                for argument in _arguments(node.args):
-                    if argument.annotation is not None and argument.arg not in kept:
-                        yield "parameter", argument.annotation
-            case ast.AnnAssign(value=value):
-                yield "declaration" if value is None else "variable", node.annotation
-            case _:
-                pass
+    handed_over = _handed_over(index)
+    functions: list[ast.FunctionDef | ast.AsyncFunctionDef] = [
+        *index.all_of(ast.FunctionDef),
+        *index.all_of(ast.AsyncFunctionDef),
+    ]
+    for function in functions:
+        if function.returns is not None:
+            yield "result", function.returns
+        kept = _never_rebound(function) if function.name in handed_over else set()
+        for argument in _arguments(function.args):
+            if argument.annotation is not None and argument.arg not in kept:
+                yield "parameter", argument.annotation
+    for variable in index.all_of(ast.AnnAssign):
+        yield "declaration" if variable.value is None else "variable", variable.annotation
 
 
-def _handed_over(nodes: list[ast.AST]) -> set[str]:
+def _handed_over(index: ScopeIndex) -> set[str]:
     """Return the names of functions that are arguments of calls: callbacks."""
     names: set[str] = set()
-    for node in nodes:
-        if isinstance(node, ast.Call):
-            for value in (*node.args, *(keyword.value for keyword in node.keywords)):
-                if isinstance(value, ast.Attribute):
-                    names.add(value.attr)
-                elif isinstance(value, ast.Name):
-                    names.add(value.id)
+    for call in index.all_of(ast.Call):
+        for value in (*call.args, *(keyword.value for keyword in call.keywords)):
+            if isinstance(value, ast.Attribute):
+                names.add(value.attr)
+            elif isinstance(value, ast.Name):
+                names.add(value.id)
     return names
 
 
