@@ -163,7 +163,7 @@ def test_brief_node() -> None:
                         FloatingPointRange(from_value=0.1, to_value=1000.0)])).value
                 self.publisher = self.create_publisher(String, 'example_topic', 10)
                 self.timer = self.create_timer(1.0 / rate, self.publish_message)
-                self.count = 0
+                self.count = 0  # messages published so far
 
             def publish_message(self) -> None:
                 """Log the next message and publish it."""
@@ -176,7 +176,7 @@ def test_brief_node() -> None:
 
         def main(args: list[str] | None = None) -> None:
             """Run the node until Ctrl+C (SIGINT) or SIGTERM."""
-            signal.signal(signal.SIGTERM, signal.default_int_handler)  # rclpy alone may miss one
+            signal.signal(signal.SIGTERM, signal.default_int_handler)  # rclpy alone may miss it
             rclpy.init(args=args)
             node = None
             try:
@@ -188,8 +188,8 @@ def test_brief_node() -> None:
                 get_logger('minimal_publisher').fatal(str(error))
                 raise SystemExit(1) from None
             except RuntimeError:
-                time.sleep(0.5)  # after a signal, rclpy takes a moment to end the context
-                if rclpy.ok():  # otherwise the signal came while the node was using it
+                time.sleep(0.5)  # after a signal, rclpy takes a moment to shut down
+                if rclpy.ok():  # if not, the signal came while the node was working
                     raise
             finally:
                 if node is not None:
@@ -810,16 +810,16 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
             .gitattributes                 how git merges the two .ros2-scaffold files
             .ros2-scaffold.bases           what the templates gave, for `ros2-scaffold update`
             .ros2-scaffold.json            how it was made, for `ros2-scaffold update`
-            CHANGELOG.rst                  what changed, for releases
+            CHANGELOG.rst                  what changed in each release
             CMakeLists.txt                 what is installed and tested
             LICENSE                        the full text of the license
-            README.md                      how to build it, run it and look at it
+            README.md                      how to build, run, inspect and test it
             package.xml                    name, license, dependencies
             talker/
                 __init__.py                makes the directory a Python package
                 minimal_publisher.py       the node
             test/
-                conftest.py                what the tests of all nodes share
+                conftest.py                fixtures shared by the tests of all nodes
                 test_minimal_publisher.py  starts the node, receives messages, stops it
 
         Next:

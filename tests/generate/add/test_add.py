@@ -310,7 +310,7 @@ def test_a_node_joins_the_readme_above_the_programs(tmp_path: Path) -> None:
         "### talker",
         "### listener",
         "### C++ programs",
-        "## Look at it",
+        "## Inspect",
         "## Topics",
         "## Parameters",
     ]
