@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Package, Report, fact
 from scaffold.api.launch import FUNCTION, LaunchFile
+from scaffold.api.python import paths_importing
 
 _LOADERS = frozenset(
     {
@@ -51,6 +52,10 @@ class LaunchFunctionMissing(LaunchRule):
                 "HELPER = runpy.run_path(str(Path(__file__).with_name('nodes_launch.py')))\n"
                 + _LAUNCH.format(FUNCTION),
                 "launch/nodes_launch.py": _LAUNCH.format("nodes"),
+                "launch/b.launch.py": "import runpy\n\n"
+                "_ALL = runpy.run_path('share/all.launch.py')\n\n\n"
+                f"def {FUNCTION}():\n    return _ALL['describe']('b')\n",
+                "launch/all.launch.py": _LAUNCH.format("describe"),
             },
         ),
         Example(
@@ -88,9 +93,10 @@ def _loaded_files(package: Package) -> frozenset[str]:
     """Return the names of the files that launch files load as modules, and not as launch files."""
     return frozenset(
         text.value.rpartition("/")[2]
-        for launch in LaunchFile.of_package(package)
-        for call in launch.module.walk(ast.Call)
-        if launch.module.qualified_name(call.func) in _LOADERS
+        for path in paths_importing(package, "runpy", "importlib")
+        if "launch" in path
+        for call in package.module(path).walk(ast.Call)
+        if package.module(path).qualified_name(call.func) in _LOADERS
         for text in ast.walk(call)
         if isinstance(text, ast.Constant) and isinstance(text.value, str)
     )

@@ -75,12 +75,15 @@ def _is_read_anyway(package: Package, path: str, message: str) -> bool:
     """Tell whether what is wrong with a file does not bother those who read it.
 
     The reader of plugin descriptions (tinyxml2) takes several elements at the top, and ``<`` in a
-    value. Parts of larger documents have several elements; the readers of launch files take one.
+    value; the same reader takes ``--`` in a comment of a behavior tree. Parts of larger documents
+    have several elements; the readers of launch files take one.
     """
     try:
         start = package.bytes_of(path).lstrip()
     except OSError:
         return False
+    if b"<BehaviorTree" in start and message.startswith('"--"'):
+        return True
     if start.startswith(b"<library"):
         return True
     is_launch = start.startswith((b"<launch", b"<?xml"))

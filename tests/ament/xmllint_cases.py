@@ -97,6 +97,14 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             },
         ),
         Example(
+            "two dashes in a comment of a behavior tree, where no linter runs",
+            {
+                "package.xml": "<package/>\n",
+                "trees/drive.xml": "<!-- drive --fast -->\n"
+                '<root BTCPP_format="4"><BehaviorTree ID="Drive"/></root>\n',
+            },
+        ),
+        Example(
             "a file, and a linter, that the package excludes",
             {
                 "package.xml": "<package>\n"
