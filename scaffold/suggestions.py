@@ -17,6 +17,8 @@ MOST_LISTED = 5
 """Names that a message lists: as many as people read."""
 MOST_ORDERED = 100
 """Names of which the nearest ones are listed: each of thousands of findings may do so."""
+CANDIDATES = 3
+"""Nearest names, of which the one is taken that a word is nearest to in lower case."""
 
 
 class _Budget:
@@ -37,13 +39,16 @@ def closest_name(package: Package, word: str, names: Collection[str], cutoff: fl
         The name; empty if none is similar enough, or if the comparisons for this package are
         used up, which bounds the time.
     """
-    from difflib import get_close_matches
+    from difflib import SequenceMatcher, get_close_matches
 
     budget = package.remember("comparisons", _Budget)
     budget.left -= len(names)
     if budget.left < 0 or len(word) > LONGEST:
         return ""
-    return next(iter(get_close_matches(word, names, 1, cutoff)), "")
+    matches = get_close_matches(word, names, CANDIDATES, cutoff)
+    if len(matches) <= 1:
+        return "".join(matches)
+    return max(matches, key=lambda name: SequenceMatcher(None, word.lower(), name.lower()).ratio())
 
 
 def listed_names(names: Iterable[str], word: str, none: str = "none") -> str:

@@ -11,6 +11,7 @@ from scaffold.api.install import (
     intended_module,
     may_be_made,
     modules_of,
+    moved_to,
     own_roots,
     uninstalled_import,
 )
@@ -73,6 +74,24 @@ class OwnImportMissing(Rule):
             Report(
                 "talker/node.py:1:1",
                 "the package has no module 'talker.texts'; closest: 'talker.text'",
+            ),
+        ),
+        Example(
+            "modules that were moved one directory down, which is one cause",
+            {
+                **_FILES,
+                "talker/junk/__init__.py": "",
+                "talker/junk/node.py": "from .text import make\n",
+                "talker/junk/old.py": "",
+                "talker/other.py": "from talker.old import run\n",
+            },
+            Report(
+                "talker/junk/node.py:1:1",
+                "the package has no module 'talker.junk.text'; closest: 'talker.text'",
+            ),
+            Report(
+                "talker/other.py:1:1",
+                "the package has no module 'talker.old'; closest: 'talker.junk.old'",
             ),
         ),
         Example(
@@ -151,7 +170,8 @@ class OwnImportMissing(Rule):
                 modules = [item for item in modules_of(package, root) if "__init__" not in item]
                 closest = closest_name(package, name, modules, 0.6)
                 hint = f"; closest: {closest!r}" if closest else ""
-                yield self.report(node, f"the package has no module {name!r}{hint}")
+                message = f"the package has no module {name!r}{hint}"
+                yield self.report(node, message, cause=_cause(package, where, node, name))
         elif not node.level:
             intended = intended_module(package, where, name)
             if intended:
@@ -176,3 +196,14 @@ class OwnImportMissing(Rule):
             )
             hint = f"; closest: {closest!r}" if closest else ""
             yield self.report(imported, f"{path} has no {imported.name!r}: ImportError{hint}")
+
+
+def _cause(package: Package, where: str, node: Import, name: str) -> str:
+    """Return the cause that all findings share where files were moved one directory down."""
+    directory = moved_to(package, name)
+    above, _, file = where.rpartition("/")
+    above = above.rpartition("/")[0]
+    if not directory and node.level and above:
+        is_moved = file_of(package, absolute_name(f"{above}/{file}", node)) != ""
+        directory = where.rpartition("/")[0] if is_moved else ""
+    return f"moved to {directory}" if directory else ""

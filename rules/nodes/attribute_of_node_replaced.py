@@ -49,7 +49,10 @@ class AttributeOfNodeReplaced(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format("publishers")},
-            Report("7:9", "'publishers' is an attribute of rclpy's Node; choose another name"),
+            Report(
+                "7:9",
+                "'publishers' is an attribute of rclpy's Node: AttributeError; choose another name",
+            ),
         ),
         Example(
             "a private attribute, and a method",
@@ -57,7 +60,10 @@ class AttributeOfNodeReplaced(RclpyRule):
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
-            Report("7:9", "'_timers' is an attribute of rclpy's Node; choose another name"),
+            Report(
+                "7:9",
+                "'_timers' is an attribute of rclpy's Node: rclpy fails later; choose another name",
+            ),
             Report("9:9", "'timers' overrides an attribute of rclpy's Node; choose another name"),
         ),
     )
@@ -66,8 +72,9 @@ class AttributeOfNodeReplaced(RclpyRule):
         for node in file.classes:
             for target in _targets(node):
                 at = file.module.location(target)
-                message = f"{target.attr!r} is an attribute of rclpy's Node; choose another name"
-                yield self.report(at, message)
+                effect = "rclpy fails later" if target.attr in _PRIVATE else "AttributeError"
+                what = f"{target.attr!r} is an attribute of rclpy's Node"
+                yield self.report(at, f"{what}: {effect}; choose another name")
             for name, method in node.methods.items():
                 if _breaks(name, method):
                     at = file.module.name_location(method)

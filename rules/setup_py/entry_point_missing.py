@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api.install import moved_to
 from scaffold.api.python import exports_of
 from scaffold.api.setup_py import EntryPoint
 
@@ -100,7 +101,9 @@ class EntryPointMissing(Rule):
             problem = self._problem(package, entry)
             if problem:
                 message = f"`ros2 run` of {entry.name!r} fails: {problem}"
-                yield self.report(entry, message)
+                directory = moved_to(package, entry.module)
+                cause = f"moved to {directory}" if directory else ""
+                yield self.report(entry, message, cause=cause)
 
     def _problem(self, package: Package, entry: EntryPoint) -> str | None:
         root, *_ = entry.module.split(".")

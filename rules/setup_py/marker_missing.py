@@ -64,7 +64,8 @@ class MarkerMissing(Rule):
             Report(
                 "setup.py:5:16",
                 "data_files does not install resource/talker to "
-                "share/ament_index/resource_index/packages: ros2 does not find it",
+                "share/ament_index/resource_index/packages: ros2 does not find a "
+                "released package; colcon adds it for now, with a warning",
             ),
         ),
         Example(
@@ -104,5 +105,8 @@ class MarkerMissing(Rule):
                     yield self.report(data.destination_location, message)
         configured = package.has("setup.cfg") and INDEX in package.source("setup.cfg").text
         if not (installed or configured) and setup.call is not None and setup.data_files_complete:
-            message = f"data_files does not install {marker} to {INDEX}: ros2 does not find it"
+            message = (
+                f"data_files does not install {marker} to {INDEX}: ros2 does not find a released "
+                "package; colcon adds it for now, with a warning"
+            )
             yield self.report(setup.keywords.get("data_files", setup), message)

@@ -78,6 +78,8 @@ _BASES = frozenset(
 """Classes of which no object is: only classes derived from them are used."""
 _INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
 """A service or an action, of which there are no objects either, but of its parts."""
+_MESSAGE = re.compile(r"(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>\w+)")
+_EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
 _FEW = 6
@@ -102,6 +104,19 @@ class AttributeMissing(TypeRule):
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
+        Example(
+            "a property of Node that something else is assigned to, which ND013 reports",
+            {
+                "miner.py": "from concurrent.futures import ThreadPoolExecutor\n\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Miner(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('miner')\n"
+                "        self.executor = ThreadPoolExecutor(max_workers=10)\n\n"
+                "    def on_request(self, msg):\n"
+                "        self.executor.submit(print, msg)\n"
+            },
+        ),
         Example(
             "asked for first",
             {
@@ -331,7 +346,7 @@ class AttributeMissing(TypeRule):
         fix = _fix(finding, node, closest, is_sure=change is not None) if closest else None
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
-        return self.report(finding, message, fix, severity=severity)
+        return self.report(finding, message, fix, severity=severity, cause=_cause(shown))
 
 
 def _known(
@@ -348,11 +363,22 @@ def _known(
     if not class_ or _is_of_message_around(full_name(class_), name):
         return None
     shown = full_name(class_)
+    if shown == _EXECUTOR and _is_set(package, "executor"):
+        return None  # ND013 reports that something else is assigned
     is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
     is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
     if not is_message and is_settable:
         return None  # an object of rclpy takes any attribute
     return shown, members(package, class_)
+
+
+def _cause(shown: str) -> str:
+    """Return the cause that wrong fields of one message share, as MS002 names it."""
+    matched = _MESSAGE.fullmatch(shown)
+    if matched is None:
+        return ""
+    name, _, part = matched["name"].partition("_")
+    return f"fields of {matched['package']}/{matched['kind']}/{name}{part and f'.{part}'}"
 
 
 def _without_none(owner: str) -> str:

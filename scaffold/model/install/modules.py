@@ -60,6 +60,16 @@ def file_of(package: Package, name: str) -> str:
     return next((item for item in (f"{base}.py", f"{base}/__init__.py") if package.has(item)), "")
 
 
+def moved_to(package: Package, name: str) -> str:
+    """Return the directory to which a module was moved from the one above; empty if it was not."""
+    parent, _, leaf = name.replace(".", "/").rpartition("/")
+    for path in package.python_files:
+        directory, _, file = path.rpartition("/")
+        if file == f"{leaf}.py" and parent and directory.rpartition("/")[0] == parent:
+            return directory
+    return ""
+
+
 def may_be_made(package: Package, name: str) -> bool:
     """Tell whether a module may come from elsewhere: compiled, generated, a namespace."""
     base = name.replace(".", "/")
