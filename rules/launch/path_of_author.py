@@ -49,6 +49,15 @@ class PathOfAuthor(Rule):
     examples = (
         Example("of the system", {"launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml")}),
         Example(
+            "in the description of an argument",
+            {
+                "launch/a.launch.py": _LAUNCH.format("/etc/talker.yaml").replace(
+                    "Node(package",
+                    "Arg('map', description='/home/me/map.yaml'),\n        Node(package",
+                )
+            },
+        ),
+        Example(
             "of a home, of a workspace, of the current directory",
             {
                 "launch/a.launch.py": _LAUNCH.format("/home/me/ros2_ws/src/talker/talker.yaml"),
@@ -115,6 +124,15 @@ def _texts_in(package: Package, path: str) -> tuple[tuple[Location, str], ...]:
         (launch.location(node), node.value)
         for node in launch.module.walk(ast.Constant)
         if isinstance(node.value, str) and "/" in node.value and "\n" not in node.value
+        if not _is_description(launch, node)
+    )
+
+
+def _is_description(launch: LaunchFile, node: ast.Constant) -> bool:
+    """Tell whether a text is for readers: `--show-args` prints what an argument is for."""
+    return any(
+        isinstance(parent, ast.keyword) and parent.arg == "description"
+        for parent in launch.module.parents(node)
     )
 
 

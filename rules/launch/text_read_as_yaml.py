@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.api import (
@@ -49,6 +50,10 @@ _COMMAND = (
     "        Node(package='robot_state_publisher', executable='robot_state_publisher',\n"
     "             parameters=[{{'robot_description': {}}}]),\n    ])\n"
 )
+_NAMES_SOMETHING = (
+    r"(?:^|_)(?:file|filename|path|dir|directory|folder|topic|url|uri|frame|frame_id|namespace)$"
+)
+"""Matches parameters whose values name something: no such name reads as a number or a truth."""
 
 
 class TextReadAsYaml(Rule):
@@ -83,6 +88,16 @@ class TextReadAsYaml(Rule):
                 "launch/a.launch.py": _LAUNCH.format("text").replace(
                     "default_value='hello'", "default_value='hello', choices=['hello', 'bye']"
                 ),
+            },
+        ),
+        Example(
+            "a path, which is no number",
+            {
+                path: text.replace("'text'", "'map_file'")
+                for path, text in {
+                    **_FILES,
+                    "launch/a.launch.py": _LAUNCH.format("text"),
+                }.items()
             },
         ),
         Example(
@@ -151,6 +166,8 @@ class TextReadAsYaml(Rule):
             declared = declared_by(owner, package) if owner is not None else None
             for item in given if declared is not None else ():
                 if declared is None or declared.types.get(item.name) != "string":
+                    continue
+                if re.search(_NAMES_SOMETHING, item.name):
                     continue
                 if item.value is None or item.value.type == "string":
                     message = (

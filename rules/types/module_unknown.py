@@ -57,6 +57,14 @@ class ModuleUnknown(TypeRule):
             {"talker.py": "try:\n    import imp\nexcept ImportError:\n    imp = None\n"},
         ),
         Example(
+            "setup.py of a package that CMake builds: nothing runs it",
+            {
+                "package.xml": "<package><name>talker</name>"
+                "<export><build_type>ament_cmake</build_type></export></package>\n",
+                "setup.py": "from distutils.core import setup\n\nsetup()\n",
+            },
+        ),
+        Example(
             "a class",
             {"talker.py": _NODE.format("std_msgs.msg.String")},
             Report(
@@ -124,7 +132,8 @@ class ModuleUnknown(TypeRule):
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         matched = finding.match(r"Cannot resolve imported module `([\w.]+)`")
-        if matched is None:
+        is_run = finding.path != "setup.py" or finding.package.build_type != "ament_cmake"
+        if matched is None or not is_run:
             return None
         module = matched[1]
         root = module.partition(".")[0]
