@@ -14,7 +14,6 @@ from scaffold.errors import ContentError
 from scaffold.generate.repository import MARK
 from scaffold.generate.templates import filters, licenses
 from scaffold.generate.templates.engine import Engine, LocalEngine
-from scaffold.generate.templates.foreign import ForeignEngine
 from scaffold.generate.templates.sandbox import refuse_leaving, refuse_outside
 from scaffold.generate.templates.template import ENDING, MANIFEST, Template
 from scaffold.record import NamedTuple
@@ -46,8 +45,7 @@ class Renderer:
         self, roots: Sequence[str], templates: Mapping[str, Template], *, is_tutorial: bool
     ) -> None:
         directories = {name: template.directories for name, template in templates.items()}
-        make = LocalEngine if _are_built_in(roots) else ForeignEngine
-        self._engine: Engine = make(roots, directories, is_tutorial=is_tutorial)
+        self._engine = _engine(roots, directories, is_tutorial=is_tutorial)
 
     def has(self, name: str) -> bool:
         """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
@@ -135,8 +133,15 @@ class Renderer:
         return path
 
 
-def _are_built_in(roots: Sequence[str]) -> bool:
-    return list(roots) == content.roots("templates")
+def _engine(
+    roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
+) -> Engine:
+    """Return what renders: another process, unless all templates are built in."""
+    if list(roots) == content.roots("templates"):
+        return LocalEngine(roots, directories, is_tutorial=is_tutorial)
+    from scaffold.generate.templates.foreign import ForeignEngine
+
+    return ForeignEngine(roots, directories, is_tutorial=is_tutorial)
 
 
 def _sources(directory: str) -> Iterator[str]:
