@@ -181,7 +181,7 @@ def _imported_classes(template: Template) -> Iterator[str]:
     for directory in template.directories:
         for path in Path(directory).glob("*/*.py.jinja"):
             if path.parent.name != "test":
-                for classes in _IMPORT.findall(path.read_text(encoding="utf-8")):
+                for classes in _IMPORT.findall(path.read_text("utf-8", "replace")):
                     yield from classes.split(", ")
 
 

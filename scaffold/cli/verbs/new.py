@@ -77,7 +77,7 @@ def _run(
 ) -> int:
     """Write a package for the target, asking on a terminal what is not given."""
     from scaffold.cli import distro
-    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
+    from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import ScaffoldError
     from scaffold.generate import checking, dependency_names, destination, draft, repository
     from scaffold.generate.questions.defaults import User
@@ -102,8 +102,7 @@ def _run(
         raise
     defects = [defect for defect in check.end() if not dependency_names.is_about(defect, named)]
     if defects:
-        _report_defects(defects)
-        return INTERNAL_ERROR
+        return _report_defects(defects, made)
     if not options.dry_run and not options.diff:
         plan = _write(options, made, plan, above, left)
     for remark in (*made.remarks, *doubts, *distro.note_of_new(given)):
@@ -312,14 +311,30 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
     return directory
 
 
-def _report_defects(defects: list[Diagnostic]) -> None:
-    for defect in defects:
-        at = defect.location
-        terminal.say(f"{at.path}:{at.line}:{at.column}: {defect.code} {defect.message}")
-    terminal.say(
-        "ros2-scaffold: internal error: the templates render a package that the checker rejects; "
-        "nothing was written; please report it to their authors"
-    )
+def _report_defects(defects: Sequence[Diagnostic], made: Draft) -> int:
+    """Report what is wrong with a package, whose templates are to blame; return the exit code."""
+    from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
+    from scaffold.generate.templates import render
+
+    lines = [
+        f"{defect.location.path}:{defect.location.line}:{defect.location.column}: "
+        f"{defect.code} {defect.message}"
+        for defect in defects
+    ]
+    if render.are_built_in(made.roots):
+        for line in lines:
+            terminal.say(line)
+        terminal.say(
+            "ros2-scaffold: internal error: the templates render a package that the checker "
+            "rejects; nothing was written; please report it to their authors"
+        )
+        return INTERNAL_ERROR
+    templates = made.rendered.templates
+    for line, defect in zip(lines, defects, strict=True):
+        template = templates.get(defect.location.path)
+        terminal.error(f"{line} (rendered from {template})" if template else line)
+    terminal.note("nothing was written: the templates are at fault")
+    return USAGE_ERROR
 
 
 def _diff(plan: WritePlan, above: WritePlan | None) -> str:

@@ -295,7 +295,8 @@ def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: A
     try:
         return TYPES[question.type](given.value, where)
     except InputError as error:
-        raise InputError(f"{given.origin}: {error}") from error
+        whose = f"the default of {question.name!r}" if given.origin == "default" else given.origin
+        raise InputError(f"{whose}: {error}") from error
 
 
 def _words(given: object) -> Iterator[object]:

@@ -9,8 +9,15 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol
 
-from jinja2 import BaseLoader, StrictUndefined, TemplateError, TemplateNotFound
+from jinja2 import (
+    BaseLoader,
+    StrictUndefined,
+    TemplateNotFound,
+    TemplateSyntaxError,
+    UndefinedError,
+)
 from jinja2 import Environment as Jinja
+from jinja2.environment import TemplateModule
 
 from scaffold.errors import ContentError
 from scaffold.files.disk import digest, read_file
@@ -58,7 +65,7 @@ class LocalEngine:
     def _plain(self) -> Jinja:
         jinja = Sandbox(
             loader=self._loader,
-            undefined=StrictUndefined,
+            undefined=_Undefined,
             keep_trailing_newline=True,
             trim_blocks=True,
             lstrip_blocks=True,
@@ -116,6 +123,16 @@ class LocalEngine:
         if not self._is_tutorial:
             lines = [line.partition("  #")[0] for line in lines]
         return filters.import_block(lines)
+
+
+class _Undefined(StrictUndefined):
+    """What a template uses and nothing defines; a macro that a file lacks is called one."""
+
+    @property
+    def _undefined_message(self) -> str:
+        if isinstance(self._undefined_obj, TemplateModule):
+            return f"{self._undefined_obj.__name__} has no macro {self._undefined_name!r}"
+        return super()._undefined_message
 
 
 class _Loader(BaseLoader):
@@ -192,9 +209,10 @@ class _TemplateErrors:
     def __exit__(self, kind: type[BaseException] | None, error: object, trace: object) -> None:
         if kind is None or not isinstance(error, Exception) or isinstance(error, ContentError):
             return
-        line = getattr(error, "lineno", None) if isinstance(error, TemplateError) else None
-        at = f":{line}" if line else _line_of(error)
+        at = _line_of(error)
         message = f"template {self._where!r}{at}: {type(error).__name__}: {error}"
+        if isinstance(error, UndefinedError | TemplateSyntaxError):  # which speak for themselves
+            message = f"template {self._where!r}{at}: {error}"
         if isinstance(error, TemplateNotFound):
             message = f"template {self._where!r}{at}: no template has the file '{error}'"
         if isinstance(error, MemoryError):
@@ -206,10 +224,16 @@ def _line_of(error: Exception) -> str:
     """Return where in a template's file something went wrong, if Jinja knows."""
     import traceback
 
+    if isinstance(error, TemplateSyntaxError):
+        return f", {error.filename}:{error.lineno}" if _is_file(error.filename) else ""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
-        if frame.filename.endswith(ENDING):
+        if _is_file(frame.filename):
             return f", {frame.filename}:{frame.lineno}"
     return ""
+
+
+def _is_file(name: str | None) -> bool:
+    return name is not None and name.endswith(ENDING)
 
 
 def _decode(data: bytes) -> str:

@@ -75,7 +75,12 @@ class ForeignEngine:
             raise ContentError(f"{self._place(str(request[1]))}: {_cause_of_death(process)}")
         entry = json.loads(answer)
         if "error" in entry:
-            raise ContentError(entry["error"])
+            what, name = map(str, request[:2])
+            own = f"template {name!r}"  # which names no file, if it is a short text
+            message = entry["error"]
+            if what == "text" and message.startswith(own):
+                message = self._place(name) + message.removeprefix(own)
+            raise ContentError(message)
         return entry["value"]
 
     def _started(self) -> subprocess.Popen[bytes]:
@@ -99,8 +104,8 @@ class ForeignEngine:
         if first in self._directories and rest:
             places = [os.path.join(place, rest) for place in self._directories[first]]
             return next(filter(os.path.exists, places), places[-1])
-        short = name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}..."
         inner = name.removeprefix("{% if ").removesuffix(" %}true{% endif %}")
+        short = inner if len(inner) <= _MOST_SHOWN else f"{inner[:_MOST_SHOWN]}..."
         for directories in self._directories.values():
             manifest = os.path.join(directories[-1], "template.yaml")
             with open(manifest, encoding="utf-8", errors="replace") as file:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from itertools import chain
+from types import MappingProxyType
 from typing import Any
 
 from scaffold.configuration import content
@@ -30,6 +31,8 @@ class Rendered(NamedTuple):
     """What a file is for, by path; not every file has one."""
     unread: tuple[str, ...] = ()
     """Files of the package that are read only if it is the top of a git repository."""
+    templates: Mapping[str, str] = MappingProxyType({})
+    """The template's file by path."""
 
 
 class Renderer:
@@ -99,6 +102,7 @@ class Renderer:
         executable: set[str] = set()
         notes: dict[str, str] = {}
         unread: list[str] = []
+        templates: dict[str, str] = {}
         for layer, scope in scopes:
             for source in dict.fromkeys(chain(*map(_sources, layer.directories))):
                 if not self._is_included(layer, source, scope):
@@ -112,12 +116,13 @@ class Renderer:
                 text = self.file(f"{layer.name}/{source}{ENDING}", scope)
                 if files.setdefault(path, text) != text:
                     raise ContentError(f"{layer.directory}: {path} is rendered twice")
+                templates[path] = _file(layer, source)
                 if any(fnmatchcase(source, pattern) for pattern in layer.executable):
                     executable.add(path)
                 note = _first_match(layer.notes, source)
                 if note:
                     notes[path] = note
-        return Rendered(files, frozenset(executable), notes, tuple(unread))
+        return Rendered(files, frozenset(executable), notes, tuple(unread), templates)
 
     def _is_included(self, layer: Template, source: str, scope: Mapping[str, Any]) -> bool:
         expression = _first_match(layer.include, source)
@@ -126,7 +131,7 @@ class Renderer:
     def _path(self, layer: Template, source: str, scope: Mapping[str, Any]) -> str:
         """Fill in the names in a path; it holds no other Jinja, so Jinja is not needed."""
         path = _NAME.sub(lambda match: str(_value(match[1], scope)), source)
-        where = os.path.join(layer.directory, source + ENDING)
+        where = _file(layer, source)
         refuse_leaving(path, where)
         if "{" in path or "}" in path:
             raise ContentError(f"{where}: a path holds only {{{{ names }}}} that are defined")
@@ -137,11 +142,22 @@ def _engine(
     roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
 ) -> Engine:
     """Return what renders: another process, unless all templates are built in."""
-    if list(roots) == content.roots("templates"):
+    if are_built_in(roots):
         return LocalEngine(roots, directories, is_tutorial=is_tutorial)
     from scaffold.generate.templates.foreign import ForeignEngine
 
     return ForeignEngine(roots, directories, is_tutorial=is_tutorial)
+
+
+def _file(layer: Template, source: str) -> str:
+    """Return the file of a template that is rendered to a path."""
+    files = [os.path.join(directory, source + ENDING) for directory in layer.directories]
+    return next(filter(os.path.exists, files), files[-1])
+
+
+def are_built_in(roots: Sequence[str]) -> bool:
+    """Tell whether all templates are those of this tool."""
+    return list(roots) == content.roots("templates")
 
 
 def _sources(directory: str) -> Iterator[str]:
