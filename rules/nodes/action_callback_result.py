@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned
 from scaffold.api.rclpy import ActionServer
@@ -57,7 +58,8 @@ class ActionCallbackResult(MessageRule):
             ),
             Report(
                 "15:9",
-                "work() does not return the result for the action server of line 9: AssertionError",
+                "work() does not return the result for the action server of line 9: "
+                "AttributeError when the result is sent",
             ),
         ),
         Example(
@@ -75,7 +77,8 @@ class ActionCallbackResult(MessageRule):
             Report(
                 "17:9",
                 "returns example_interfaces/action/Fibonacci.Feedback, not the "
-                "result for the action server of line 9: AssertionError",
+                "result for the action server of line 9: AttributeError when the "
+                "result is sent",
             ),
         ),
         Example(
@@ -88,7 +91,7 @@ class ActionCallbackResult(MessageRule):
             Report(
                 "15:9",
                 "work() does not return the result on every path for the action "
-                "server of line 9: AssertionError",
+                "server of line 9: AttributeError when the result is sent",
             ),
         ),
         Example(
@@ -97,7 +100,7 @@ class ActionCallbackResult(MessageRule):
             Report(
                 "17:9",
                 "returns the class Fibonacci.Result, not the result for the action "
-                "server of line 9: AssertionError",
+                "server of line 9: AttributeError when the result is sent",
             ),
         ),
     )
@@ -117,17 +120,24 @@ class ActionCallbackResult(MessageRule):
         self, types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str
     ) -> Iterator[Diagnostic]:
         wanted = f"a {answer}" if answer else "the result"
-        happens = "it counts as a rejection" if answer else "AssertionError"
+        happens = "it counts as a rejection" if answer else _when_sent()
         made = f"for the action server of line {server.location.line}"
+        cause = f"what {types.module.path}:{function.lineno} returns"
         if may_end(function):
             never = " on every path" if returned(function) else ""
             message = f"{function.name}() does not return {wanted}{never} {made}: {happens}"
-            yield self.report(types.module.name_location(function), message)
+            yield self.report(types.module.name_location(function), message, cause=cause)
         for statement in returned(function):
             wrong = _wrong(types, server, statement.value, answer)
             if wrong:
                 message = f"returns {wrong}, not {wanted} {made}: {happens}"
-                yield self.report(types.module.location(statement), message)
+                yield self.report(types.module.location(statement), message, cause=cause)
+
+
+def _when_sent() -> str:
+    """Return what happens to a wrong result, which setters look at on some distributions."""
+    is_sent = target().fact("messages.has_check_fields")
+    return "AttributeError when the result is sent" if is_sent else "AssertionError"
 
 
 def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
