@@ -9,9 +9,11 @@ from scaffold.model.messages.stamps import unstamped
 from scaffold.model.package import Package
 
 NODE = """\
+import builtin_interfaces.msg
 from cv_bridge import CvBridge
 from geometry_msgs.msg import PoseStamped, TransformStamped
 from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import Image, Temperature
 from std_msgs.msg import Header
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
@@ -41,6 +43,24 @@ def found(*lines: str, other: str = "pass") -> list[str]:
     text = NODE.format("\n        ".join(lines), other)
     types = MessageTypes.of(Package.of({"talker.py": text}), "talker.py")
     return [item.message.name for item in unstamped(types)]
+
+
+TRANSFORM = "geometry_msgs/msg/TransformStamped"
+
+
+@pytest.mark.parametrize("stamp", ["Time().to_msg()", "builtin_interfaces.msg.Time()"])
+def test_zero_stamp_of_a_moving_transform(stamp: str) -> None:
+    made = "t = TransformStamped()", f"t.header.stamp = {stamp}", "t.header.frame_id = 'odom'"
+    assert found(*made, "self.broadcaster.sendTransform(t)") == [TRANSFORM]
+    assert found(*made, "self.static.sendTransform(t)") == []
+
+
+def test_message_of_a_method() -> None:
+    made = "t = TransformStamped()", "t.header.frame_id = 'odom'", "return t"
+    sent = "self.broadcaster.sendTransform(self.tick('a'))"
+    assert found(*made, other=sent) == [TRANSFORM]
+    assert found(made[0], "t.header.stamp = frame.stamp", *made[1:], other=sent) == []
+    assert found("if frame: return None", *made, other=sent) == []
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,168 @@
+"""MS033: the parts of a quaternion are in the order that its library has."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Sequence
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api.messages import MessageTypes
+
+_GIVES = {
+    "tf_transformations.quaternion_from_euler": "xyzw",
+    "tf_transformations.quaternion_from_matrix": "xyzw",
+    "tf_transformations.quaternion_about_axis": "xyzw",
+    "tf_transformations.quaternion_multiply": "xyzw",
+    "tf_transformations.quaternion_inverse": "xyzw",
+    "transforms3d.euler.euler2quat": "wxyz",
+    "transforms3d.quaternions.mat2quat": "wxyz",
+    "transforms3d.quaternions.axangle2quat": "wxyz",
+    "transforms3d.quaternions.qmult": "wxyz",
+    "transforms3d.quaternions.qinverse": "wxyz",
+}
+"""The order in which functions return the parts of a quaternion."""
+_TAKES = {
+    "tf_transformations.euler_from_quaternion": "xyzw",
+    "tf_transformations.quaternion_matrix": "xyzw",
+    "tf_transformations.quaternion_inverse": "xyzw",
+    "tf_transformations.quaternion_multiply": "xyzw",
+    "scipy.spatial.transform.Rotation.from_quat": "xyzw",
+    "transforms3d.euler.quat2euler": "wxyz",
+    "transforms3d.quaternions.quat2mat": "wxyz",
+    "transforms3d.quaternions.qinverse": "wxyz",
+    "transforms3d.quaternions.qmult": "wxyz",
+}
+"""The order in which they take them."""
+_ORDERS = ("xyzw", "wxyz")
+_HEAD = (
+    "from geometry_msgs.msg import Quaternion\n"
+    "from tf_transformations import euler_from_quaternion, quaternion_from_euler\n"
+    "from transforms3d.euler import euler2quat, quat2euler\n\n\n"
+)
+
+
+class QuaternionOrderSwapped(MessageRule):
+    """A quaternion is taken apart or put together in the order of another library.
+
+    **Why.** Nothing complains: the robot looks in another direction. Messages, tf_transformations
+    and SciPy have x first, transforms3d has w first.
+
+    **Fix.** ``x, y, z, w = quaternion_from_euler(...)``; ``w, x, y, z = euler2quat(...)``.
+
+    **Source.** tf_transformations, README; transforms3d documentation, "quaternions".
+    """
+
+    code = "MS033"
+    name = "quaternion-order-swapped"
+    examples = (
+        Example(
+            "as the libraries have it",
+            {
+                "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
+                "    euler_from_quaternion([q.x, q.y, q.z, q.w])\n"
+                "    quat2euler((q.w, q.x, q.y, q.z))\n"
+                "    w, x, y, z = euler2quat(0.0, 0.0, yaw)\n"
+                "    p = quaternion_from_euler(0.0, 0.0, yaw)\n"
+                "    q.w = p[3]\n"
+                "    return Quaternion(x=x, y=y, z=z, w=w)\n"
+            },
+        ),
+        Example(
+            "the other way round",
+            {
+                "a.py": _HEAD + "def turn(q: Quaternion, yaw) -> Quaternion:\n"
+                "    euler_from_quaternion([q.w, q.x, q.y, q.z])\n"
+                "    quat2euler((q.x, q.y, q.z, q.w))\n"
+                "    x, y, z, w = euler2quat(0.0, 0.0, yaw)\n"
+                "    q.w = euler2quat(0.0, 0.0, yaw)[3]\n"
+                "    p = quaternion_from_euler(0.0, 0.0, yaw)\n"
+                "    return Quaternion(x=p[1], y=p[2], z=p[3], w=p[0])\n"
+            },
+            Report(
+                "7:27",
+                "euler_from_quaternion() has the order x, y, z, w, this is w, x, y, "
+                "z: it is another rotation",
+            ),
+            Report(
+                "8:16",
+                "quat2euler() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
+            ),
+            Report(
+                "9:5",
+                "euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
+            ),
+            Report(
+                "10:11",
+                "euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
+            ),
+            Report(
+                "12:49",
+                "quaternion_from_euler() has the order x, y, z, w, this is w, x, y, "
+                "z: it is another rotation",
+            ),
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        if not types.module.mentions("quat"):
+            return
+        for call in types.module.walk(ast.Call):
+            name = types.module.qualified_name(call.func) or ""
+            if name in _TAKES:
+                for given in call.args:
+                    yield from self._compare(types, given, _given(types, given), _TAKES[name], name)
+        for assigned in types.module.walk(ast.Assign):
+            name = _giver(types, assigned.value)
+            for target in assigned.targets if name else ():
+                order = _order(target.elts) if isinstance(target, ast.Tuple | ast.List) else ""
+                yield from self._compare(types, target, order, _GIVES[name], name)
+        for index in _last_parts(types):
+            name = _giver(types, types.facts.evaluator.single_value(index.value))
+            number = types.facts.evaluator.evaluate(index.slice)
+            if name and number in {0, 3}:
+                order = "wxyz" if number == 0 else "xyzw"
+                yield from self._compare(types, index, order, _GIVES[name], name)
+
+    def _compare(
+        self, types: MessageTypes, at: ast.expr, order: str, right: str, name: str
+    ) -> Iterator[Diagnostic]:
+        if order and order != right:
+            function = name.rpartition(".")[2]
+            message = (
+                f"{function}() has the order {', '.join(right)}, this is {', '.join(order)}: "
+                "it is another rotation"
+            )
+            yield self.report(types.module.location(at), message)
+
+
+def _giver(types: MessageTypes, value: ast.expr) -> str:
+    """Return the function that a quaternion comes from; empty if none of the table."""
+    name = types.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
+    return name if name in _GIVES else ""
+
+
+def _given(types: MessageTypes, node: ast.expr) -> str:
+    """Return the order of the parts in a list or tuple."""
+    value = types.facts.evaluator.single_value(node)
+    return _order(value.elts) if isinstance(value, ast.Tuple | ast.List) else ""
+
+
+def _order(items: Sequence[ast.expr]) -> str:
+    """Return the letters that names end with, if these are the parts of a quaternion in order."""
+    names = [
+        item.attr if isinstance(item, ast.Attribute) else getattr(item, "id", "") for item in items
+    ]
+    letters = "".join(name[-1:] for name in names).lower()
+    is_plain = len({name[:-1] for name in names}) == 1
+    return letters if letters in _ORDERS and is_plain else ""
+
+
+def _last_parts(types: MessageTypes) -> Iterator[ast.Subscript]:
+    """Yield what the field ``w`` is set to: ``message.w = q[3]``, ``Quaternion(w=q[3])``."""
+    for store in types.facts.evaluator.stores("w"):
+        if isinstance(store.value, ast.Subscript):
+            yield store.value
+    for call in types.module.walk(ast.Call):
+        for word in call.keywords:
+            if word.arg == "w" and isinstance(word.value, ast.Subscript):
+                yield word.value
