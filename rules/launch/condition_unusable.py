@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import LaunchCall, LaunchFile, failure
+from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
+from scaffold.api.launch import LaunchCall, LaunchFile, failure, never_equal
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")
@@ -26,11 +26,12 @@ _LAUNCH = (
 
 
 class ConditionUnusable(LaunchRule):
-    """A condition is about something that launch cannot read as true or false.
+    """A condition is about something that launch cannot read as true or false, or never true.
 
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for what Python decides,
     ``invalid condition expression, expected one of [true, 1, false, 0]`` for other texts, ``name
-    'true' is not defined`` for ``not true`` in a PythonExpression.
+    'true' is not defined`` for ``not true`` in a PythonExpression. Texts are compared letter by
+    letter: ``true`` is not ``True``, and the node is left out without a word.
 
     **Fix.** ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
     ``not``, quotes around what is text: ``PythonExpression(["'", mode, "' == 'fast'"])``.
@@ -40,6 +41,7 @@ class ConditionUnusable(LaunchRule):
 
     code = "LF051"
     name = "condition-unusable"
+    other_severities = {Severity.WARNING: "a text that somebody may set"}
     examples = (
         Example("a launch argument", {"launch/a.launch.py": _LAUNCH.format("true", "use")}),
         Example(
@@ -49,6 +51,37 @@ class ConditionUnusable(LaunchRule):
                     "fast", "PythonExpression([\"'\", use, \"' == 'fast'\"])"
                 )
             },
+        ),
+        Example(
+            "another spelling of true",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "true", "PythonExpression([\"'\", use, \"' == 'True'\"])"
+                ),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "false", "PythonExpression([\"'\", use, \"' == 'True'\"])"
+                ),
+                "launch/c.launch.py": _LAUNCH.format(
+                    "no", "PythonExpression([\"'\", use, \"' == 'true'\"])"
+                ).replace("'no'", "'no', choices=['no', 'yes']"),
+                "launch/d.launch.py": _LAUNCH.format(
+                    "true", "PythonExpression([\"'\", use, \"'.lower() == 'true'\"])"
+                ),
+                "launch/e.launch.py": _LAUNCH.format(
+                    "true",
+                    "PythonExpression([\"'\", use, \"' == 'True' or '\", use, \"' == 'true'\"])",
+                ),
+            },
+            Report(
+                "launch/a.launch.py:12:65",
+                "'use' is 'true' by default, which does not equal 'True'",
+            ),
+            Report(
+                "launch/b.launch.py:12:65",
+                "'use' is 'false' by default: who sets it to 'true' does not get 'True'",
+                severity=Severity.WARNING,
+            ),
+            Report("launch/c.launch.py:12:65", "'use' takes 'no', 'yes': it never equals 'true'"),
         ),
         Example(
             "a value of Python",
@@ -115,6 +148,10 @@ class ConditionUnusable(LaunchRule):
             why = failure(launch, call.given.get("expression"))
             if why:
                 yield self.report(call, why)
+                continue
+            why, is_sure = never_equal(launch, call.given.get("expression"))
+            if why:
+                yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:

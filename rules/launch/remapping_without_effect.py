@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
-from scaffold.api.launch import has_name, names_of, remapped_nodes
+from scaffold.api.launch import (
+    Remapped,
+    has_name,
+    is_reversed,
+    misses_namespace,
+    names_of,
+    remapped_nodes,
+)
 
 _FILES = {
     "package.xml": "<package><name>demo</name>"
@@ -79,6 +86,28 @@ class RemappingWithoutEffect(Rule):
             ),
         ),
         Example(
+            "the wrong way round",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("", "robot/chatter").replace(
+                    "'other'", "'chatter'"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:8:27",
+                "'talk' has 'chatter', not 'robot/chatter': nothing is remapped; "
+                "the name in the code comes first",
+            ),
+        ),
+        Example(
+            "a full name, in a namespace",
+            {**_FILES, "launch/a.launch.py": _LAUNCH.format(" namespace='bot',", "/chatter")},
+            Report(
+                "launch/a.launch.py:8:27",
+                "in its namespace, 'talk' has '/bot/chatter': nothing is remapped; write 'chatter'",
+            ),
+        ),
+        Example(
             "in XML and in YAML",
             {
                 **_FILES,
@@ -129,14 +158,34 @@ class RemappingWithoutEffect(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for node in remapped_nodes(package):
             names = names_of(node, package)
-            for source, location in node.remappings if names is not None else ():
-                if names is None or has_name(names, source, node.name):
-                    continue
-                message = (
-                    f"{node.program!r} has no topic, service or action {source!r}: "
-                    f"nothing is remapped; {_hint(package, source, names)}"
-                )
-                yield self.report(location, message, cause=f"names of {node.program}")
+            for source, target, location in node.remappings if names is not None else ():
+                problem = _problem(package, node, names or set(), (source, target))
+                if problem:
+                    yield self.report(location, problem, cause=f"names of {node.program}")
+
+
+def _problem(
+    package: Package, node: Remapped, names: set[str], remapping: tuple[str, str | None]
+) -> str:
+    """Return why a remapping has no effect; empty if it may have one."""
+    source, target = remapping
+    full_name = misses_namespace(names, source, node.namespace)
+    if full_name:
+        return (
+            f"in its namespace, {node.program!r} has {full_name!r}: nothing is remapped; "
+            f"write {source.removeprefix('/')!r}"
+        )
+    if is_reversed(names, source, target, node.name):
+        return (
+            f"{node.program!r} has {target!r}, not {source!r}: nothing is remapped; "
+            "the name in the code comes first"
+        )
+    if has_name(names, source, node.name):
+        return ""
+    return (
+        f"{node.program!r} has no topic, service or action {source!r}: "
+        f"nothing is remapped; {_hint(package, source, names)}"
+    )
 
 
 def _hint(package: Package, source: str, names: set[str]) -> str:

@@ -117,9 +117,36 @@ class ValueImplausible(MessageRule):
             Report("7:58", "unknown encoding 'BGR8': CvBridgeError; write 'bgr8'"),
             Report("8:40", "unknown encoding 'bgr': CvBridgeError; write 'bgr8'"),
         ),
+        Example(
+            "rows for columns",
+            {
+                "map.py": "from nav_msgs.msg import MapMetaData\n\n\n"
+                "def describe(grid):\n    info = MapMetaData()\n"
+                "    info.width = grid.shape[0]\n    info.height = grid.shape[1]\n"
+                "    return info\n\n\n"
+                "def turned(grid):\n    info = MapMetaData()\n"
+                "    info.width = grid.shape[0]\n    info.height = grid.shape[1]\n"
+                "    return info, grid.T\n"
+            },
+            Report(
+                "6:18", "grid.shape[0] is the number of rows, the height; width is grid.shape[1]"
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        yield from self._check_values(types)
+        module = types.module
+        for item in types.assigned:
+            key = (item.owner.name, item.field.name)
+            if key in _WIDTHS and _is_height(types, item.holder, item.value):
+                text = module.text(item.value).rpartition("[")[0]
+                message = f"{text}[0] is the number of rows, the height; width is {text}[1]"
+                yield self.report(module.location(item.value), message)
+        for call in module.walk(ast.Call):
+            yield from self._check_call(types, call)
+
+    def _check_values(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
         for item in types.assigned:
             key = (item.owner.name, item.field.name)
@@ -151,8 +178,6 @@ class ValueImplausible(MessageRule):
                     yield self.report(at, message)
             elif key == ("sensor_msgs/msg/Image", "step"):
                 yield from self._check_step(types, item.holder, item.value)
-        for call in module.walk(ast.Call):
-            yield from self._check_call(types, call)
 
     def _check_step(
         self, types: MessageTypes, holder: ast.expr, step: ast.expr
@@ -193,6 +218,32 @@ class ValueImplausible(MessageRule):
             if near:
                 message = f"unknown encoding {value!r}: CvBridgeError; write {near!r}"
                 yield self.report(module.location(node), message)
+
+
+_WIDTHS = frozenset(
+    {("nav_msgs/msg/MapMetaData", "width"), ("sensor_msgs/msg/Image", "width")}
+    | {("sensor_msgs/msg/CameraInfo", "width")}
+)
+_TURNED = (".T", "transpose", "swapaxes", "rot90", "'F'", '"F"', "moveaxis")
+
+
+def _is_height(types: MessageTypes, holder: ast.expr, width: ast.expr) -> bool:
+    """Tell whether ``width`` is ``shape[0]`` and ``height`` ``shape[1]`` of an array as it is."""
+    module = types.module
+    function = module.enclosing_function(holder)
+    match width:
+        case ast.Subscript(value=ast.Attribute(attr="shape"), slice=ast.Constant(value=0)) if (
+            function is not None and not any(word in module.text(function) for word in _TURNED)
+        ):
+            rows = module.text(width.value)
+            return any(
+                item.field.name == "height"
+                and module.text(item.holder) == module.text(holder)
+                and module.text(item.value) == f"{rows}[1]"
+                for item in types.assigned
+                if module.enclosing_function(item.holder) is function
+            )
+    return False
 
 
 def _meant(encoding: str) -> str:

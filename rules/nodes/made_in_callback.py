@@ -16,6 +16,7 @@ _MADE = {
     "TransformBroadcaster": "a broadcaster",
     "StaticTransformBroadcaster": "a broadcaster",
     "ActionClient": "an action client",
+    "create_timer": "a timer",
 }
 _USES = {
     "a publisher": "what it publishes at once reaches nobody",
@@ -36,10 +37,11 @@ _NODE = (
 
 
 class MadeInCallback(RclpyRule):
-    """A callback makes a publisher, broadcaster or client each time it is called.
+    """A callback makes a publisher, broadcaster, client or timer each time it is called.
 
     **Why.** Subscribers need a moment to discover a publisher: what is published until then is
-    lost, so each message is. The node keeps them all, more with every call.
+    lost, so each message is. The node keeps them all, more with every call: with timers, the
+    work is done twice as often after the second message.
 
     **Fix.** Make it in the constructor, and keep it: ``self.publisher``.
 
@@ -71,6 +73,34 @@ class MadeInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a timer for each message, and only one",
+            {
+                "talker.py": _NODE.replace("tick(self)", "tick(self, msg)").format(
+                    "        if msg.data:\n            self.create_timer(1.0, print)\n"
+                ),
+                "once.py": _NODE.replace("tick(self)", "tick(self, msg)").format(
+                    "        if msg.data and self.other is None:\n"
+                    "            self.other = self.create_timer(1.0, print)\n"
+                ),
+            },
+            Report(
+                "once.py:13:21",
+                "callback 'tick' makes a publisher each time: what it publishes at "
+                "once reaches nobody; make it in the constructor",
+            ),
+            Report(
+                "talker.py:12:13",
+                "callback 'tick' makes a timer each time: all of them keep running; "
+                "make it in the constructor",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "talker.py:13:21",
+                "callback 'tick' makes a publisher each time: what it publishes at "
+                "once reaches nobody; make it in the constructor",
+            ),
+        ),
+        Example(
             "if there is none yet",
             {"talker.py": _NODE.format("        if self.ready:\n            return\n")},
         ),
@@ -88,18 +118,49 @@ class MadeInCallback(RclpyRule):
                 continue
             for call in calls:
                 what = _MADE.get(_name(call))
-                if what is None or file.is_conditional(call) or conditions_on(file.module, call):
+                if what is None or not _is_repeated(file, function, call):
                     continue
                 if not _is_of_ros(file, call) or _is_stored_by_key(file, call):
                     continue
                 happens = _USES.get(what, "the node keeps them all")
+                happens = "all of them keep running" if what == _TIMER else happens
                 message = (
                     f"{executed.origin} makes {what} each time: {happens}; make it in the "
                     "constructor"
                 )
                 _, variable = file.stored_in(call)
-                severity = None if variable and what in _USES else Severity.WARNING
+                is_lost = variable and what in _USES
+                severity = None if is_lost else Severity.WARNING
                 yield self.report(file.module.location(call), message, severity=severity)
+
+
+_TIMER = "a timer"
+
+
+def _is_repeated(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
+    """Tell whether something is made with each call of a callback."""
+    if _MADE[_name(call)] == _TIMER:
+        return _adds_up(file, function, call)
+    return not file.is_conditional(call) and not conditions_on(file.module, call)
+
+
+def _adds_up(file: RclpyFile, function: FunctionNode, call: ast.Call) -> bool:
+    """Tell whether timers are never stopped, and made whatever the node remembers.
+
+    Conditions may ask for the message alone: ``if msg.data:``.
+    """
+    index = file.module.index
+    if any(index.attributes(name) for name in ("cancel", "destroy_timer", "destroy")):
+        return False
+    given = {argument.arg for argument in function.args.args[1:]}
+    names = {
+        name.id
+        for condition in conditions_on(file.module, call)
+        for name in ast.walk(condition)
+        if isinstance(name, ast.Name)
+    }
+    loops = any(isinstance(x, ast.For | ast.While | ast.Try) for x in file.module.parents(call))
+    return names <= given and not loops
 
 
 def _name(call: ast.Call) -> str:

@@ -21,10 +21,11 @@ _MIMIC = (
 
 
 class LinkUndefined(Rule):
-    """A joint connects a link that the robot does not have.
+    """A joint or a gazebo element names a link that the robot does not have.
 
     **Why.** ``Failed to build tree: parent link [base] of joint [axis] not found``:
-    robot_state_publisher ends.
+    robot_state_publisher ends. Gazebo leaves out the sensors, plugins and friction of what is not
+    there, without a word.
 
     **Fix.** Use the name of a link, or add the link.
 
@@ -62,6 +63,21 @@ class LinkUndefined(Rule):
             ),
         ),
         Example(
+            "what Gazebo is told",
+            {
+                "robot.urdf": _ROBOT.format("base_link", "wheel").replace(
+                    "</robot>",
+                    '  <gazebo reference="wheel"/>\n  <gazebo reference="axis"/>\n'
+                    '  <gazebo reference="wheels"/>\n  <gazebo/>\n</robot>',
+                )
+            },
+            Report(
+                "10:22",
+                "gazebo is about 'wheels', which is no link or joint of this robot: "
+                "Gazebo ignores it; closest: 'wheel'",
+            ),
+        ),
+        Example(
             "a joint to mimic",
             {"robot.urdf": _MIMIC.format("axle")},
             Report("7:19", "'axis' mimics 'axle', which is not a joint of this robot"),
@@ -91,13 +107,28 @@ class LinkUndefined(Rule):
                 )
                 if _is_here(package, end):
                     yield self.report(end.at("link"), message)
-            mimic = joint.one("mimic")
-            other = mimic.get("joint") if mimic is not None else None
-            if mimic is not None and other and not _is_among(other, joints):
-                hint = _hint(package, other, joints)
-                message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
-                if _is_here(package, mimic):
-                    yield self.report(mimic.at("joint"), message)
+            yield from self._check_mimic(package, joint, joints)
+        for part in robot.root.all("gazebo"):
+            reference = part.get("reference")
+            if reference and links and not _is_among(reference, [*links, *joints]):
+                hint = _hint(package, reference, links)
+                message = (
+                    f"gazebo is about {reference!r}, which is no link or joint of this robot: "
+                    f"Gazebo ignores it{hint}"
+                )
+                if _is_here(package, part):
+                    yield self.report(part.at("reference"), message)
+
+    def _check_mimic(
+        self, package: Package, joint: Part, joints: Sequence[str]
+    ) -> Iterator[Diagnostic]:
+        mimic = joint.one("mimic")
+        other = mimic.get("joint") if mimic is not None else None
+        if mimic is not None and other and not _is_among(other, joints):
+            name, hint = joint.get("name"), _hint(package, other, joints)
+            message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
+            if _is_here(package, mimic):
+                yield self.report(mimic.at("joint"), message)
 
 
 def _has_root(robot: Expansion) -> bool:

@@ -52,10 +52,23 @@ from scaffold.model.launch.python_file import (
     returns,
 )
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
-from scaffold.model.launch.remappings import Remapped, has_name, names_of, remapped_nodes
+from scaffold.model.launch.remappings import (
+    Remapped,
+    has_name,
+    is_reversed,
+    misses_namespace,
+    names_of,
+    remapped_nodes,
+)
 from scaffold.model.launch.share_paths import NamedPath, missing_in, paths_of, why_missing
 from scaffold.model.launch.signatures import ACTIONS, signature
-from scaffold.model.launch.substitutions import CONDITION, failure, text_uses, truth_tests
+from scaffold.model.launch.substitutions import (
+    CONDITION,
+    failure,
+    never_equal,
+    text_uses,
+    truth_tests,
+)
 
 __all__ = [
     "ACTIONS",
@@ -95,6 +108,7 @@ __all__ = [
     "is_known",
     "is_loaded",
     "is_named",
+    "is_reversed",
     "later_declarations",
     "launch_files",
     "launch_paths",
@@ -102,9 +116,11 @@ __all__ = [
     "markup_paths",
     "may_be_set_elsewhere",
     "meant_package",
+    "misses_namespace",
     "missing_in",
     "names_alike",
     "names_of",
+    "never_equal",
     "node_names",
     "nodes_for",
     "package_uses",

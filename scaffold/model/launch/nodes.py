@@ -80,8 +80,8 @@ class StartedNode(NamedTuple):
     """Those that are given one by one."""
     has_more_parameters: bool
     """Whether files give some, or expressions that are not known."""
-    remappings: tuple[tuple[str, Location], ...]
-    """The names that are remapped, as far as they are known, with their places."""
+    remappings: tuple[tuple[str, str | None, Location], ...]
+    """The names that are remapped, as far as they are known, with what to and their places."""
     default_namespace: str
     """The namespace that its group puts it into, unless an argument says otherwise."""
 
@@ -285,15 +285,17 @@ def _is_dictionary(launch: LaunchFile, node: ast.expr) -> bool:
     )
 
 
-def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, Location]]:
+def _remappings(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[str, str | None, Location]]:
     given = call.given.get("remappings")
     elements = launch.evaluator.elements(given).items if given is not None else ()
     for element in elements:
         match element.node:
             case ast.Tuple(elts=[source, target]) | ast.List(elts=[source, target]):
                 text = launch.evaluator.text(source)
-                if isinstance(text, str) and changes_name(text, launch.evaluator.text(target)):
-                    yield text, launch.location(source)
+                other = launch.evaluator.text(target)
+                if isinstance(text, str) and changes_name(text, other):
+                    other_text = other if isinstance(other, str) else None
+                    yield text, other_text, launch.location(source)
 
 
 def _has_choices(launch: LaunchFile, configuration: LaunchCall) -> bool:

@@ -34,8 +34,10 @@ class Remapped(NamedTuple):
     program: str
     name: object
     """The name that it runs under."""
-    remappings: Collection[tuple[str, Location]]
-    """The names that are remapped, as far as they are known."""
+    namespace: object
+    """The namespace that the launch file gives it."""
+    remappings: Collection[tuple[str, str | None, Location]]
+    """The names that are remapped, as far as they are known, with what to."""
     parameters: Collection[str] | None
     """The parameters that the launch file gives; ``None`` if not all are known."""
 
@@ -50,6 +52,7 @@ def remapped_nodes(package: Package) -> Iterator[Remapped]:
                 owner,
                 str(started.executable),
                 started.name(package),
+                started.namespace,
                 started.remappings,
                 None if started.has_more_parameters else given,
             )
@@ -65,7 +68,8 @@ def remapped_nodes(package: Package) -> Iterator[Remapped]:
                     owner,
                     node.executable.value,
                     name,
-                    [(attribute.value, attribute.location) for attribute in attributes],
+                    None,
+                    [(attribute.value, None, attribute.location) for attribute in attributes],
                     node.parameter_names,
                 )
 
@@ -126,3 +130,24 @@ def has_name(names: set[str], source: str, node: object) -> bool:
         name == wanted or name.endswith(f"/{wanted}") or wanted.endswith(f"/{name}")
         for name in plain
     )
+
+
+def is_reversed(names: set[str], source: str, target: str | None, node: object) -> bool:
+    """Tell whether a remapping leads to a name that a node has, from one that it has not."""
+    if target is None or any(name.startswith("/") for name in names):
+        return False
+    plain = {name.removeprefix("~").strip("/") for name in names}
+    wanted = {source, source.removeprefix("~/"), source.removeprefix(f"{node}/")}
+    if wanted & plain or source.startswith("/") or source.strip("/") in _ALWAYS:
+        return False
+    return target in names
+
+
+def misses_namespace(names: set[str], source: str, namespace: object) -> str:
+    """Return the name that a node has in its namespace, if a remapping names it without that."""
+    name = source.removeprefix("/")
+    if not isinstance(namespace, str) or not namespace.strip("/") or name == source:
+        return ""
+    if name in _ALWAYS or name not in names or source in names:
+        return ""
+    return f"/{namespace.strip('/')}/{name}"

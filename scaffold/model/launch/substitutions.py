@@ -186,6 +186,68 @@ def failure(launch: LaunchFile, node: ast.expr | None) -> str:
     return ""
 
 
+def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
+    """Return which launch argument an expression compares with a text that it does not take.
+
+    Returns:
+        What is wrong, empty if nothing, and whether that is so for all values it takes.
+    """
+    parts = node.elts if isinstance(node, ast.List) else []
+    calls = [launch.call_of(part) for part in parts]
+    texts: list[str] = []
+    for index, (part, call) in enumerate(zip(parts, calls, strict=True)):
+        is_argument = call is not None and call.kind == "LaunchConfiguration"
+        text = f"{_HOLE}{index}" if is_argument else launch.evaluator.joined_text(part)
+        if not isinstance(text, str):
+            return "", False
+        texts.append(text)
+    try:
+        tree = ast.parse("".join(texts).strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return "", False
+    problems: dict[str, list[tuple[str, bool]]] = {}
+    for compared in ast.walk(tree):
+        match compared:
+            case ast.Compare(
+                left=ast.Constant(value=str(left)),
+                ops=[ast.Eq() | ast.NotEq()],
+                comparators=[ast.Constant(value=str(right))],
+            ) if left.startswith(_HOLE) and left[len(_HOLE) :].isdigit():
+                part = parts[int(left[len(_HOLE) :])]
+                problem = _never_is(launch, part, right)
+                problems.setdefault(launch.module.text(part), []).append(problem)
+    # Who compares with several spellings means all of them.
+    wrong = [found[0] for found in problems.values() if all(why for why, _ in found)]
+    return wrong[0] if wrong else ("", False)
+
+
+_HOLE = "__argument"
+
+
+def _never_is(launch: LaunchFile, argument: ast.expr, text: str) -> tuple[str, bool]:
+    """Return why a launch argument is never a text, by its choices or its default."""
+    call = launch.call_of(argument)
+    name = launch.text(call, "variable_name") if call is not None else None
+    declared = launch.declared.get(name) if isinstance(name, str) else None
+    if declared is None:
+        return "", False
+    choices = launch.evaluator.evaluate(declared.given.get("choices"))
+    default = launch.default_of(argument)
+    if isinstance(choices, list | tuple) and choices:
+        is_known = all(isinstance(choice, str) for choice in choices) and text not in choices
+        listed = ", ".join(map(repr, choices))
+        return (f"{name!r} takes {listed}: it never equals {text!r}" if is_known else ""), is_known
+    if not isinstance(default, str) or default == text:
+        return "", False
+    if default and default.lower() == text.lower():
+        return f"{name!r} is {default!r} by default, which does not equal {text!r}", True
+    if {default, text} in ({"true", "False"}, {"True", "false"}):
+        usual = text.lower() if default.islower() else text.capitalize()
+        why = f"{name!r} is {default!r} by default: who sets it to {usual!r} does not get {text!r}"
+        return why, False
+    return "", False
+
+
 def _is_set(name: ast.Name) -> bool:
     return not isinstance(name.ctx, ast.Load)
 

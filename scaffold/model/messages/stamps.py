@@ -1,4 +1,4 @@
-"""Messages that are created and published, and whose stamp is certainly never set."""
+"""Messages that are created and published, and whose header certainly lacks its stamp or frame."""
 
 from __future__ import annotations
 
@@ -12,6 +12,17 @@ from scaffold.record import NamedTuple
 _HEADER = "std_msgs/msg/Header"
 _MEASURED = ("sensor_msgs/msg/", "nav_msgs/msg/Odometry", "geometry_msgs/msg/TransformStamped")
 """What is of a certain time. Zero means "now" in a trajectory, "the latest" in a pose or marker."""
+_PLACED = frozenset(
+    {f"nav_msgs/msg/{name}" for name in ("Path", "OccupancyGrid", "GridCells")}
+    | {"geometry_msgs/msg/PoseArray", "geometry_msgs/msg/PolygonStamped"}
+    | {"geometry_msgs/msg/TransformStamped", "visualization_msgs/msg/Marker"}
+)
+"""What is for RViz and tf2, which refuse it without a frame."""
+_GOALS = {
+    "goal_pose": "geometry_msgs/msg/PoseStamped",
+    "initialpose": "geometry_msgs/msg/PoseWithCovarianceStamped",
+}
+"""The topics whose poses Nav2 refuses without a frame; others may have one that is agreed on."""
 _TRANSFORM = "geometry_msgs/msg/TransformStamped"
 """Of a moving frame: zero is as good as no stamp there, and "the latest" in other messages."""
 _BRIDGED = {
@@ -28,6 +39,8 @@ class Unstamped(NamedTuple):
     made: ast.Call
     message: MessageClass
     sent: ast.Call
+    missing: str
+    """The field of the header that is left: ``stamp`` or ``frame_id``."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
@@ -37,8 +50,8 @@ class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
 def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
     """Yield the messages of a file that are published without a stamp, each once.
 
-    Only measurements whose header says in which frame they are: who leaves the whole header alone
-    does not use it.
+    Or without a frame. Only where the header has the other one: who leaves all of it alone does not
+    use it.
     """
     seen: set[ast.Call] = set()
     index = types.module.index
@@ -54,12 +67,28 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
         if message is None or not _has_header(message):
             continue
         try:
-            has_frame = _follow(types, made, source, message)
+            given = _follow(types, made, source, message)
         except _Doubt:
             continue
-        if has_frame:
+        missing = _missing(message, given, _topic(types, method))
+        if missing:
             seen.add(made)
-            yield Unstamped(made, message, sent)
+            yield Unstamped(made, message, sent, missing)
+
+
+def _topic(types: MessageTypes, method: ast.Attribute) -> str:
+    """Return the topic that a publisher publishes on; empty if it is not known."""
+    made = types.facts.evaluator.single_value(method.value)
+    names = [publisher.name for publisher in types.facts.publishers if publisher.call is made]
+    return "".join(name for name in names[:1] if isinstance(name, str)).lstrip("/")
+
+
+def _missing(message: MessageClass, given: frozenset[str], topic: str) -> str:
+    """Return the field that a header needs next to the one that it has; empty if none."""
+    if given == {"frame_id"} and message.name.startswith(_MEASURED):
+        return "stamp"
+    is_placed = message.name in _PLACED or _GOALS.get(topic) == message.name
+    return "frame_id" if given == {"stamp"} and is_placed else ""
 
 
 def _returned_by(types: MessageTypes, sent: ast.expr) -> ast.expr | None:
@@ -99,37 +128,40 @@ def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
 
 
 def _has_header(message: MessageClass) -> bool:
-    if not message.name.startswith(_MEASURED):
+    names = {*_PLACED, *_GOALS.values()}
+    if not message.name.startswith(_MEASURED) and message.name not in names:
         return False
     field = message.section.field("header")
     return field is not None and field.type.full_name == _HEADER and not field.type.is_array
 
 
-def _follow(types: MessageTypes, made: ast.Call, sent: ast.expr, message: MessageClass) -> bool:
-    """Look at all that is done with a message; doubt if anything may set its stamp.
+def _follow(
+    types: MessageTypes, made: ast.Call, sent: ast.expr, message: MessageClass
+) -> frozenset[str]:
+    """Look at all that is done with a message; doubt if anything else may fill its header.
 
     Returns:
-        Whether its frame is set.
+        The fields of the header that are set.
     """
     if made.args[2:] or any(isinstance(arg, ast.Starred) for arg in made.args):
         raise _Doubt
     headers = [word.value for word in made.keywords if word.arg in {"header", None}]
-    frames = [_expect_plain_header(types, value) for value in headers]
+    given = [_expect_plain_header(types, value) for value in headers]
     if sent is not made:
         may_be_zero = message.name == _TRANSFORM
         uses = _uses(types, made, sent)
-        frames += [_expect_harmless(types, use, may_be_zero=may_be_zero) for use in uses]
-    return any(frames)
+        given += [_expect_harmless(types, use, may_be_zero=may_be_zero) for use in uses]
+    return frozenset().union(*given)
 
 
-def _expect_plain_header(types: MessageTypes, node: ast.expr) -> bool:
-    """Accept a header that is made on the spot and not given a stamp; tell if it has a frame."""
+def _expect_plain_header(types: MessageTypes, node: ast.expr) -> frozenset[str]:
+    """Accept a header that is made on the spot; return the fields that it is given."""
     class_ = types.class_of(node.func) if isinstance(node, ast.Call) else None
     if class_ is None or class_.name != _HEADER or not isinstance(node, ast.Call):
         raise _Doubt
-    if node.args or any(word.arg in {"stamp", None} for word in node.keywords):
+    if node.args or any(word.arg is None for word in node.keywords):
         raise _Doubt
-    return bool(node.keywords)
+    return frozenset(word.arg for word in node.keywords if word.arg is not None)
 
 
 def _uses(types: MessageTypes, made: ast.Call, sent: ast.expr) -> Sequence[ast.expr]:
@@ -155,33 +187,37 @@ def _is_read(node: ast.Name | ast.Attribute) -> bool:
     return isinstance(node.ctx, ast.Load)
 
 
-def _expect_harmless(types: MessageTypes, use: ast.expr, *, may_be_zero: bool) -> bool:
-    """Accept what reads or sets other fields or publishes the message; tell if it sets a frame."""
+def _expect_harmless(types: MessageTypes, use: ast.expr, *, may_be_zero: bool) -> frozenset[str]:
+    """Accept what reads or sets fields or publishes the message; return what of the header."""
     match types.module.parent(use):
         case ast.Call(func=ast.Attribute(attr=name), args=[only]) if only is use:
             if name not in _SENDS:
                 raise _Doubt
         case ast.Attribute(attr="header") as header:
-            return _expect_harmless_header(types, header, may_be_zero=may_be_zero)
+            return _set_in_header(types, header, may_be_zero=may_be_zero)
         case ast.Attribute() | ast.FormattedValue() | ast.Return():
-            return False
+            return frozenset()
         case _:
             raise _Doubt
-    return False
+    return frozenset()
 
 
-def _expect_harmless_header(
+def _set_in_header(
     types: MessageTypes, header: ast.Attribute, *, may_be_zero: bool
-) -> bool:
+) -> frozenset[str]:
     above = types.module.parent(header)
     if isinstance(header.ctx, ast.Store) and isinstance(above, ast.Assign):
         return _expect_plain_header(types, above.value)
-    assigned = types.module.parent(above) if isinstance(above, ast.Attribute) else None
-    if may_be_zero and isinstance(assigned, ast.Assign) and _is_zero(types, assigned.value):
-        return False
-    if not isinstance(above, ast.Attribute) or above.attr != "frame_id":
+    if not isinstance(above, ast.Attribute) or above.attr not in {"frame_id", "stamp"}:
         raise _Doubt
-    return isinstance(above.ctx, ast.Store)
+    assigned = types.module.parent(above)
+    if may_be_zero and isinstance(assigned, ast.Assign) and _is_zero(types, assigned.value):
+        return frozenset()
+    if isinstance(above.ctx, ast.Store):
+        return frozenset({above.attr})
+    if above.attr == "stamp":
+        raise _Doubt  # `header.stamp.sec = 5`
+    return frozenset()
 
 
 def _is_zero(types: MessageTypes, stamp: ast.expr) -> bool:

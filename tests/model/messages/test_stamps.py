@@ -23,7 +23,8 @@ class Talker(Node):
         super().__init__('talker')
         self.publisher = self.create_publisher(Temperature, 'temperature', 10)
         self.images = self.create_publisher(Image, 'image', 10)
-        self.poses = self.create_publisher(PoseStamped, 'pose', 10)
+        self.poses = self.create_publisher(PoseStamped, 'goal_pose', 10)
+        self.other = self.create_publisher(PoseStamped, 'tool', 10)
         self.broadcaster = TransformBroadcaster(self)
         self.static = StaticTransformBroadcaster(self)
         self.bridge = CvBridge()
@@ -53,6 +54,18 @@ def test_zero_stamp_of_a_moving_transform(stamp: str) -> None:
     made = "t = TransformStamped()", f"t.header.stamp = {stamp}", "t.header.frame_id = 'odom'"
     assert found(*made, "self.broadcaster.sendTransform(t)") == [TRANSFORM]
     assert found(*made, "self.static.sendTransform(t)") == []
+
+
+def test_frame() -> None:
+    made = "p = PoseStamped()", "p.header.stamp = Time().to_msg()"
+    assert found(*made, "self.poses.publish(p)") == ["geometry_msgs/msg/PoseStamped"]
+    assert found(*made, "p.header.frame_id = frame", "self.poses.publish(p)") == []
+    assert found(made[0], "self.poses.publish(p)") == []
+
+
+def test_frame_that_only_nodes_of_the_package_need() -> None:
+    lines = "p = PoseStamped()", "p.header.stamp = Time().to_msg()", "self.other.publish(p)"
+    assert found(*lines) == []
 
 
 def test_message_of_a_method() -> None:

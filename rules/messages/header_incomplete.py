@@ -1,4 +1,4 @@
-"""MS010: messages with a header have their stamp set."""
+"""MS010: messages with a header have their stamp and frame set."""
 
 from __future__ import annotations
 
@@ -22,19 +22,21 @@ _NODE = (
 )
 
 
-class StampNeverSet(MessageRule):
-    """A measurement is published with a frame, but nothing ever sets the stamp in its header.
+class HeaderIncomplete(MessageRule):
+    """A message is published with a frame and without a stamp, or the other way round.
 
     **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
-    finds a match, RViz drops the message.
+    finds a match, RViz drops the message. An empty frame is none that tf2 knows: RViz shows
+    nothing, and Nav2 refuses the goal.
 
-    **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()``.
+    **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()`` and
+    ``message.header.frame_id = 'map'``.
 
     **Source.** ``std_msgs/msg/Header``; ROS 2 documentation, "Debugging tf2 problems".
     """
 
     code = "MS010"
-    name = "stamp-never-set"
+    name = "header-incomplete"
     severity = Severity.WARNING
     examples = (
         Example(
@@ -55,6 +57,22 @@ class StampNeverSet(MessageRule):
             ),
         ),
         Example(
+            "a pose that is nowhere",
+            {
+                "talker.py": _NODE.format("")
+                .replace("frame_id = 'base_link'", "stamp = self.get_clock().now().to_msg()")
+                .replace("sensor_msgs", "geometry_msgs")
+                .replace("Temperature(temperature=20.0)", "PoseStamped()")
+                .replace("Temperature", "PoseStamped")
+                .replace("'temperature'", "'goal_pose'")
+            },
+            Report(
+                "11:19",
+                "geometry_msgs/msg/PoseStamped is published in line 13 without a "
+                "frame; set header.frame_id",
+            ),
+        ),
+        Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
     )
@@ -66,9 +84,10 @@ class StampNeverSet(MessageRule):
             if _is_used_elsewhere(package, types, unset.sent.args[0]):
                 continue
             line = types.module.location(unset.sent).line
+            what = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
             message = (
-                f"{unset.message.name} is published in line {line} with a zero stamp; "
-                "set header.stamp"
+                f"{unset.message.name} is published in line {line} {what}; "
+                f"set header.{unset.missing}"
             )
             yield self.report(types.module.location(unset.made), message)
 
