@@ -15,6 +15,21 @@ _NODE = (
     "        super().__init__('talker')\n"
     "        self.create_publisher(String, '{}', 10)\n"
 )
+_TOPICS = (
+    "from dataclasses import dataclass\n\nFRONT = 'front-scan'\n\n\n"
+    "@dataclass\nclass Topics:\n    back: str = 'back-scan'\n"
+)
+_OTHER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n"
+    "import topics\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self, names):\n"
+    "        super().__init__('talker')\n{}"
+    "        self.create_publisher(String, topics.FRONT, 10)\n"
+    "        self.names = topics.Topics()\n"
+    "        self.create_publisher(String, self.names.back, 10)\n"
+)
+_SETTING = "        topics.FRONT = 'front'\n        names.back = 'back'\n"
 
 
 class TopicNameInvalid(RclpyRule):
@@ -49,6 +64,16 @@ class TopicNameInvalid(RclpyRule):
                     "        name = self.declare_parameter('name', '').value\n        self.create",
                 )
             },
+        ),
+        Example(
+            "constants of another module that the file sets, and an object that it changes",
+            {"topics.py": _TOPICS, "talker.py": _OTHER.format(_SETTING)},
+        ),
+        Example(
+            "constants of another module, and the default of its dataclass",
+            {"topics.py": _TOPICS, "talker.py": _OTHER.format("")},
+            Report("talker.py:9:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+            Report("talker.py:11:39", "ROS 2 refuses the name 'back-scan': '-' is not allowed"),
         ),
         Example(
             "a dash",

@@ -189,6 +189,11 @@ class Evaluator:
         """Mark the value being evaluated as provisional, so that it is not remembered."""
         self._is_cut = True
 
+    def imported(self, name: str) -> object:
+        """Return the value of a dotted name that is imported."""
+        del name
+        return UNKNOWN
+
     def argument(self, node: ast.arg) -> object:
         """Return the value of a function's parameter in the function."""
         del node
@@ -347,7 +352,9 @@ class Evaluator:
         return values[0]
 
     def _imported(self, node: ast.expr) -> object:
-        return NAMED_VALUES.get(self.module.qualified_name(node) or "", UNKNOWN)
+        name = self.module.qualified_name(node) or ""
+        value = NAMED_VALUES.get(name, UNKNOWN)
+        return self.imported(name) if value is UNKNOWN and "." in name else value
 
     def _attribute(self, node: ast.Attribute) -> object:
         value = self._imported(node)

@@ -37,10 +37,17 @@ class NodeEvaluator(AttributeEvaluator):
         module: PythonModule,
         default_of: Callable[[ast.expr, str], object],
         related: Callable[[ast.ClassDef], Sequence[ast.ClassDef]],
+        constant: Callable[[str], object],
     ) -> None:
         super().__init__(module, related)
+        self._constant = constant
         self._default_of = default_of
         self._call_sites = CallSites(self)
+
+    def imported(self, name: str) -> object:
+        """Return what a constant of another module of the package is worth."""
+        last = name.rpartition(".")[2]
+        return UNKNOWN if self.stores(last) else self._constant(name)
 
     def argument(self, node: ast.arg) -> object:
         """Return what all calls of a constructor or private function in the file agree on."""
@@ -67,6 +74,8 @@ class NodeEvaluator(AttributeEvaluator):
         if node.attr in _ACCESSORS:
             return self._parameter_field(node, _ACCESSORS[node.attr])
         values = self.attribute_values(node)
+        if values is None:
+            return self._default_in_class(node)
         if not values:
             return UNKNOWN
         value = self.evaluate(values[0])
@@ -75,6 +84,20 @@ class NodeEvaluator(AttributeEvaluator):
                 return UNKNOWN
         # What methods do to a list that belongs to an object is not tracked.
         return UNKNOWN if isinstance(value, list | dict) else value
+
+    def _default_in_class(self, node: ast.Attribute) -> object:
+        """Return what an attribute of an object that is made without arguments begins with.
+
+        Such as that of a dataclass, ``Topics().image``, if the file never sets it.
+        """
+        made = self.single_value(node.value)
+        match made:
+            case ast.BoolOp(op=ast.Or(), values=[given, default]) if self.evaluate(given) is None:
+                made = default
+        if not isinstance(made, ast.Call) or made.args or made.keywords:
+            return UNKNOWN
+        name = self.module.qualified_name(made.func)
+        return self.imported(f"{name}.{node.attr}") if name else UNKNOWN
 
     def _parameter(self, node: ast.expr) -> object:
         """Return the default of the parameter that an expression such as a call reads."""

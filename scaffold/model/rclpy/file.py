@@ -6,13 +6,15 @@ import ast
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from scaffold.model import reads
+from scaffold.model.package import Package
 from scaffold.model.python.module import PythonModule, is_in_tests
 from scaffold.model.python.scopes import FunctionNode
 from scaffold.model.python.values import UNKNOWN
 from scaffold.model.rclpy import callbacks as node_callbacks
+from scaffold.model.rclpy.constants import constants_of
 from scaffold.model.rclpy.creation import NODE_METHODS, Creation
 from scaffold.model.rclpy.entities import (
     ActionClient,
@@ -35,9 +37,6 @@ from scaffold.model.rclpy.init_and_spin import rclpy_calls
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition, NodeObject
 from scaffold.model.rclpy.parameters.declarations import Declarations
 from scaffold.source import ViewError
-
-if TYPE_CHECKING:
-    from scaffold.model.package import Package
 
 __all__ = [
     "NODE_CLASSES",
@@ -112,7 +111,9 @@ class RclpyFile:
         """Where other files come from: the package."""
         self._reads = reads.current()
         self.declarations = Declarations(self)
-        self.evaluator = NodeEvaluator(module, self.declarations.default_of, self.related_classes)
+        self.evaluator = NodeEvaluator(
+            module, self.declarations.default_of, self.related_classes, self._constant
+        )
         self.parameter_callbacks: dict[ast.arg, FunctionNode | ast.Lambda] | None = None
         """Kept by `parameters.objects`."""
         self.goal_arguments: set[ast.arg] | None = None
@@ -246,6 +247,19 @@ class RclpyFile:
         if isinstance(definition, ast.FunctionDef):
             return facts, definition
         return (facts, bindings[0].value) if bindings[0].value is not None else None
+
+    def _constant(self, name: str) -> object:
+        """Return what a dotted name is worth if it is a constant of another module."""
+        package = self.modules
+        module, _, names = name.rpartition(".")
+        while module.strip(".") and isinstance(package, Package):
+            for path in _module_paths(self.module.path, module):
+                if path != self.module.path and package.has(path):
+                    with reads.recorded(self._reads), suppress(ViewError):
+                        return constants_of(package, path).get(names, UNKNOWN)
+            module, _, last = module.rpartition(".")
+            names = f"{last}.{names}"
+        return UNKNOWN
 
     def is_own_module(self, module: str) -> bool:
         """Tell whether a dotted name is a module of the package."""
