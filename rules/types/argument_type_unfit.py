@@ -40,6 +40,21 @@ _TIMES = (
     "    Clock().sleep_until(Stamp(sec=seconds))\n"
     "    return Header(stamp=Time(seconds=seconds))\n"
 )
+_SPEAKER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Speaker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('speaker')\n"
+    "        self.talker = self.create_publisher(String, 'talk', 10)\n"
+    "        self.greeting = self.declare_parameter('greeting', 'hello').value\n\n"
+    "    def say(self, text):\n"
+    "        self.talker.publish(text)\n\n"
+    "    def show(self, text):\n"
+    "        self.talker.publish(text)\n\n"
+    "    def greet(self):\n"
+    "        self.say({})\n"
+    "        self.show({})\n"
+)
 _UNCHECKED = (".get_parameter_or",)
 """What works with anything as long as the parameter is declared."""
 _ONLY_SHOWN = {("DeclareLaunchArgument()", "description")}
@@ -93,6 +108,50 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.goal.publish_feedback(Fibonacci.Feedback())\n\n"
                 "    def run(self, goal):\n        goal.succeed()\n        return goal.request\n"
             },
+        ),
+        Example(
+            "what a method is called with",
+            {"speaker.py": _SPEAKER.format("String(data='hello')", "'hello'")},
+            Report(
+                "15:29",
+                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+                "str: publish() fails ('text' comes from line 19)",
+            ),
+        ),
+        Example(
+            "what other methods are called with: messages, or what is not known",
+            {"speaker.py": _SPEAKER.format("String(data='hello')", "self.greeting")},
+        ),
+        Example(
+            "a method that asks what it is called with",
+            {
+                "speaker.py": _SPEAKER.format("'hello'", "'hello'").replace(
+                    "        self.talker.publish(text)\n",
+                    "        if isinstance(text, str):\n            text = String(data=text)\n"
+                    "        self.talker.publish(text)\n",
+                )
+            },
+        ),
+        Example(
+            "the header of a message for the stamp in it",
+            {
+                "age.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+                "from sensor_msgs.msg import Imu\n\n\n"
+                "class Age(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('age')\n"
+                "        self.create_subscription(Imu, 'imu', self.on_imu, 10)\n\n"
+                "    @staticmethod\n"
+                "    def seconds(now, stamp):\n"
+                "        return (now - Time.from_msg(stamp)).nanoseconds * 1e-9\n\n"
+                "    def on_imu(self, imu: Imu) -> None:\n"
+                "        self.age = self.seconds(self.get_clock().now(), imu.header)\n"
+            },
+            Report(
+                "13:37",
+                "'msg' of from_msg() must be a builtin_interfaces.msg.Time, not a "
+                "std_msgs.msg.Header: from_msg() fails ('stamp' comes from line 16)",
+            ),
         ),
         Example(
             "a number and a result for the feedback",

@@ -43,7 +43,9 @@ class TypeRule(FileRule):
         finding = TypeFinding(package, path, item)
         result = self.judge(finding)
         if result is not None and finding.is_certain():
-            yield result
+            passed = finding.passed_in()
+            comes = f" ({passed[0]!r} comes from line {passed[1]})" if passed else ""
+            yield result._replace(message=f"{result.message}{comes}")
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         """Return what is wrong, ``None`` where that is not certain; may raise ViewError."""

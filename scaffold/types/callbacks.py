@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 _WORDS = (
     b"create_subscription(",
@@ -142,7 +142,7 @@ def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
         yield from _synchronized(segment)
     for call in _CALL.finditer(segment):
         function = call[1]
-        arguments = _arguments(segment, call.end())
+        arguments = arguments_of(segment, call.end())[0]
         if function == "add_done_callback":
             callback = _CALLBACK.fullmatch(arguments.get("0", ""))
             if callback is not None:
@@ -164,7 +164,7 @@ def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     topics: dict[str, str] = {}
     inputs: dict[str, str] = {}
     for made in _FILTER.finditer(segment):
-        arguments = _arguments(segment, made.end())
+        arguments = arguments_of(segment, made.end())[0]
         if made[2] == "Subscriber":
             type_ = arguments.get("msg_type", arguments.get("1", ""))
             topics[made[1]] = "" if made[1] in topics or not _TYPE.fullmatch(type_) else type_
@@ -201,8 +201,11 @@ def _given(function: str, keyword: str, type_: str) -> tuple[str, ...]:
     return (f"{_GOAL_HANDLE}[{type_}.Goal, {type_}.Result, {type_}.Feedback]",)
 
 
-def _arguments(text: str, start: int) -> Mapping[str, str]:
-    """Return the arguments of a call by keyword or number; empty if its end is not found."""
+def arguments_of(text: str, start: int) -> tuple[dict[str, str], int]:
+    """Return the arguments of a call by keyword or number, and where it ends.
+
+    There are none if the end is not found; a call without arguments has an empty one.
+    """
     parts: list[str] = []
     depth, at, quote = 0, start, ""
     begin = start
@@ -223,9 +226,9 @@ def _arguments(text: str, start: int) -> Mapping[str, str]:
             parts.append(text[begin:at].strip())
             begin = at + 1
             if character == ")":
-                return _by_name(parts)
+                return _by_name(parts), at + 1
         at += 1
-    return {}
+    return {}, start
 
 
 def _by_name(parts: list[str]) -> dict[str, str]:

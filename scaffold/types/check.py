@@ -7,11 +7,13 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.types import environment, python_modules, ty
+from scaffold.types.added_lines import Extended
+from scaffold.types.arguments import with_arguments
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
@@ -29,7 +31,12 @@ _DIFFERENT = frozenset(
 )
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
-_UNPACKED = re.compile(r"(?:Not enough|Too many) values to unpack: Expected \d+")
+_NAMELESS = re.compile(
+    r"Object of type `(?:str|int|float|bool)` has no attribute `\w+`"
+    r"|Too many positional arguments: expected \d+, got \d+"
+    r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
+)
+"""Matches reports of interest that name nothing of ROS."""
 # linear: a line has 20 kB at most
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
@@ -74,6 +81,8 @@ class TypeCheck:
         """Why types are not checked; empty if they are."""
         self._scratch = ""
         self._run: ty.Run | None = None
+        self._written: Mapping[str, Extended] = {}
+        """What it reads, by place."""
         self._files: dict[int, list[_File]] = {}
         """Until what is reported about them is collected; by the number of the package."""
         self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
@@ -129,13 +138,22 @@ class TypeCheck:
             self._run = self._started("project", asked, _annotated)
 
     def _started(
-        self, name: str, asked: Sequence[_File], content: Callable[[Source], bytes]
+        self, name: str, asked: Sequence[_File], content: Callable[[Source], Extended]
     ) -> ty.Run:
         """Start the type checker on some files, with all that they import next to them."""
         mirrored = {place: item for file in asked for place, item in file.reached.items()}
         project = self._directory(name)
-        _write(project, {place: content(source) for place, source in mirrored.items()})
+        self._written = {place: content(source) for place, source in mirrored.items()}
+        _write(project, {place: written.data for place, written in self._written.items()})
         return ty.Run(project, self._home, [file.source.place for file in asked])
+
+    def _results(self) -> Mapping[str, list[TyDiagnostic]]:
+        """Return what is reported about lines of the user, by the place of the file."""
+        assert self._run is not None  # noqa: S101  it has been started
+        return {
+            place: [*_of_user(diagnostics, self._written[place])]
+            for place, diagnostics in self._run.results().items()
+        }
 
     def _environment(self) -> str:
         return environment.directory(distributions.target(), self._directory)
@@ -177,7 +195,7 @@ class TypeCheck:
             file for files in self._files.values() for file in files if file.diagnostics is None
         ]
         try:
-            reported = self._run.results()
+            reported = self._results()
             for file in asked:
                 diagnostics = reported.get(file.source.place, ())
                 stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
@@ -205,7 +223,7 @@ class TypeCheck:
         if not files:
             return
         self._run = self._started("unannotated", files, _unannotated)
-        reported = self._run.results()
+        reported = self._results()
         for file in files:
             again = {item[:3] for item in reported.get(file.source.place, ())}
             file.diagnostics = [
@@ -269,7 +287,7 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
         if python_modules.still_has(module, name):
             return False
         return root in stubbed or root in sys.stdlib_module_names
-    return MARK in item.message or _UNPACKED.match(item.message) is not None
+    return MARK in item.message or _NAMELESS.fullmatch(item.message) is not None
 
 
 def _may_be_annotated(item: TyDiagnostic) -> bool:
@@ -277,18 +295,28 @@ def _may_be_annotated(item: TyDiagnostic) -> bool:
     return item.kind not in _OF_MODULES
 
 
-def _annotated(source: Source) -> bytes:
-    """Return a file with annotations of its callbacks and of plain results."""
+def _of_user(diagnostics: Sequence[TyDiagnostic], written: Extended) -> Iterator[TyDiagnostic]:
+    """Yield what is reported about lines that are the user's, with their numbers."""
+    for item in diagnostics:
+        line = written.original_line(item.line)
+        if line:
+            end = written.original_line(item.end_line)
+            yield item._replace(line=line, end_line=end)
+
+
+def _annotated(source: Source) -> Extended:
+    """Return a file with the types of its callbacks, of plain results and of what calls give."""
     if not source.path:  # a stub
-        return source.data
-    return with_result_types(source.with_callback_types)
+        return Extended(source.data, ())
+    return with_arguments(with_result_types(source.with_callback_types))
 
 
-def _unannotated(source: Source) -> bytes:
+def _unannotated(source: Source) -> Extended:
     """Return a file with no other annotations; nothing of one that does not parse."""
     if not source.path:
-        return source.data
-    return with_result_types(without_annotations(source.with_callback_types) or b"")
+        return Extended(source.data, ())
+    data = without_annotations(source.with_callback_types) or b""
+    return with_arguments(with_result_types(data))
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

@@ -96,6 +96,16 @@ class TypeFinding:
             *(ast.Set, ast.IfExp, ast.BoolOp, ast.ListComp, ast.Starred, ast.Await),
         )
 
+    def passed_in(self) -> tuple[str, int] | None:
+        """Return the parameter that the report is about, and the line of the call that gives it."""
+        node = self.expression()
+        while isinstance(node, ast.Attribute | ast.Subscript):
+            node = node.value
+        if not isinstance(node, ast.Name):
+            return None
+        lines = [value.lineno for value in origins.arguments_for(self.module, node)]
+        return (node.id, min(lines)) if lines else None
+
     @cached_property
     def innermost(self) -> ast.AST | None:
         """The smallest node that holds the whole place."""

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from scaffold.model.python.call_sites import given_argument
 from scaffold.model.python.module import PythonModule
 
 _DEEPEST = 20
 """Names, attributes, elements and calls that one value comes from."""
+_MOST_FUNCTIONS = 4
+"""Functions that hand it on."""
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 def is_of_several(module: PythonModule, node: ast.AST) -> bool:
@@ -27,9 +31,9 @@ def is_of_several(module: PythonModule, node: ast.AST) -> bool:
     return False
 
 
-def _origins(module: PythonModule, node: ast.AST) -> Iterator[ast.AST]:
-    """Yield an expression and what it is read from: ``a.b``, and ``a``."""
-    for _ in range(_DEEPEST):
+def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[ast.AST]:
+    """Yield an expression and what it is read from: ``a.b``, and ``a``, also in other functions."""
+    for _ in range(_DEEPEST if depth < _MOST_FUNCTIONS else 0):
         yield node
         match node:
             case ast.Attribute(value=value) | ast.Subscript(value=value):
@@ -39,10 +43,40 @@ def _origins(module: PythonModule, node: ast.AST) -> Iterator[ast.AST]:
             case ast.Name():
                 looped = _looped_over(module, node)
                 if looped is None:
+                    for value in arguments_for(module, node):
+                        yield from _origins(module, value, depth + 1)
                     return
                 node = looped
             case _:
                 return
+
+
+def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
+    """Return what calls in the file pass to the parameter that a name is; nothing for others."""
+    lookup = module.index.lookup(name.id, name)
+    parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
+    function = lookup[0] if lookup is not None else None
+    if not isinstance(parameter, ast.arg) or not isinstance(function, _FUNCTIONS):
+        return ()
+    class_ = module.parent(function)
+    is_bound = isinstance(class_, ast.ClassDef)
+    is_bound = is_bound and not any(map(_is_static, function.decorator_list))
+    names: Sequence[ast.expr] = module.index.names(function.name)
+    if isinstance(class_, ast.ClassDef):
+        is_constructor = function.name == "__init__"
+        index = module.index
+        names = index.names(class_.name) if is_constructor else index.attributes(function.name)
+    calls = [call for call in map(module.parent, names) if isinstance(call, ast.Call)]
+    given = (
+        given_argument(function, call, parameter, is_method=is_bound)
+        for call in calls
+        if call.func in names
+    )
+    return [value for value in given if value is not None]
+
+
+def _is_static(decorator: ast.expr) -> bool:
+    return isinstance(decorator, ast.Name) and decorator.id == "staticmethod"
 
 
 def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:

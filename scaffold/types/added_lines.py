@@ -1,0 +1,44 @@
+"""Files with lines that are added for a type checker, and the numbers that lines had before."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
+
+from scaffold.record import NamedTuple
+
+
+class Extended(NamedTuple):
+    """A file with added lines."""
+
+    data: bytes
+    added: Sequence[int]
+    """The numbers of these lines, in order."""
+
+    def original_line(self, line: int) -> int:
+        """Return the number that a line has in the user's file; 0 for one that is added."""
+        place = bisect_left(self.added, line)
+        is_added = place < len(self.added) and self.added[place] == line
+        return 0 if is_added else line - place
+
+
+def with_lines(text: str, lines: Mapping[int, Sequence[str]]) -> Extended:
+    """Return a text with more lines.
+
+    Args:
+        text: The text.
+        lines: What to put before the line that starts at a place; of several lines, as it is.
+    """
+    parts: list[str] = []
+    added: list[int] = []
+    at, number = 0, 1
+    for place in sorted(lines):
+        parts.append(text[at:place])
+        number += text.count("\n", at, place)
+        new = "".join(f"{line}\n" for line in lines[place])
+        count = new.count("\n")
+        added += range(number, number + count)
+        number += count
+        parts.append(new)
+        at = place
+    return Extended("".join([*parts, text[at:]]).encode(), added)

@@ -1,0 +1,125 @@
+"""A type checker is told what functions are given, in lines that nobody sees."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from scaffold.types.arguments import with_arguments
+
+CLASS = """\
+class Talker:
+    def __init__(self, rate):
+        self.rate = rate
+
+    def say(self, text, times=1):
+        \"\"\"Say it.\"\"\"
+        print(text * times)
+
+    def run(self, name):
+{}
+
+
+Talker(rate())
+"""
+
+
+def added(source: str) -> list[str]:
+    """Return the lines that are added to a file, which is the same without them."""
+    extended = with_arguments(source.encode())
+    text = extended.data.decode()
+    ast.parse(text)
+    lines = text.split("\n")
+    kept = [line for at, line in enumerate(lines, 1) if at not in extended.added]
+    assert kept == source.split("\n")
+    for at, line in enumerate(lines, 1):
+        original = extended.original_line(at)
+        assert original == 0 or source.split("\n")[original - 1] == line
+    return [lines[at - 1].strip() for at in extended.added]
+
+
+def given(call: str) -> list[str]:
+    """Return what is added for a call in ``run``, without what is for the constructor."""
+    source = CLASS.format("".join(f"        {line}\n" for line in call.split("\n")))
+    return [line for line in added(source) if "rate" not in line]
+
+
+def test_an_argument_is_kept_before_the_call_and_taken_in_the_function() -> None:
+    taken, kept = given("self.say(name)")
+    name = taken.removeprefix("text = (").partition(")")[0]
+    assert taken == f"text = ({name})[0]; times = ([1])[0]"
+    assert kept == f"global {name}; {name} = [name]"
+
+
+@pytest.mark.parametrize(
+    ("call", "taken"),
+    [
+        ("self.say('x')", "text = (['x'])[0]; times = ([1])[0]"),
+        ("self.say(times=2, text='x')", "text = (['x'])[0]; times = ([2])[0]"),
+        ("if self.say('x'):\n    pass", "text = (['x'])[0]; times = ([1])[0]"),
+        ("return print(self.say(\n    'x',\n    2,\n))", "text = (['x'])[0]; times = ([2])[0]"),
+        ("# x,\nself.say('x')", "text = (['x'])[0]; times = ([1])[0]"),
+    ],
+)
+def test_calls_that_begin_on_the_line_of_their_statement(call: str, taken: str) -> None:
+    assert sorted(given(call)[0].split("; ")) == sorted(taken.split("; "))
+
+
+def test_calls_that_differ_give_one_of_both() -> None:
+    assert given("self.say('x')\nself.say(2)")[0].startswith(
+        "text = (['x'] if _ros2_either else [2])[0]"
+    )
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "print(\n    self.say('x')\n)",
+        "rows = [self.say(row) for row in name]",
+        "rows = [self.say(row)\n        for row in name]",
+        "name and self.say('x')",
+        "self.later = lambda text: self.say(text)",
+        "if name:\n    pass\nelif self.say('x'):\n    pass",
+        "while self.say('x'):\n    pass",
+        "self.say(*name)",
+        "self.say('x', 1, 2)",
+        "self.say(self)",
+        "self.say(text := 'x')",
+        "print(f'{self.say(name)}')",
+        "other.say('x')",
+        "rows = {'a':\n    self.say('x')\n}",
+        "rows = name + \\\n    self.say('x')",
+    ],
+)
+def test_calls_that_are_left_alone(call: str) -> None:
+    assert given(call) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "def f(a):\n    f(1)\n",
+        "def f(a: str):\n    pass\n\n\nf(1)\n",
+        "@cached\ndef f(a):\n    pass\n\n\nf(1)\n",
+        "def f(a=None):\n    pass\n\n\nf()\n",
+        "def f(a):\n    pass\n\n\ndef f(a, b):\n    pass\n\n\nf(1)\n",
+        "class A:\n    def f(self, a): ...\n\n\nclass B(C):\n    def g(self):\n        self.f(1)\n",
+        "def f(a): return a\n\n\nf(1)\n",
+        "def f(a):\n\treturn a\n\n\nf(1)\n",
+        "class A:\n    f = staticmethod(print)\n\n\nf(1)\n",
+    ],
+)
+def test_functions_that_are_left_alone(source: str) -> None:
+    assert added(source) == []
+
+
+def test_constructors_and_static_methods() -> None:
+    assert added("class A:\n    def __init__(self, a):\n        pass\n\n\nA(1)\n") == [
+        "a = ([1])[0]"
+    ]
+    source = (
+        "class A:\n    @staticmethod\n    def f(a):\n        return a\n\n"
+        "    def g(self):\n        self.f(1)\n"
+    )
+    assert added(source) == ["a = ([1])[0]"]
