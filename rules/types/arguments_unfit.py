@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
+from scaffold.api.rclpy import LOG_METHODS, is_of_rclpy, rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -29,6 +30,16 @@ _NODE = (
     "        self.timer = self.create_timer({})\n\n"
     "    def tick(self):\n"
     "        pass\n"
+)
+_LOG = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState\n\n\n"
+    "class Battery(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('battery')\n"
+    "        self.log = self.get_logger().info\n"
+    "        self.create_subscription(BatteryState, 'battery', self.on_battery, 10)\n\n"
+    "    def on_battery(self, message):\n"
+    "        self.log({})\n"
 )
 
 
@@ -58,6 +69,15 @@ class ArgumentsUnfit(TypeRule):
         }
     )
     examples = (
+        Example(
+            "a method of a logger with another name",
+            {"battery.py": _LOG.format("f'voltage {message.voltage}'")},
+        ),
+        Example(
+            "the same called like print",
+            {"battery.py": _LOG.format("'voltage', message.voltage")},
+            Report("12:29", "info() of a logger takes 1 positional argument, not 2: TypeError"),
+        ),
         Example(
             "a function with several signatures",
             {
@@ -170,6 +190,7 @@ class ArgumentsUnfit(TypeRule):
         problem = (
             _missing(finding)
             or _too_many(finding)
+            or _too_many_to_log(finding)
             or _unknown(finding)
             or _repeated(finding)
             or _of_no_overload(finding)
@@ -241,6 +262,26 @@ def _too_many(finding: TypeFinding) -> str:
     names = keywords(finding.package, matched["callee"])
     hint = f" (as keywords: {', '.join(names)})" if names else ""
     return f"{_shown(matched['callee'])} takes {takes}, not {count}{hint}"
+
+
+def _too_many_to_log(finding: TypeFinding) -> str:
+    """Return what is wrong with the call of an attribute that is a method of a logger."""
+    matched = finding.match(r"Too many positional arguments: expected 1, got (?P<count>\d+)")
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    if matched is None or call is None:
+        return ""
+    file = rclpy_file(finding.package, finding.path)
+    match file.evaluator.single_value(call.func):
+        case ast.Attribute(attr=method, value=logger) if method in LOG_METHODS:
+            match file.evaluator.single_value(logger):
+                case ast.Call(func=ast.Attribute(attr="get_logger") as made) if is_of_rclpy(
+                    file, made
+                ):
+                    return (
+                        f"{method}() of a logger takes 1 positional argument, "
+                        f"not {matched['count']}"
+                    )
+    return ""
 
 
 def _unknown(finding: TypeFinding) -> str:

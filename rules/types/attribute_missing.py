@@ -23,6 +23,7 @@ from scaffold.api import (
 from scaffold.api.distributions import removed_name
 from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import (
+    MARKED,
     TypeFinding,
     class_in,
     class_itself,
@@ -30,6 +31,7 @@ from scaffold.api.types import (
     members,
     module_names,
     own_members,
+    with_article,
 )
 
 _NODE = (
@@ -82,6 +84,9 @@ _MESSAGE = re.compile(r"(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>\w+
 _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
+_PLAIN = frozenset({"str", "int", "float", "bool"})
+_METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
+"""Matches a method that is not called."""
 _FEW = 6
 """Names that a message can list."""
 
@@ -198,6 +203,36 @@ class AttributeMissing(TypeRule):
                 "rclpy.task.Future has no 'accepted': AttributeError; what the future brings "
                 "is in result()",
             ),
+        ),
+        Example(
+            "a method taken for what it returns",
+            {
+                "asker.py": _NODE.format("destroy") + "\n    def ask(self):\n"
+                "        future = self.client.send_goal_async(Fibonacci.Goal())\n"
+                "        future.add_done_callback(self.on_goal)\n\n"
+                "    def on_goal(self, future):\n"
+                "        handle = future.result\n"
+                "        return handle.accepted\n"
+            },
+            Report(
+                "20:16",
+                "rclpy.task.Future.result has no 'accepted': AttributeError; write result()",
+            ),
+        ),
+        Example(
+            "a text taken for the message that it is in",
+            {
+                "hear.py": "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+                "class Hearer(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('hearer')\n"
+                "        self.create_subscription(String, 'talk', self.on_talk, 10)\n\n"
+                "    def on_talk(self, message):\n"
+                "        self.show(message.data)\n\n"
+                "    def show(self, message):\n"
+                "        self.get_logger().info(message.data)\n"
+            },
+            Report("14:32", "a str has no 'data': AttributeError ('message' comes from line 11)"),
         ),
         Example(
             "the goal handle that a future brings",
@@ -325,13 +360,16 @@ class AttributeMissing(TypeRule):
         is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
         if name.startswith("_") or is_imported or is_known:
             return None
-        known = _known(finding, node, owner)
+        known = _plain(node, owner) or _known(finding, node, owner)
         if known is None:
             return None
         shown, names = known
+        method = shown.rpartition(".")[2] if _METHOD.fullmatch(owner) else ""
         is_future = shown == "rclpy.task.Future"
         closest = "" if is_future else closest_name(finding.package, name, names - {name}, 0.6)
         hint = f"; did you mean {closest!r}?" if closest else ""
+        if method:
+            hint = f"; write {method}()"
         if is_future:
             hint = "; what the future brings is in result()"
         names -= _OF_ALL_MESSAGES
@@ -347,6 +385,14 @@ class AttributeMissing(TypeRule):
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
         return self.report(finding, message, fix, severity=severity, cause=_cause(shown))
+
+
+def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
+    """Return the name of a method, or of the type of a plain value, that is read from."""
+    method = _METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
+    if method is not None:
+        return f"{full_name(method[1])}.{method[2]}", frozenset()
+    return (with_article(owner), frozenset()) if owner in _PLAIN else None
 
 
 def _known(
