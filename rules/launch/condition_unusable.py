@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
-from scaffold.api.launch import LaunchCall, LaunchFile, failure, never_equal
+from scaffold.api.launch import LaunchCall, LaunchFile, failure, never_equal, never_equals
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")
@@ -67,6 +67,9 @@ class ConditionUnusable(LaunchRule):
                 "launch/d.launch.py": _LAUNCH.format(
                     "true", "PythonExpression([\"'\", use, \"'.lower() == 'true'\"])"
                 ),
+                "launch/f.launch.py": _LAUNCH.format("true", "'use', 'True'").replace(
+                    "IfCondition", "LaunchConfigurationEquals"
+                ),
                 "launch/e.launch.py": _LAUNCH.format(
                     "true",
                     "PythonExpression([\"'\", use, \"' == 'True' or '\", use, \"' == 'true'\"])",
@@ -82,6 +85,10 @@ class ConditionUnusable(LaunchRule):
                 severity=Severity.WARNING,
             ),
             Report("launch/c.launch.py:12:65", "'use' takes 'no', 'yes': it never equals 'true'"),
+            Report(
+                "launch/f.launch.py:12:53",
+                "'use' is 'true' by default, which does not equal 'True'",
+            ),
         ),
         Example(
             "a value of Python",
@@ -138,6 +145,10 @@ class ConditionUnusable(LaunchRule):
             problem = "" if node is None else _problem(launch, call, node)
             if problem and node is not None:
                 yield self.report(launch.location(node), problem)
+            elif call.kind in _BY_NAME:
+                why, is_sure = never_equals(launch, call)
+                if why:
+                    yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
         for call in launch.calls:
             listed = call.given.get("condition")
             is_value = call.kind == "IfElseSubstitution"

@@ -79,6 +79,10 @@ class ColorOrderSwapped(MessageRule):
                 "c.py": _FILE.format("rgb8").replace(
                     "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2RGB)"
                 ),
+                "e.py": _FILE.format("bgr8").replace(
+                    "frame = cv2.imread(path)",
+                    "frame = cv2.imread(path)\n    frame = cv2.cvtColor(frame, cv2.COLOR_BGR2RGB)",
+                ),
                 "d.py": _FILE.format("bgr8").replace(
                     "frame = cv2.imread(path)",
                     "image = bridge.imgmsg_to_cv2(path, 'rgb8')\n"
@@ -87,6 +91,7 @@ class ColorOrderSwapped(MessageRule):
             },
             Report("a.py:8:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
             Report("b.py:9:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
+            Report("e.py:9:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
         ),
     )
 
@@ -127,7 +132,7 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     """Return the order of colors that an image has; empty if it is not known."""
     if _is_frame(types, image):
         return "BGR"
-    made = types.facts.evaluator.single_value(image)
+    made = _value_before(types, image) or types.facts.evaluator.single_value(image)
     if not isinstance(made, ast.Call):
         return ""
     if types.module.qualified_name(made.func) == "cv2.imread":
@@ -149,6 +154,28 @@ def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:
     if code.startswith(("COLOR_BGR", "COLOR_RGB")) and isinstance(call.args[0], ast.Name):
         before = _order(types, call.args[0], depth - 1) if depth else ""
     return _OTHER[before] if before else converted[1]
+
+
+def _value_before(types: MessageTypes, image: ast.Name) -> ast.expr | None:
+    """Return what a name that is set several times was set to last, in the same block."""
+    module = types.module
+    lookup = module.index.lookup(image.id, image)
+    statement = next((x for x in module.parents(image) if isinstance(x, ast.stmt)), None)
+    if lookup is None or len(lookup[1]) < _SEVERAL or statement is None:
+        return None
+    block = getattr(module.parent(statement), "body", [])
+    before = block[: block.index(statement)] if statement in block else []
+    for earlier in reversed(before):
+        match earlier:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value) if name == image.id:
+                return value
+        names = [x for x in ast.walk(earlier) if isinstance(x, ast.Name)]
+        if any(x.id == image.id and not isinstance(x.ctx, ast.Load) for x in names):
+            return None
+    return None
+
+
+_SEVERAL = 2
 
 
 def _is_frame(types: MessageTypes, image: ast.Name) -> bool:

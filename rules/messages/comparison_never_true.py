@@ -121,7 +121,8 @@ def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
     """Return why a field never equals a value; empty if it may."""
     value = types.facts.evaluator.evaluate(other)
     is_value = isinstance(value, bool | int | float | str) or _is_constant(types, other)
-    message = types.type_of(field) if is_value and isinstance(field, ast.Attribute) else None
+    source = types.facts.evaluator.single_value(field)
+    message = types.type_of(source) if is_value and isinstance(source, ast.Attribute) else None
     if message is not None:
         text, other_text = types.module.text(field), types.module.text(other)
         return f"{text} is a {message.name}, which never equals {other_text}"

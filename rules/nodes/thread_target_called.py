@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import RclpyFile
 
@@ -88,8 +88,11 @@ class ThreadTargetCalled(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for call in file.module.walk(ast.Call):
+            if _is_never_started(package, file, call):
+                message = "nothing starts this thread: its target never runs; call start()"
+                yield self.report(file.module.location(call), message)
             for node, problem in _problems(file, call):
                 yield self.report(file.module.location(node), problem)
         for timer in file.timers:
@@ -109,20 +112,30 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
     return isinstance(node, ast.Name | ast.Attribute) and file.owner_of(node) is not None
 
 
-def _is_never_started(file: RclpyFile, call: ast.Call) -> bool:
+def _is_never_started(package: Package, file: RclpyFile, call: ast.Call) -> bool:
     """Tell whether all that is done with a thread is to make, configure and join it."""
+    if file.module.qualified_name(call.func) != "threading.Thread":
+        return False
     index = file.module.index
+    uses: Sequence[ast.Name | ast.Attribute]
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
             scope = index.lookup(name.id, name)
             uses = [use for use in index.names(name.id) if index.lookup(use.id, use) == scope]
+            is_own = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
+        case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):
+            uses = index.attributes(attribute)
+            is_own = bool(file.init_calls) and not any(
+                module.index.attributes(attribute)
+                for module in package.modules()
+                if module is not file.module
+            )
         case ast.Expr():
             return True
         case _:
             return False
     reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
-    is_local = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
-    return is_local and all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
+    return is_own and all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
 
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
@@ -131,8 +144,6 @@ _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
 
 def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     if file.module.qualified_name(call.func) == "threading.Thread":
-        if _is_never_started(file, call):
-            yield call, "nothing starts this thread: its target never runs; call start()"
         for word in call.keywords:
             if word.arg == "target" and isinstance(word.value, ast.Call):
                 callback = file.callback(word.value)

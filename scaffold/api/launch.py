@@ -66,6 +66,7 @@ from scaffold.model.launch.substitutions import (
     CONDITION,
     failure,
     never_equal,
+    never_equals,
     text_uses,
     truth_tests,
 )
@@ -121,6 +122,7 @@ __all__ = [
     "names_alike",
     "names_of",
     "never_equal",
+    "never_equals",
     "node_names",
     "nodes_for",
     "package_uses",

@@ -13,7 +13,7 @@ from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.launch.python_file import LaunchFile
+    from scaffold.model.launch.python_file import LaunchCall, LaunchFile
     from scaffold.model.python.module import PythonModule
 
 
@@ -214,7 +214,7 @@ def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
                 comparators=[ast.Constant(value=str(right))],
             ) if left.startswith(_HOLE) and left[len(_HOLE) :].isdigit():
                 part = parts[int(left[len(_HOLE) :])]
-                problem = _never_is(launch, part, right)
+                problem = _argument_never_is(launch, part, right)
                 problems.setdefault(launch.module.text(part), []).append(problem)
     # Who compares with several spellings means all of them.
     wrong = [found[0] for found in problems.values() if all(why for why, _ in found)]
@@ -224,15 +224,32 @@ def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
 _HOLE = "__argument"
 
 
-def _never_is(launch: LaunchFile, argument: ast.expr, text: str) -> tuple[str, bool]:
-    """Return why a launch argument is never a text, by its choices or its default."""
+def never_equals(launch: LaunchFile, call: LaunchCall) -> tuple[str, bool]:
+    """Return the same for ``LaunchConfigurationEquals('use', 'True')``."""
+    given = [launch.evaluator.joined_text(node) for node in call.given.values()]
+    name = given[0] if given else None
+    declared = launch.declared.get(name) if isinstance(name, str) else None
+    if declared is None or len(given) != _PAIR or not isinstance(name, str):
+        return "", False
+    default = launch.text(declared, "default_value")
+    text = given[1]
+    return _never_is(launch, name, default, text) if isinstance(text, str) else ("", False)
+
+
+_PAIR = 2
+
+
+def _argument_never_is(launch: LaunchFile, argument: ast.expr, text: str) -> tuple[str, bool]:
     call = launch.call_of(argument)
     name = launch.text(call, "variable_name") if call is not None else None
-    declared = launch.declared.get(name) if isinstance(name, str) else None
-    if declared is None:
+    if not isinstance(name, str) or name not in launch.declared:
         return "", False
-    choices = launch.evaluator.evaluate(declared.given.get("choices"))
-    default = launch.default_of(argument)
+    return _never_is(launch, name, launch.default_of(argument), text)
+
+
+def _never_is(launch: LaunchFile, name: str, default: object, text: str) -> tuple[str, bool]:
+    """Return why a launch argument is never a text, by its choices or its default."""
+    choices = launch.evaluator.evaluate(launch.declared[name].given.get("choices"))
     if isinstance(choices, list | tuple) and choices:
         is_known = all(isinstance(choice, str) for choice in choices) and text not in choices
         listed = ", ".join(map(repr, choices))

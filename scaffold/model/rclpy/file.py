@@ -238,6 +238,12 @@ class RclpyFile:
         callback = self.callback(node)
         if isinstance(callback.function, ast.FunctionDef):
             return self, callback.function
+        owner = self.owner_of(node.value) if isinstance(node, ast.Attribute) else None
+        while isinstance(node, ast.Attribute) and isinstance(owner, NodeClass):
+            method = owner.methods.get(node.attr)
+            if isinstance(method, ast.FunctionDef):
+                return owner.facts, method
+            owner = owner.base
         module, _, name = (self.module.qualified_name(node) or "").rpartition(".")
         facts = self._facts_of(module)
         bindings = facts.module.index.bindings(facts.module.tree).get(name, ()) if facts else ()
