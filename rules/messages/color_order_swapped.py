@@ -83,6 +83,7 @@ class ColorOrderSwapped(MessageRule):
                     "frame = cv2.imread(path)",
                     "frame = cv2.imread(path)\n    frame = cv2.cvtColor(frame, cv2.COLOR_BGR2RGB)",
                 ),
+                "f.py": _FILE.format("rgb8").replace("encoding=", ""),
                 "d.py": _FILE.format("bgr8").replace(
                     "frame = cv2.imread(path)",
                     "image = bridge.imgmsg_to_cv2(path, 'rgb8')\n"
@@ -92,12 +93,13 @@ class ColorOrderSwapped(MessageRule):
             Report("a.py:8:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
             Report("b.py:9:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
             Report("e.py:9:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
+            Report("f.py:8:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
         ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
-        if not {"cv2", "cv_bridge"} <= module.imports_by_root.keys():
+        if module.in_tests or not {"cv2", "cv_bridge"} <= module.imports_by_root.keys():
             return
         for call in module.walk(ast.Call):
             match call:
@@ -113,7 +115,9 @@ class ColorOrderSwapped(MessageRule):
                             f"are swapped; use {name.replace(wanted[1], order, 1)}"
                         )
                         yield self.report(module.location(code), message)
-                case ast.Call(func=ast.Attribute(attr="cv2_to_imgmsg"), args=[ast.Name() as image]):
+                case ast.Call(
+                    func=ast.Attribute(attr="cv2_to_imgmsg"), args=[ast.Name() as image, *_]
+                ):
                     order = _order(types, image)
                     wanted_order = _ORDER.get(_encoding(types, call, "encoding"), "")
                     if order and wanted_order and order != wanted_order:
