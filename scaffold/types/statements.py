@@ -18,6 +18,8 @@ _HEAD = re.compile(
     r"[ \t]*(?:(?:if|elif|else|for|while|with|try|except|finally|def|class|async|match|case)\b"
     r"|[)\]])"
 )
+_IN_F_STRING = re.compile(r"""\bf(['"])[^'"\n{}]*\{$""")
+"""Matches what is before a call in a string with braces."""
 _LINES_BACK = 6
 
 
@@ -31,7 +33,7 @@ def statement_around(text: str, start: int, end: int) -> int:
         return -1
     if first[1] in _BLOCKS and not after.rstrip().endswith(":"):
         return -1
-    before = text[first.end() : start]
+    before = _IN_F_STRING.sub("", text[first.end() : start])
     if _SOMETIMES.search(before) or _SOMETIMES.search(after):
         return -1
     if before.count("'") % 2 or before.count('"') % 2 or not _is_closed(before, after):

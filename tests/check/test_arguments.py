@@ -66,6 +66,10 @@ def test_calls_that_begin_on_the_line_of_their_statement(call: str, taken: str) 
     assert sorted(given(call)[0].split("; ")) == sorted(taken.split("; "))
 
 
+def test_calls_in_strings_with_braces() -> None:
+    assert given("print(f'it said {self.say(2):.2f}')") == ["text = ([2])[0]; times = ([1])[0]"]
+
+
 def test_calls_that_differ_give_one_of_both() -> None:
     assert given("self.say('x')\nself.say(2)")[0].startswith(
         "text = (['x'] if _ros2_either else [2])[0]"
@@ -86,7 +90,7 @@ def test_calls_that_differ_give_one_of_both() -> None:
         "self.say('x', 1, 2)",
         "self.say(self)",
         "self.say(text := 'x')",
-        "print(f'{self.say(name)}')",
+        "print('{self.say(name)}')",
         "other.say('x')",
         "rows = {'a':\n    self.say('x')\n}",
         "rows = name + \\\n    self.say('x')",
