@@ -19,6 +19,10 @@ _NODE = (
     "{}"
 )
 _DECLARED = "        self.declare_parameter('rate', 1.0)\n"
+_LISTED = (
+    "        import limits\n"
+    "        for name in limits.{}:\n            self.declare_parameter(name, 1.0)\n"
+)
 _OTHERS = (
     "        names = self.get_parameters(['rate', 'rats'])\n"
     "        self.undeclare_parameter('rates')\n"
@@ -49,6 +53,19 @@ class ParameterReadUndeclared(RclpyRule):
                     "        declare = self.declare_parameter\n        declare('rate', 1.0)\n", ""
                 )
             },
+        ),
+        Example(
+            "all in a list of another module, and another one",
+            {
+                "limits.py": "RATES = ['rate', 'turn_rate']\nGAINS = ['gain', 'rates']\n",
+                "a.py": _NODE.format(_LISTED.format("RATES"), ""),
+                "b.py": _NODE.format(_LISTED.format("GAINS"), ""),
+            },
+            Report(
+                "b.py:10:21",
+                "parameter 'rate' is not declared: ParameterNotDeclaredException; "
+                "did you mean 'rates'?",
+            ),
         ),
         Example(
             "another parameter declared",

@@ -102,7 +102,12 @@ class Declarations:
         parent = self._facts.module.index.parent
         is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
         is_written = is_written and len({id(item.node) for item in items}) == len(items)
-        return [item.node for item in items] if is_complete and is_written else ()
+        if is_written or not is_complete:
+            return [item.node for item in items] if is_complete else ()
+        names = [item.value for item in items if isinstance(item.value, str)]
+        if len(names) != len(items):
+            return ()
+        return [ast.copy_location(ast.Constant(name), node) for name in names]
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with the namespace in front."""
