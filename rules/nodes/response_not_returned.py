@@ -20,6 +20,10 @@ _NODE = (
     "        response.success = True\n"
     "{}"
 )
+_OTHER = (
+    "        return self.filled(response)\n\n"
+    "    def filled(self, response):\n        response.success = True\n{}"
+)
 
 
 class ResponseNotReturned(MessageRule):
@@ -49,6 +53,17 @@ class ResponseNotReturned(MessageRule):
             },
             Report(
                 "server.py:12:9", "returns a new response: what was set in the given one is lost"
+            ),
+        ),
+        Example(
+            "the result of a method, and of one that returns nothing",
+            {
+                "a.py": _NODE.format(_OTHER.format("        return response\n")),
+                "b.py": _NODE.format(_OTHER.format("")),
+            },
+            Report(
+                "b.py:12:9",
+                "returns nothing from filled(), not the response (service of line 8): TypeError",
             ),
         ),
         Example(
@@ -201,14 +216,36 @@ def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr |
     return bool(given) and uses == [value]
 
 
+def _returns_nothing(function: ast.FunctionDef) -> bool:
+    """Tell whether a function has no result: neither an empty body nor one that raises."""
+    is_plain = not function.decorator_list and not is_generator(function)
+    does_something = any(
+        isinstance(node, ast.Assign | ast.Attribute) for node in ast.walk(function)
+    )
+    return is_plain and does_something and may_end(function) and not returned(function)
+
+
+def _plain(types: MessageTypes, value: ast.expr) -> str:
+    """Describe a returned value that is no message, whatever its type; empty for others."""
+    match value:
+        case ast.Constant(value=constant):
+            return "None" if constant is None else f"a {type(constant).__name__}"
+        case ast.Dict() | ast.List() | ast.Tuple() | ast.Set():
+            return f"a {type(value).__name__.lower()}"
+        case ast.Call(func=func):
+            called = types.facts.callback(func).function
+            if isinstance(called, ast.FunctionDef) and _returns_nothing(called):
+                return f"nothing from {called.name}()"
+    return ""
+
+
 def _wrong(types: MessageTypes, service: Service, value: ast.expr | None) -> str:
     """Describe a returned value that is certainly not the response; empty for others."""
     if value is None:
         return "nothing"
-    if isinstance(value, ast.Constant):
-        return "None" if value.value is None else f"a {type(value.value).__name__}"
-    if isinstance(value, ast.Dict | ast.List | ast.Tuple | ast.Set):
-        return f"a {type(value).__name__.lower()}"
+    plain = _plain(types, value)
+    if plain:
+        return plain
     field = types.field_type_of(value)
     if field is not None and (field.is_primitive or field.is_array):
         return f"the field {types.module.text(value)}"
