@@ -162,6 +162,7 @@ class Existing(NamedTuple):
     """The topics, services and actions of its nodes."""
 
 
+@payload.looked_for_once()
 def compose(
     roots: Sequence[str],
     templates: Mapping[str, Template],
@@ -187,7 +188,6 @@ def compose(
         InputError: an answer is missing, not acceptable, or of no use here.
         ContentError: a template is broken.
     """
-    payload.forget()
     order = choose(templates, given)
     asked = questions.unique(order.frame)
     _refuse_useless(given, order)

@@ -6,9 +6,9 @@ What makes a payload is imported when one is asked for: most packages need a sin
 from __future__ import annotations
 
 import os
-from functools import cache
+from collections.abc import Iterator
+from contextlib import contextmanager
 
-from scaffold import distributions
 from scaffold.generate.payload.payloads import (
     ActionPayload,
     Payload,
@@ -24,7 +24,7 @@ __all__ = [
     "ServicePayload",
     "action",
     "definitions",
-    "forget",
+    "looked_for_once",
     "payload",
     "service",
 ]
@@ -61,20 +61,31 @@ def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
 
 
 def definitions(directory: str = ".") -> Definitions:
-    """Return the definitions of the workspace around a directory, installed ones, common ones.
-
-    They are looked for once in a directory for a target, and again after `forget`.
-    """
-    return _definitions(os.path.realpath(directory), distributions.target().name)
-
-
-def forget() -> None:
-    """Drop the definitions: what is in a workspace may have changed."""
-    _definitions.cache_clear()
+    """Return the definitions of the workspace around a directory, installed ones, common ones."""
+    real = os.path.realpath(directory)
+    if _known is None:
+        return _definitions(real)
+    if real not in _known:
+        _known[real] = _definitions(real)
+    return _known[real]
 
 
-@cache
-def _definitions(real: str, _target: str) -> Definitions:
+_known: dict[str, Definitions] | None = None
+"""By directory, while they are looked for once."""
+
+
+@contextmanager
+def looked_for_once() -> Iterator[None]:
+    """Look for the definitions around a directory once in the block, for all questions."""
+    global _known  # noqa: PLW0603  questions know nothing of each other
+    _known = {}
+    try:
+        yield
+    finally:
+        _known = None
+
+
+def _definitions(real: str) -> Definitions:
     from scaffold.files.disk import Disk
     from scaffold.model.discovery import colcon
     from scaffold.model.discovery.unchecked import MOST_DIRECTORIES
