@@ -1,38 +1,62 @@
-"""LF018: actions and substitutions get the arguments that they need, where they take them."""
+"""LF017: actions and substitutions get the arguments that they have, and all that they need."""
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
+from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import LaunchFile, signature
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile, signature
 from scaffold.api.rclpy import is_tried
 
-_LAUNCH = (
-    "from launch import LaunchDescription\nfrom launch.actions import TimerAction\n"
+_RENAMED = {
+    "node_executable": "executable",
+    "node_name": "name",
+    "node_namespace": "namespace",
+    "node_plugin": "plugin",
+}
+"""The keywords of nodes that were renamed in Foxy and removed in Galactic."""
+_RELEASES = frozenset({"crystal", "dashing", "eloquent", "foxy", "ROS_DISTRO"})
+_IMPORTS = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument, TimerAction\n"
     "from launch.substitutions import PathJoinSubstitution\nfrom launch_ros.actions import Node\n"
     "\n\ndef generate_launch_description():\n"
+)
+_LAUNCH = (
+    f"{_IMPORTS}"
     "    path = PathJoinSubstitution({})\n"
     "    node = Node(package='talker', executable='node', parameters=[path])\n"
     "    return LaunchDescription([TimerAction({}=1.0, actions=[node])])\n"
 )
+_ARGUMENT = (
+    f"{_IMPORTS}    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('rate', {}='2.0'),\n    ])\n"
+)
+_NODE = (
+    f"{_IMPORTS}    return LaunchDescription([\n"
+    "        Node(package='talker', {}='talk', {}='talker'),\n    ])\n"
+)
 
 
 class ArgumentsDoNotFit(LaunchRule):
-    """An action or a substitution lacks an argument, or gets one more than it takes.
+    """An action or a substitution lacks an argument, or gets one that it does not take.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: TimerAction.__init__() missing 1 required
-    keyword-only argument: 'period'``, ``LogInfo.__init__() takes 1 positional argument but 2 were
-    given``.
+    keyword-only argument: 'period'``, ``Action.__init__() got an unexpected keyword argument
+    'default'``, ``LogInfo.__init__() takes 1 positional argument but 2 were given``.
 
-    **Fix.** Give what is missing; give by name what is taken by name only; parts of a path are one
-    list.
+    **Fix.** Give what is missing, by the name that the argument has today; parts of a path are one
+    list. ``node_executable``, ``node_name``, ``node_namespace`` and ``node_plugin`` are
+    ``executable``, ``name``, ``namespace`` and ``plugin`` since Foxy.
 
     **Source.** The modules of ``launch.actions``, ``launch.substitutions``,
-    ``launch.event_handlers``, ``launch.conditions`` and ``launch_ros.actions``.
+    ``launch.event_handlers``, ``launch.conditions``, ``launch_ros.actions`` and
+    ``launch_ros.descriptions``; ROS 2 documentation, release notes of Foxy Fitzroy, "launch_ros".
     """
 
-    code = "LF018"
+    code = "LF017"
     name = "arguments-do-not-fit"
     examples = (
         Example("fitting", {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "period")}),
@@ -60,21 +84,98 @@ class ArgumentsDoNotFit(LaunchRule):
                 "LaunchConfiguration takes 1 positional argument: variable_name",
             ),
         ),
+        Example("a known keyword", {"launch/a.launch.py": _ARGUMENT.format("default_value")}),
+        Example(
+            "a keyword of another class",
+            {"launch/a.launch.py": _ARGUMENT.format("default")},
+            Report(
+                "9:39", "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'"
+            ),
+        ),
+        Example(
+            "keywords of Eloquent, for Eloquent",
+            {
+                "launch/a.launch.py": _NODE.format("node_executable", "node_name").replace(
+                    "    return", "    if os.environ['ROS_DISTRO'] == 'eloquent':\n        return"
+                )
+            },
+        ),
+        Example(
+            "keywords of Eloquent",
+            {"launch/a.launch.py": _NODE.format("node_executable", "node_name")},
+            Report(
+                "9:32",
+                "Node has no node_executable: it was renamed to executable",
+                fix="write executable",
+            ),
+            Report("9:56", "Node has no node_name: it was renamed to name", fix="write name"),
+            fixed={"launch/a.launch.py": _NODE.format("executable", "name")},
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
-            parameters = signature(call.kind)
-            if parameters is None or call.is_open or is_tried(launch.module, call.call, ""):
-                continue
-            count, most = len(call.call.args), len(parameters.positional)
-            if count > most and call.kind != "LaunchDescription":
-                yield self.report(call, _too_many(call.kind, parameters.positional))
-                continue
-            missing = [name for name in parameters.required if name not in call.given]
-            if missing and parameters.names.issuperset(call.words):
-                names = " and ".join(f"{name}=..." for name in missing)
-                yield self.report(call, f"{call.kind} needs {names}: TypeError")
+            for name, word in call.words.items():
+                message = _renamed(call, name) or _unknown(call, name)
+                if message and not _is_meant(launch, call.call, name):
+                    yield self._of_keyword(launch, call, word, message)
+            message = _misfit(call)
+            if message and not is_tried(launch.module, call.call, ""):
+                yield self.report(call, message)
+
+    def _of_keyword(
+        self, launch: LaunchFile, call: LaunchCall, word: ast.keyword, message: str
+    ) -> Diagnostic:
+        """Report a keyword, with a fix if it was renamed."""
+        name = str(word.arg)
+        start, _ = launch.module.span(word)
+        end = start + len(name)
+        at = launch.module.source.location(start, end)
+        new = _RENAMED.get(name)
+        if new is None:
+            return self.report(at, message)
+        fix = None
+        if new not in call.words:
+            fix = Fix(f"write {new}", (Edit(launch.path, start, end, new),))
+        return self.report(at, message, fix, cause="keywords of an old release")
+
+
+def _renamed(call: LaunchCall, keyword: str) -> str:
+    """Return what a keyword was renamed to, as a message; empty for no such keyword."""
+    if keyword not in _RENAMED or call.kind not in {*NODES, "ComposableNode"}:
+        return ""
+    return f"{call.kind} has no {keyword}: it was renamed to {_RENAMED[keyword]}"
+
+
+def _unknown(call: LaunchCall, keyword: str) -> str:
+    """Return that there never was such a keyword; empty if there is or was."""
+    parameters = signature(call.kind)
+    if parameters is None or keyword in parameters.names or keyword in _RENAMED:
+        return ""
+    closest = get_close_matches(keyword, sorted(parameters.names), 1, 0.6)
+    hint = f"; closest: {closest[0]!r}" if closest else ""
+    return f"{call.kind} has no argument {keyword!r}{hint}"
+
+
+def _is_meant(launch: LaunchFile, call: ast.Call, keyword: str) -> bool:
+    """Tell whether the author knows that a call may fail, or that it is for an old release."""
+    if is_tried(launch.module, call, keyword):
+        return True
+    return keyword in _RENAMED and _is_for_release(launch, call)
+
+
+def _misfit(call: LaunchCall) -> str:
+    """Return what is wrong with the number of arguments; empty for nothing."""
+    parameters = signature(call.kind)
+    if parameters is None or call.is_open:
+        return ""
+    if len(call.call.args) > len(parameters.positional) and call.kind != "LaunchDescription":
+        return _too_many(call.kind, parameters.positional)
+    missing = [name for name in parameters.required if name not in call.given]
+    if missing and parameters.names.issuperset(call.words):
+        names = " and ".join(f"{name}=..." for name in missing)
+        return f"{call.kind} needs {names}: TypeError"
+    return ""
 
 
 def _too_many(kind: str, positional: tuple[str, ...]) -> str:
@@ -84,3 +185,15 @@ def _too_many(kind: str, positional: tuple[str, ...]) -> str:
         return f"{kind} takes keyword arguments only"
     count = f"{len(positional)} positional argument" + "s" * (len(positional) > 1)
     return f"{kind} takes {count}: {', '.join(positional)}"
+
+
+def _is_for_release(launch: LaunchFile, call: ast.Call) -> bool:
+    """Tell whether a call is run for another release of ROS only."""
+    return any(
+        isinstance(parent, ast.If | ast.IfExp)
+        and any(
+            isinstance(part, ast.Constant) and part.value in _RELEASES
+            for part in ast.walk(parent.test)
+        )
+        for parent in launch.module.parents(call)
+    )

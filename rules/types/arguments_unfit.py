@@ -119,7 +119,7 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
-            "keywords of an old release, which LF009 reports",
+            "keywords of an old release, which LF017 reports",
             {
                 "launch/a.launch.py": "from launch_ros.actions import LifecycleNode\n\n"
                 "driver = LifecycleNode(package='a', executable='b', node_name='c', namespace='')\n"
@@ -184,7 +184,7 @@ class ArgumentsUnfit(TypeRule):
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         if _is_old(finding):
-            return None  # LF009 says what its keywords are called today
+            return None  # LF017 says what its keywords are called today
         if _UNBOUND.search(finding.message) and not _is_of_class(finding):
             return None
         problem = (

@@ -106,13 +106,13 @@ def run(
 
 
 def _sizes(package: Package, earlier: Mapping[str, Earlier]) -> dict[str, int]:
-    """Return the sizes of the Python files that are to be read, as far as they are on disk."""
+    """Return the sizes of the Python files that are to be read; changes in memory do not count."""
     previous = earlier.get(package.directory)
-    if package.root is None:
+    place = package.place
+    if place is None:
         return {}
-    root = package.root
     return {
-        path: size(os.path.join(root, path))
+        path: size(os.path.join(place, path))
         for path in (*package.tree.files, *getattr(package.tree, "broken_links", ()))
         if path.endswith(".py") and (previous is None or package.full_path(path) in previous.edited)
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -51,15 +51,13 @@ class Ruled(NamedTuple):
     files: int
     diagnostics: list[Diagnostic]
     verdict: Verdict | None
-    """The same in parts, with the style of the files that are not to be checked again."""
+    """The same in parts."""
+    style: Mapping[str, Sequence[Diagnostic]] = {}
+    """The style of the files that are not to be checked again, by path."""
     foreign: tuple[str, ...] = ()
     """Of the files that are not the user's, what makes them so."""
     suppressed: tuple[Diagnostic, ...] = ()
     """What was found, and is not among the diagnostics."""
-
-
-def _do_nothing() -> None:
-    pass
 
 
 class Session:
@@ -106,8 +104,6 @@ class Session:
         """Why types were not checked; empty if they were, or were not to be."""
         self.unchecked: dict[str, list[str]] = {}
         """Packages that could not be checked, by the reason."""
-        self.after_rule: Callable[[], None] = _do_nothing
-        """Called after each rule that ran over a package, for who shows how far it is."""
 
     def run(
         self, targets: Sequence[Target], earlier: Mapping[str, Earlier] | None = None
@@ -167,7 +163,7 @@ class Session:
         self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
     ) -> Result:
         """Combine the findings of rules, types and style in a package."""
-        everything = {**(rules.verdict.style if rules.verdict else {}), **style}
+        everything = {**rules.style, **style}
         typed = self._types.of(target.package) if self._types is not None else None
         styles = (item for path in sorted(everything) for item in everything[path])
         diagnostics = [*rules.diagnostics, *styles]
@@ -188,6 +184,20 @@ class Session:
         (result,) = self.run_batch([Target(package)], style)
         return result.diagnostics
 
+    def check_styles(
+        self, packages: Sequence[Package]
+    ) -> Iterator[Mapping[str, Sequence[Diagnostic]]]:
+        """Check the style of packages; yield what is found in each, by path."""
+        from scaffold.check.parallel import MOST_PACKAGES
+
+        for start in range(0, len(packages), MOST_PACKAGES):
+            some = packages[start : start + MOST_PACKAGES]
+            style = self.start_style(some)
+            for package in some:
+                found = style.by_file(package) if style else {}
+                package.forget()
+                yield found
+
     def check_style(
         self, package: Package, paths: Collection[str]
     ) -> Mapping[str, Sequence[Diagnostic]]:
@@ -200,16 +210,6 @@ class Session:
     def selected(self, target: Target, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         """Return what is asked for, in reading order."""
         return self._report(target, list(diagnostics))
-
-    @property
-    def rule_count(self) -> int:
-        """How many rules run over a package."""
-        return len(self._rules)
-
-    def _counted_rules(self) -> Iterator[Rule]:
-        for rule in self._rules:
-            yield rule
-            self.after_rule()
 
     def start_style(
         self,
@@ -278,13 +278,13 @@ class Session:
             _ = package.name  # which everybody asks for: a malformed manifest is told of
         check = runner.Check(package, earlier)
         of_ros1 = [*_of_ros1(package)]
-        diagnostics = of_ros1 or check.run(self._counted_rules())
+        diagnostics = of_ros1 or check.run(self._rules)
         reported = suppression.apply(package, diagnostics, self._ran)
         _ = package.identity  # while the manifest is at hand
         verdict = None
         is_worth = self._is_remembered and len(package.python_files) >= WORTH_PARTS
         if is_worth and not of_ros1:
-            verdict = check.verdict(earlier.verdict.style if earlier else {})
+            verdict = check.verdict({})
         check.end()
         if verdict is not None:
             tests = settings_of(package).tests
@@ -293,7 +293,8 @@ class Session:
         foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
         left = {*reported}
         suppressed = tuple(item for item in diagnostics if item not in left)
-        return Ruled(count, reported, verdict, foreign, suppressed)
+        style = earlier.verdict.style if earlier else {}
+        return Ruled(count, reported, verdict, style, foreign, suppressed)
 
     def _paths(self, package: Package, path: str) -> tuple[str, ...]:
         """Return the paths of a file that the patterns of the configuration are compared with."""

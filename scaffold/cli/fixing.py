@@ -92,6 +92,11 @@ def put(
     return written, len(written) < len(packages)
 
 
+def fix_count(count: int) -> str:
+    """Return ``1 fix``, ``2 fixes``."""
+    return "1 fix" if count == 1 else f"{count} fixes"
+
+
 def note_unexamined(found: Sequence[tuple[Package, Diagnostic]]) -> bool:
     """Note the files that could not be examined, so that a patch says nothing about them.
 

@@ -149,9 +149,9 @@ class Mover:
     def _targets(self, session: Session, move: Move) -> list[Target]:
         """Return the packages, with what has been fixed in them."""
         from scaffold.check.fixes.overlay import Overlay
-        from scaffold.cli.verbs import check
+        from scaffold.cli.packages import find_targets
 
-        found = check.find_targets(self._options, session, None)
+        found = find_targets(self._options, session, None)
         targets = [item for item in found if item.package.directory in move.directories]
         for target in targets:
             fixed = self._fixed.get(target.package.directory)

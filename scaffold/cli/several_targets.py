@@ -6,6 +6,12 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.cli import baselines, fixing, terminal
+from scaffold.cli.packages import (
+    common_directory,
+    find_targets,
+    foreign_note,
+    note_unfinished,
+)
 from scaffold.cli.since import Since
 
 if TYPE_CHECKING:
@@ -121,7 +127,6 @@ class SeveralTargets:
         """Fix what is right for all of them, and report what is left for each."""
         from scaffold.check.several import agreed
         from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
-        from scaffold.cli.verbs.check import find_targets, fix_count
 
         options, session = self._options, self._session
         *others, latest = options.distributions
@@ -134,11 +139,11 @@ class SeveralTargets:
         session.agreed = None
         count = sum(item.applied for item in written)
         if options.diff:
-            terminal.say(f"{fix_count(count)}, nothing written")
+            terminal.say(f"{fixing.fix_count(count)}, nothing written")
             left = [(item.package, one) for item in written for one in item.diagnostics]
             code = FINDINGS if fixing.note_unexamined(left) or count else CLEAN
             return USAGE_ERROR if has_failed else code
-        terminal.say(f"{fix_count(count)} applied")
+        terminal.say(f"{fixing.fix_count(count)} applied")
         code = self._report(self._checked(), is_saved=False)
         return USAGE_ERROR if has_failed else code
 
@@ -151,7 +156,7 @@ class SeveralTargets:
         options, session = self._options, self._session
         by_distribution: ByDistribution = {}
         self._runs, every = [], []
-        directory = check.common_directory(options.paths, self._disk)
+        directory = common_directory(options.paths, self._disk)
         since_notes: dict[Distribution, str] = {}
         for distribution in options.distributions:
             options.notes = self._notes
@@ -159,7 +164,7 @@ class SeveralTargets:
             with distributions.targeting(distribution, kept=others):
                 self._targets = [
                     target
-                    for target in check.find_targets(options, session, self._disk)
+                    for target in find_targets(options, session, self._disk)
                     if distribution in self._by_record.get(target.package.directory, [distribution])
                 ]
                 change = None
@@ -177,7 +182,7 @@ class SeveralTargets:
                 by_distribution[distribution] = results
                 if entry and not session.types_failure and memory.save(entry, self._disk, results):
                     self._runs.append(entry)
-            options.notes += check.foreign_note(session, results)
+            options.notes += foreign_note(session, results)
             check.note_unchecked(session)
         options.notes += _since_notes(since_notes)
         self._targets = [*{target.package.directory: target for target in every}.values()]
@@ -204,7 +209,7 @@ class SeveralTargets:
         from scaffold.cli.verbs import check
 
         options = self._options
-        is_unfinished = check.note_unfinished(self._targets)
+        is_unfinished = note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
         if options.cluster is not None or options.refused:

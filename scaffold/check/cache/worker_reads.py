@@ -103,7 +103,7 @@ def uses(package: Package, places: Mapping[int, int]) -> tuple[set[int], bool, b
 
 
 def disk_of(package: Package) -> Disk:
-    """Return what was accessed in a package that lies on disk."""
-    tree = package.tree
+    """Return what was accessed in a package that lies on disk, also below changes in memory."""
+    tree = getattr(package.tree, "base", package.tree)
     assert isinstance(tree, DiskTree)  # noqa: S101  discovery makes no others
     return tree.disk

@@ -39,7 +39,8 @@ class Overlay:
     """
 
     def __init__(self, base: Tree) -> None:
-        self._base = base
+        self.base = base
+        """What is below the changes."""
         self.place: str | None = getattr(base, "root", None)
         """The directory of what is below the changes, if it is on disk."""
         self.changed: dict[str, bytes] = {}
@@ -62,23 +63,23 @@ class Overlay:
     @property
     def files(self) -> tuple[str, ...]:
         """The paths of all files."""
-        return tuple(sorted({*self._base.files, *self.changed} - self.removed))
+        return tuple(sorted({*self.base.files, *self.changed} - self.removed))
 
     @property
     def directories(self) -> frozenset[str]:
         """The paths of all directories."""
         parents = {path[:at] for path in self.changed for at in _slashes(path)}
-        return frozenset({*self._base.directories, *parents})
+        return frozenset({*self.base.directories, *parents})
 
     @property
     def nested(self) -> tuple[str, ...]:
         """The directories that hold a package of their own."""
-        return tuple(self._base.nested)
+        return tuple(self.base.nested)
 
     @property
     def broken_links(self) -> Sequence[str]:
         """The links to files that are not there."""
-        return tuple(getattr(self._base, "broken_links", ()))
+        return tuple(getattr(self.base, "broken_links", ()))
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
         """Return what is in a file of so many bytes at most; raises OSError."""
@@ -94,14 +95,14 @@ class Overlay:
         """Return what is in a file below the changes; see `read`."""
         if path in self._read:
             return within(most, path, self._read[path])
-        data = self._base.read(path, most)
+        data = self.base.read(path, most)
         if len(data) <= MOST_KEPT:
             self._read[path] = data
         return data
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has, or gets, an executable bit."""
-        return path in self.executable or self._base.is_executable(path)
+        return path in self.executable or self.base.is_executable(path)
 
     def real(self, path: str) -> str | None:
         """Return the path of the file that a path leads to, ``None`` outside of the root."""
@@ -139,7 +140,7 @@ class Overlay:
 
     def copy(self) -> Overlay:
         """Return an independent copy."""
-        twin = Overlay(self._base)
+        twin = Overlay(self.base)
         twin.changed, twin.removed = dict(self.changed), set(self.removed)
         twin.executable, twin.rounds = set(self.executable), self.rounds.copy()
         twin._read, twin._real = self._read, self._real

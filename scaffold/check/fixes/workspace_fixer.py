@@ -1,19 +1,21 @@
 """Fixes the packages of a workspace in memory, until nothing more can be fixed in any of them.
 
-A fix in one package may change what is found in another. So all packages are checked, then all
-are fixed, and those that changed or that accessed a changed one are checked again.
+Most fixes are of style, and the rules would look again at each file that one edits: so style is
+fixed before they look. A fix in one package may change what is found in another. So all packages
+are checked, then all are fixed, and those that changed or that accessed a changed one are checked
+again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from scaffold.check.cache.results import Needs
 from scaffold.check.fixes import fixer
 from scaffold.check.fixes.fixer import MAX_ROUNDS, Fixed
 from scaffold.check.fixes.overlay import Overlay
-from scaffold.check.result import Earlier
+from scaffold.check.result import Earlier, Verdict
 from scaffold.model.reads import is_followed
 
 if TYPE_CHECKING:
@@ -83,6 +85,11 @@ class _Piece:
             style = {**left.verdict.style, **self.style}
             self.earlier = left._replace(verdict=left.verdict._replace(style=style))
 
+    def leave_style(self) -> None:
+        """Keep for the next check what is known of style, and nothing else."""
+        files = frozenset(map(self.package.full_path, self.package.files))
+        self.earlier = Earlier(Verdict({}, dict(self.style), [], {}), files, {})
+
 
 def fix(
     targets: Sequence[Target], session: Session, progress: Progress, *, unsafe: bool = False
@@ -97,6 +104,12 @@ def fix(
         unsafe: Apply the fixes that the author should look at, too.
     """
     pieces = [_Piece(target) for target in targets]
+    progress.begin("style", len(pieces))
+    styles = session.check_styles([piece.package for piece in pieces])
+    for piece, style in zip(pieces, styles, strict=True):
+        if _fix_style(piece, session, style, unsafe=unsafe):
+            piece.leave_style()
+        progress.step()
     pending = pieces
     for number in range(1, MAX_ROUNDS + 1):
         _check(pending, session, progress, f"round {number}")
@@ -121,20 +134,35 @@ def fix(
     ]
 
 
-def _fix_style(piece: _Piece, session: Session, *, unsafe: bool) -> None:
-    """Fix the style of edited files until it is stable: that is much faster than the rules."""
+def _fix_style(
+    piece: _Piece,
+    session: Session,
+    style: Mapping[str, Sequence[Diagnostic]] | None = None,
+    *,
+    unsafe: bool,
+) -> bool:
+    """Fix the style of edited files until it is stable; tell whether it is.
+
+    Args:
+        piece: The package.
+        session: Checks it.
+        style: What is to be fixed at first, of any files, if that is known.
+        unsafe: Apply the fixes that the author should look at, too.
+    """
     before = piece.checked
     for _ in range(MAX_ROUNDS):
-        paths = piece.overlay.edited_since(before) or piece.package.files
-        by_path = session.check_style(piece.package, paths)
-        piece.style.update(by_path)
+        if style is None:
+            paths = piece.overlay.edited_since(before) or piece.package.files
+            style = session.check_style(piece.package, paths)
+        piece.style.update(style)
         selected = session.selected(
-            piece.target, (item for diagnostics in by_path.values() for item in diagnostics)
+            piece.target, (item for diagnostics in style.values() for item in diagnostics)
         )
-        before = piece.overlay
+        before, style = piece.overlay, None
         if not piece.apply(selected, unsafe=unsafe):
-            return
+            return True
     piece.style.clear()
+    return False
 
 
 def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piece]:
@@ -160,20 +188,9 @@ def _affected(pieces: Sequence[_Piece], changed: Sequence[_Piece]) -> list[_Piec
 
 
 def _check(pieces: Sequence[_Piece], session: Session, progress: Progress, label: str) -> None:
-    targets = [item.target for item in pieces]
-    is_on_disk = all(not isinstance(item.package.tree, Overlay) for item in pieces)
-    if is_on_disk:
-        progress.begin(label, len(targets))
-        for piece, result in zip(pieces, session.run(targets), strict=True):
-            piece.take(result)
-            progress.step()
-        return
-    progress.begin(label, len(targets) * session.rule_count)
-    before, session.after_rule = session.after_rule, progress.step
-    try:
-        for piece in pieces:
-            earlier = {piece.package.directory: piece.earlier} if piece.earlier else None
-            (result,) = session.run_batch([piece.target], None, earlier)
-            piece.take(result)
-    finally:
-        session.after_rule = before
+    progress.begin(label, len(pieces))
+    earlier = {item.package.directory: item.earlier for item in pieces if item.earlier is not None}
+    results = session.run([item.target for item in pieces], earlier)
+    for piece, result in zip(pieces, results, strict=True):
+        piece.take(result)
+        progress.step()

@@ -9,6 +9,12 @@ from typing import TYPE_CHECKING, TypeVar
 from scaffold import distributions
 from scaffold.cli import baselines, distro, since, terminal
 from scaffold.cli.check_flags import OF_REPORT, add_arguments
+from scaffold.cli.packages import (
+    common_directory,
+    find_targets,
+    foreign_note,
+    note_unfinished,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -268,57 +274,6 @@ def _give_settings(
         )
 
 
-def find_targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
-    """Find the packages; note for the report what the configuration leaves out."""
-    from scaffold.model.discovery import targets as discovery
-    from scaffold.reporters.summary import count
-
-    adjustments = session.adjustments
-    if adjustments.foreign is not None:
-        adjustments.foreign.packages.clear()  # of an earlier look, for another distribution
-    excluded: set[str] = set()
-    targets = discovery.find(
-        options.paths,
-        disk,
-        whole_packages=options.whole_packages,
-        exclusion=adjustments.exclusion,
-        skipped=excluded,
-        foreign=adjustments.foreign,
-        policy=options.policy,
-    )
-    if adjustments.exclusion.patterns:
-        packages = sum(map(os.path.isdir, excluded))
-        files = len(excluded) - packages
-        for target in targets:
-            files += sum(
-                adjustments.excludes(target.package, path) for path in target.package.files
-            )
-        parts = [count(packages, "package")] if packages else []
-        parts += [count(files, "file")] if files or not packages else []
-        origin = adjustments.exclusion.origin
-        options.notes += (f"excluded by {os.path.relpath(origin)}: {', '.join(parts)}",)
-    return targets
-
-
-def foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
-    """Return the note about skipped files that are not the user's, if there are any."""
-    from scaffold.model.discovery.foreign import ENVIRONMENTS, WHERE
-    from scaffold.reporters.summary import count
-
-    foreign = session.adjustments.foreign
-    packages = foreign.packages if foreign is not None else []
-    files = [kind for result in results for kind in result.foreign]
-    parts: list[str] = []
-    for kind, where in WHERE.items():
-        numbers = ((packages.count(kind), "package"), (files.count(kind), "file"))
-        shown = [count(number, noun) for number, noun in numbers if number]
-        parts += [f"{' and '.join(shown)} {where}"] if shown else []
-    parts[-1:] = [f"{part} (--include-all checks them)" for part in parts[-1:]]
-    environments = files.count(ENVIRONMENTS)
-    parts += [count(environments, "virtual environment")] if environments else []
-    return (f"left out: {', '.join(parts)}",) if parts else ()
-
-
 def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:
     """Check or fix standard input; a fixed text is all that standard output gets."""
     from scaffold.cli import reports, standard_input
@@ -391,15 +346,6 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     return USAGE_ERROR if has_failed else code
 
 
-def note_unfinished(targets: Sequence[Target]) -> bool:
-    """Note the packages that an interrupted run was changing; return whether there are any."""
-    from scaffold.cli import writing
-
-    roots = [target.package.root for target in targets if target.package.root is not None]
-    unfinished = [root for root in roots if writing.note_unfinished(root)]
-    return bool(unfinished)
-
-
 def _report_fixes(
     options: argparse.Namespace,
     session: Session,
@@ -410,8 +356,8 @@ def _report_fixes(
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(item.applied for item in fixed)
-    done = _comments(count) if options.add_noqa else f"{fix_count(count)} applied"
-    terminal.say(f"{fix_count(count)}, nothing written" if options.diff else done)
+    done = _comments(count) if options.add_noqa else f"{fixing.fix_count(count)} applied"
+    terminal.say(f"{fixing.fix_count(count)}, nothing written" if options.diff else done)
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
@@ -444,11 +390,6 @@ def _comments(count: int) -> str:
     return f"noqa added to {'1 line' if count == 1 else f'{count} lines'}"
 
 
-def fix_count(count: int) -> str:
-    """Return ``1 fix``, ``2 fixes``."""
-    return "1 fix" if count == 1 else f"{count} fixes"
-
-
 def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
     """Return 0 if there is only advice, 1 if there are findings, 3 if a rule crashed.
 
@@ -465,11 +406,3 @@ def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
         return INTERNAL_ERROR
     has_findings = any(item.severity is not Severity.INFO for item in diagnostics)
     return FINDINGS if has_findings and not is_zero else CLEAN
-
-
-def common_directory(paths: Sequence[str], disk: Disk) -> str:
-    """Return the common directory of all paths: the configuration is there or above."""
-    places = [os.path.abspath(path) for path in paths]
-    return os.path.commonpath(
-        [place if disk.is_directory(place) else os.path.dirname(place) for place in places]
-    )

@@ -69,12 +69,12 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.cli.moves import Move, Mover
+    from scaffold.cli.packages import common_directory
     from scaffold.cli.settings import warn
-    from scaffold.cli.verbs import check
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
 
-    directory = check.common_directory(options.paths, Disk())
+    directory = common_directory(options.paths, Disk())
     settings = config.load(directory, (), Disk())
     warn(settings.warnings)
     choices = Choices(settings, registry.load(content.roots("rules", settings.content)))
@@ -123,12 +123,10 @@ def _held(stack: ExitStack, options: argparse.Namespace, mover: Mover) -> tuple[
         InputError: there is none.
     """
     from scaffold.cli import writing
-    from scaffold.cli.verbs import check
+    from scaffold.cli.packages import find_targets
     from scaffold.errors import InputError
 
-    packages = [
-        item.package for item in check.find_targets(options, mover.session(is_back=False), None)
-    ]
+    packages = [item.package for item in find_targets(options, mover.session(is_back=False), None)]
     if not packages:
         raise InputError(_nothing_found(options))
     if not (options.fix or options.diff):
@@ -167,7 +165,6 @@ def _put(
     """
     from scaffold.cli import fixing, records
     from scaffold.cli.records import Recorded
-    from scaffold.cli.verbs import check
     from scaffold.reporters.summary import count
 
     fixed = {path: item for move in moves for path, item in move.fixed.items()}
@@ -179,7 +176,7 @@ def _put(
     done = {item.package.directory for item in written}
     number = sum(item.applied for item in written)
     would = "would be " if options.diff else ""
-    text = f"{check.fix_count(number)} {would}applied"
+    text = f"{fixing.fix_count(number)} {would}applied"
     moved = {path: before[path] or () for path in recorded if path in done}
     if moved:
         packages = count(len(moved), "package")

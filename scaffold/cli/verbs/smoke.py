@@ -246,7 +246,7 @@ def _wanted(options: argparse.Namespace, packages: Sequence[Package]) -> Sequenc
 
     from scaffold import distributions
     from scaffold.cli import distro
-    from scaffold.cli.verbs.check import common_directory
+    from scaffold.cli.packages import common_directory
     from scaffold.configuration import config
     from scaffold.errors import InputError
     from scaffold.files.disk import Disk

@@ -1,0 +1,228 @@
+"""LF007: what launch goes through item by item is a list of items, or of pairs."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Report
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+
+_PAIRS = "a list of pairs, [('from', 'to')]"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"
+    "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n"
+    "    return LaunchDescription([\n        {},\n    ])\n"
+)
+_NODE = _LAUNCH.format("Node(package='talker', executable='talk', {})")
+_INCLUDE = _LAUNCH.format("IncludeLaunchDescription('talk.launch.py', launch_arguments={})")
+
+
+def _node(arguments: str) -> dict[str, str]:
+    return {"launch/a.launch.py": _NODE.format(arguments)}
+
+
+def _include(arguments: str) -> dict[str, str]:
+    return {"launch/a.launch.py": _INCLUDE.format(arguments)}
+
+
+class ArgumentNotList(LaunchRule):
+    """An argument that launch goes through, such as ``parameters=`` of a node, is not a list.
+
+    **Why.** ``parameters``: ``ros2 launch`` stops, ``'Node' expected 'parameters' to be one of
+    [<class 'list'>]``; a tuple is refused as well. A text in ``arguments`` is split into letters:
+    the program gets ``-``, ``-``, ``r``, ``o`` ... and most often ignores them without a word.
+    ``remappings`` and ``launch_arguments`` are taken apart in pairs: ``ValueError: not enough
+    values to unpack``; names of two letters set wrong arguments without a word.
+
+    **Fix.** A list: of dictionaries and files, of texts, of pairs. ``launch_arguments`` are the
+    ``.items()`` of a dictionary.
+
+    **Source.** ``launch_ros/actions/node.py``, ``launch_ros/utilities/normalize_remap_rule.py``,
+    ``launch/actions/include_launch_description.py``.
+    """
+
+    code = "LF007"
+    name = "argument-not-list"
+    examples = (
+        Example("parameters: a list", _node("parameters=[{'rate': 2.0}]")),
+        Example(
+            "parameters: a dictionary",
+            _node("parameters={'rate': 2.0}"),
+            Report("8:62", "parameters is a dictionary; Node takes a list", fix="make it a list"),
+            fixed=_node("parameters=[{'rate': 2.0}]"),
+        ),
+        Example(
+            "parameters: a tuple",
+            _node("parameters=({'rate': 2.0},)"),
+            Report("8:62", "parameters is a tuple; Node takes a list", fix="make it a list"),
+            fixed=_node("parameters=[*({'rate': 2.0},)]"),
+        ),
+        Example(
+            "parameters: a path",
+            _node("parameters='talker.yaml'"),
+            Report("8:62", "parameters is a single value; Node takes a list", fix="make it a list"),
+            fixed=_node("parameters=['talker.yaml']"),
+        ),
+        Example(
+            "parameters: a path that is put together",
+            _node("parameters='talker' + '.yaml'"),
+            Report("8:62", "parameters is a path; Node takes a list", fix="make it a list"),
+            fixed=_node("parameters=['talker' + '.yaml']"),
+        ),
+        Example("arguments: a list", _node("arguments=['-v', '3']")),
+        Example(
+            "arguments: a string",
+            _node("arguments='--rate 3'"),
+            Report(
+                "8:61", "arguments is one string, which launch splits into letters", fix="split it"
+            ),
+            fixed=_node("arguments='--rate 3'.split()"),
+        ),
+        Example(
+            "arguments for ROS: a string",
+            _node("ros_arguments='-p rate:=2.0'"),
+            Report(
+                "8:65",
+                "ros_arguments is one string, which launch splits into letters",
+                fix="split it",
+            ),
+            fixed=_node("ros_arguments='-p rate:=2.0'.split()"),
+        ),
+        Example("remappings: pairs", _node("remappings=[('a', 'b')]")),
+        Example(
+            "remappings: a dictionary",
+            _node("remappings={'a': 'b'}"),
+            Report("8:62", "remappings are a list of pairs, [('from', 'to')], not a dictionary"),
+        ),
+        Example(
+            "remappings: one pair",
+            _node("remappings=('a', 'b')"),
+            Report("8:62", "this is one pair: remappings are a list of pairs, [('from', 'to')]"),
+        ),
+        Example(
+            "remappings: texts",
+            _node("remappings=['a:=b']"),
+            Report("8:62", "'a:=b' is not a pair ('from', 'to')"),
+        ),
+        Example(
+            "remappings: three parts",
+            _node("remappings=[('a', 'b', 'c')]"),
+            Report("8:62", "a remapping is a pair, and this has 3 parts"),
+        ),
+        Example("of an include: items", _include("{'rate': '2'}.items()")),
+        Example(
+            "of an include: a dictionary",
+            _include("{'rate': '2'}"),
+            Report(
+                "8:69",
+                "launch_arguments is a dictionary; launch takes pairs: add .items()",
+                fix="add .items()",
+            ),
+            fixed=_include("{'rate': '2'}.items()"),
+        ),
+    )
+
+    def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*NODES, "IncludeLaunchDescription"):
+            for argument, judge in _ARGUMENTS.items():
+                node = call.given.get(argument)
+                is_of_node = call.kind != "IncludeLaunchDescription"
+                if node is None or is_of_node is (argument == "launch_arguments"):
+                    continue
+                message, fix = judge(launch, call, argument)
+                if message:
+                    yield self.report(launch.location(node), message, fix)
+
+
+_Judgement = tuple[str, Fix | None]
+_FITS: _Judgement = ("", None)
+
+
+def _parameters(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
+    node = call.given[argument]
+    what = _kind_of_parameters(launch, node)
+    if what is None:
+        return _FITS
+    start, end = launch.module.span(node)
+    star = "*" if what == "a tuple" else ""
+    edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
+    return f"parameters is {what}; {call.kind} takes a list", Fix("make it a list", edits)
+
+
+def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:
+    if isinstance(node, ast.Name):
+        lookup = launch.module.index.lookup(node.id, node)
+        values = [binding.value for binding in lookup[1]] if lookup else []
+        node = values[0] if len(values) == 1 and values[0] is not None else node
+    if isinstance(node, ast.Dict | ast.DictComp):
+        return "a dictionary"
+    if isinstance(node, ast.Tuple):
+        return "a tuple"
+    if isinstance(node, ast.Constant | ast.JoinedStr) and not _is_none(node):
+        return "a single value"
+    call = launch.call_of(node)
+    if call is not None and call.kind in {"LaunchConfiguration", "ParameterFile"}:
+        return f"a {call.kind}"
+    return "a path" if isinstance(launch.evaluator.evaluate(node), str) else None
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _words(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
+    node = call.given[argument]
+    if not isinstance(launch.evaluator.evaluate(node), str):
+        return _FITS
+    _, end = launch.module.span(node)
+    fix = Fix("split it", (Edit(launch.path, end, end, ".split()"),))
+    return f"{argument} is one string, which launch splits into letters", fix
+
+
+def _remappings(_: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
+    return _flaw_of_remappings(call.given[argument]), None
+
+
+def _flaw_of_remappings(node: ast.expr) -> str:
+    if isinstance(node, ast.Dict):
+        return f"remappings are {_PAIRS}, not a dictionary"
+    if isinstance(node, ast.Tuple) and node.elts and not isinstance(node.elts[0], ast.Tuple):
+        is_pair = not isinstance(node.elts[0], ast.List | ast.Name | ast.Starred)
+        return f"this is one pair: remappings are {_PAIRS}" if is_pair else ""
+    if isinstance(node, ast.List):
+        for elt in node.elts:
+            if isinstance(elt, ast.Constant) and isinstance(elt.value, str):
+                return f"{elt.value!r} is not a pair ('from', 'to')"
+            if isinstance(elt, ast.Tuple) and len(elt.elts) != 2:  # noqa: PLR2004  from and to
+                return f"a remapping is a pair, and this has {len(elt.elts)} parts"
+    return ""
+
+
+def _of_include(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
+    node = call.given[argument]
+    values: list[ast.expr | None] = [node]
+    if isinstance(node, ast.Name):
+        lookup = launch.module.index.lookup(node.id, node)
+        values = [binding.value for binding in lookup[1]] if lookup else [None]
+    if not all(map(_makes_dictionary, values)):
+        return _FITS
+    _, end = launch.module.span(node)
+    fix = Fix("add .items()", (Edit(launch.path, end, end, ".items()"),))
+    return "launch_arguments is a dictionary; launch takes pairs: add .items()", fix
+
+
+def _makes_dictionary(node: ast.expr | None) -> bool:
+    if isinstance(node, ast.Call):
+        return isinstance(node.func, ast.Name) and node.func.id == "dict"
+    return isinstance(node, ast.Dict | ast.DictComp)
+
+
+_ARGUMENTS: dict[str, Callable[[LaunchFile, LaunchCall, str], _Judgement]] = {
+    "parameters": _parameters,
+    "arguments": _words,
+    "ros_arguments": _words,
+    "remappings": _remappings,
+    "launch_arguments": _of_include,
+}
+"""The arguments that launch goes through, each with what finds that it cannot."""
