@@ -100,7 +100,7 @@ def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
 
 def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
     """Answer what comes after the parts; return what is said at the end."""
-    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", "Speaks" + ENTER)
     terminal.answer("License of the package:", ENTER)
     terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
@@ -195,7 +195,7 @@ def test_interrupted_nothing_is_written(
     terminal: Terminal, tmp_path: Path, questions: int, key: str
 ) -> None:
     asked = ["new package:", "Build system:", "What is in", "Name of the node", "Topic to"]
-    asked += ["What to publish", "Messages per", "Quality of", "What else", "add besides"]
+    asked += ["What to publish", "Messages per", "Quality of", "What else", "else to add"]
     for question, text in zip(asked[:questions], ["talker", *[""] * questions], strict=False):
         terminal.answer(question, text + ENTER)
     terminal.answer(asked[questions], key)
@@ -258,7 +258,7 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
     terminal.says("both '/chatter'")
     terminal.answer("What is in the package?", "timer" + ENTER)
     terminal.answer("Name of the node", ENTER)
-    terminal.answer("How often", ENTER)
+    terminal.answer("Calls per second", ENTER)
     terminal.answer("What else is in the package?", "timer" + ENTER)
     terminal.answer("minimal_timer_2", "\x15minimal_timer" + ENTER)
     terminal.says("the package already has minimal_timer")
@@ -281,7 +281,7 @@ def test_somebody_may_go_back_and_answer_again(terminal: Terminal) -> None:
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "timer" + ENTER)
     terminal.answer("Name of the node", "\x15clock" + ENTER)
-    terminal.answer("How often", BACK)
+    terminal.answer("Calls per second", BACK)
     terminal.answer("Name of the node", "")
     terminal.answer("clock", BACK)
     terminal.answer("What is in the package?", "\x15publisher" + ENTER)
@@ -343,7 +343,7 @@ def test_kinds_are_grouped(terminal: Terminal) -> None:
 
 def test_the_files_are_shown_before_they_are_written(terminal: Terminal, tmp_path: Path) -> None:
     through_the_publisher(terminal)
-    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", ENTER)
     terminal.answer("License of the package:", ENTER)
     terminal.answer("Who maintains the package:", "\x15Ada" + ENTER)
@@ -374,7 +374,7 @@ def test_without_a_description_the_one_that_is_shown_is_written(
 ) -> None:
     terminal = start(size=(40, 200))
     through_the_publisher(terminal)
-    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What else to add:", ENTER)
     terminal.says("default: A ROS 2 package with the publisher node speaker")
     terminal.child.send(ENTER)
     terminal.answer("License of the package:", ENTER)
@@ -399,7 +399,7 @@ def test_without_a_cursor_choices_are_answered_by_name(
     terminal.answer("executable: [minimal_timer]", "\n")
     terminal.answer("per second: [2.0]", "\n")
     terminal.answer("What else is in the package? [nothing more]", "\n")
-    terminal.answer("What to add besides", "launch gitignore\n")
+    terminal.answer("What else to add", "launch gitignore\n")
     terminal.answer("What the package is for", "\n")
     terminal.answer("License of the package: [Apache-2.0]", "MIT\n")
     terminal.answer("Who maintains the package:", "Ada\n")
@@ -417,7 +417,7 @@ def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Termina
     terminal = start(*known, "--description", "Ticks", PYTHONIOENCODING="ascii:strict")
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
-    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What else to add:", ENTER)
     terminal.answer("License of the package:", ENTER)
     terminal.answer("Write the package?", ENTER)
     said, code = terminal.end()
@@ -430,7 +430,7 @@ def test_the_command_has_what_was_given_before(
 ) -> None:
     terminal = start("--destination-directory", "a b", "--license", "MIT", "--qos", "latched")
     through_the_publisher(terminal)
-    terminal.answer("What to add besides:", ENTER)
+    terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", "-x `y` $z \"a\" 'b' \\\\ !" + ENTER)
     terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
     terminal.answer("Mail address:", "\x15ada@example.com" + ENTER)
