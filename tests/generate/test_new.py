@@ -523,7 +523,7 @@ def test_topics_that_are_fine(topic: str) -> None:
 def test_rates(rate: object, written: str) -> None:
     files = files_of(rate=rate)
     assert f"('rate', {written}, " in files["talker/minimal_publisher.py"]
-    assert f"how often: {written} Hz" in files["README.md"]
+    assert f"their rate: {written} Hz" in files["README.md"]
 
 
 @pytest.mark.parametrize("rate", ["0", "-1", "nan", "inf", "1e9", "0.0001"])
