@@ -10,9 +10,25 @@ def main() -> int:
     try:
         from scaffold.cli.main import main as run
 
-        return run()
+        return _ended(run()) if sys.argv[1:2] == ["new"] else run()
     except KeyboardInterrupt:  # before the verbs' own handling began, or after it ended
         return _interrupted()
+
+
+def _ended(code: int) -> int:
+    """End the process at once: to take all modules apart is a tenth of what `new` takes.
+
+    Returns:
+        The exit code, for the usual end, if there are other threads.
+    """
+    import atexit
+    import os
+    import threading
+
+    if threading.active_count() == 1:
+        atexit._run_exitfuncs()  # noqa: SLF001  what has to be tidied up is
+        os._exit(code)
+    return code
 
 
 def _interrupted() -> int:
