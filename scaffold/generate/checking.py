@@ -22,6 +22,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.rule import Rule
+    from scaffold.check.session import Session
     from scaffold.diagnostic import Diagnostic
     from scaffold.generate.draft import Draft
 
@@ -80,13 +81,12 @@ class Check:
             found = self._process.findings(styles)
             if found is not None:
                 return found
-        return _findings(
-            _built_in(), self._judged, self._packages, lambda: styles or self._styles()
-        )
+        session = _session(_built_in())
+        return _findings(session, self._judged, self._packages, lambda: styles or self._styles())
 
     def by(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
         """Return the findings of these rules and of style, for each target."""
-        return _findings(rules, self._judged, self._packages, self._styles)
+        return _findings(_session(rules), self._judged, self._packages, self._styles)
 
     def _styles(self) -> list[Style]:
         result: list[Style] = []
@@ -109,18 +109,22 @@ def _built_in() -> Sequence[type[Rule]]:
     return registry.load(content.roots("rules"))
 
 
+def _session(rules: Sequence[type[Rule]]) -> Session:
+    from scaffold.check.selection import Selection
+    from scaffold.check.session import Session
+
+    return Session(rules, Selection(), is_remembered=False)
+
+
 def _findings(
-    rules: Sequence[type[Rule]],
+    session: Session,
     judged: _Judged,
     packages: Sequence[Package],
     styles: Callable[[], Sequence[Style]],
 ) -> list[Diagnostic]:
     """Run the rules, wait for what is found about style, and combine both."""
-    from scaffold.check.selection import Selection
-    from scaffold.check.session import Session
     from scaffold.model.discovery.targets import Target
 
-    session = Session(rules, Selection(), is_remembered=False)
     ruled = []
     for target, package in zip(judged.targets, packages, strict=True):
         with distributions.targeting(target):
@@ -200,6 +204,15 @@ class RuleProcess:
         os.waitpid(self.number, 0)
 
 
+def _prepare() -> None:
+    """Load what the rules load when they need it, while there is nothing else to do."""
+    from importlib import import_module
+
+    for linter in ("cmake_diagnostics", "copyright_diagnostics", "xml_diagnostics"):
+        import_module(f"scaffold.ament.{linter}")
+    changes.of_kind("name")
+
+
 def _serve(requests: int, back: int) -> NoReturn:
     """Load the rules, check the package that comes, send what is found, and end.
 
@@ -212,15 +225,15 @@ def _serve(requests: int, back: int) -> NoReturn:
 
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process says what is interrupted
         with open(requests, "rb") as source, open(back, "wb") as sink:
-            rules = _built_in()
-            changes.of_kind("name")  # read now, while there is nothing else to do
+            session = _session(_built_in())
+            _prepare()
             judged: _Judged = pickle.load(source)  # noqa: S301  a process of ours
 
             def styles() -> Sequence[Style]:
                 sent: Sequence[Style] = pickle.load(source)  # noqa: S301  a process of ours
                 return sent
 
-            pickle.dump(_findings(rules, judged, judged.packages(), styles), sink)
+            pickle.dump(_findings(session, judged, judged.packages(), styles), sink)
         code = 0
     finally:
         os._exit(code)
