@@ -123,7 +123,7 @@ class ArgumentTypeUnfit(TypeRule):
             {"speaker.py": _SPEAKER.format("String(data='hello')", "self.greeting")},
         ),
         Example(
-            "a method that asks what it is called with",
+            "a method that checks the type of its argument",
             {
                 "speaker.py": _SPEAKER.format("'hello'", "'hello'").replace(
                     "        self.talker.publish(text)\n",

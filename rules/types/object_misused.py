@@ -103,7 +103,7 @@ class ObjectMisused(TypeRule):
             Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
         ),
         Example(
-            "tuples of several kinds, told apart by their first element",
+            "tuples whose first element tells their kind",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
                 "rover/__init__.py": "",

@@ -63,7 +63,7 @@ class LinkUndefined(Rule):
             ),
         ),
         Example(
-            "what Gazebo is told",
+            "a gazebo element of an unknown link",
             {
                 "robot.urdf": _ROBOT.format("base_link", "wheel").replace(
                     "</robot>",

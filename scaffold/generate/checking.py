@@ -1,7 +1,7 @@
 """Checks a draft before anything of it is written: by all rules, and by ament's style.
 
 The rules take as long to load as a package takes to draft. `ahead` has a second process load them
-meanwhile; it runs them as soon as it is told the package, and the first process checks style.
+meanwhile; it runs them as soon as it receives the package, and the first process checks style.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class _Judged(NamedTuple):
 
     @property
     def targets(self) -> list[Distribution]:
-        """What it is for, oldest first."""
+        """The distributions that the package is for, oldest first."""
         return [distributions.named(name) for name in self.distributions]
 
     def packages(self) -> list[Package]:

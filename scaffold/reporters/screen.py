@@ -176,14 +176,14 @@ def _further(entry: Entry) -> list[Text]:
 
 
 def _new_first(entry: Entry) -> list[Diagnostic]:
-    """Return the further places of an entry, those that repeat what others say after these."""
-    said = {entry.first.text}
+    """Return the further places of an entry, those with a message that others have last."""
+    messages = {entry.first.text}
     new: list[Diagnostic] = []
-    again: list[Diagnostic] = []
+    repeated: list[Diagnostic] = []
     for item in entry.places[1:]:
-        (again if item.text in said else new).append(item)
-        said.add(item.text)
-    return [*new, *again]
+        (repeated if item.text in messages else new).append(item)
+        messages.add(item.text)
+    return [*new, *repeated]
 
 
 def _room(blocks: Sequence[Text], height: int, width: int) -> int:
