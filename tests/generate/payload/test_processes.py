@@ -26,6 +26,8 @@ pytestmark = [
 ]
 COUNT = 60
 """As many messages as a generated test looks at."""
+START = 1_700_000_000
+"""The time of the first of them, in seconds: what many messages say follows the clock."""
 ERRORS = (
     (r"\bmin\(", "max("),
     (r"\bmax\(", "min("),
@@ -47,6 +49,18 @@ ERRORS = (
 """What somebody who changes the code could get wrong, in one place."""
 
 
+class TimedNode(Node):
+    """A node whose clock shows one second more for each message, on every run the same."""
+
+    def get_clock(self) -> Any:
+        return self
+
+    def now(self) -> Any:
+        from rclpy.time import Time
+
+        return Time(seconds=START + self.count)
+
+
 def source(line: str, head: str, lines: Sequence[str], result: str) -> str:
     """Return a function, after a line of its module."""
     return f"{line}\ndef {head}:\n{indent(chr(10).join(lines), '    ')}\n    return {result}\n"
@@ -65,7 +79,7 @@ def run(
     start = "msg = received" if is_same else f"msg = {published.name}()"
     exec(source(constant, "process(self, received)", [start, *lines], "msg"), names)
     exec(source("", "is_right(message, item)", [f"return {process.expected}"], "None"), names)
-    node, results = Node(), []
+    node, results = TimedNode(), []
     for node.count in range(COUNT):
         item = transported(names["send"](node))
         message = transported(names["process"](node, transported(item)))
