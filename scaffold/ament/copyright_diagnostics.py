@@ -20,6 +20,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import CreateFile, Fix
 from scaffold.model.manifest.spdx import spdx_of
 from scaffold.model.package import Package
+from scaffold.source import ViewError
 
 _CAUSE = "copyright"
 
@@ -29,11 +30,20 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
     if code == "LY020":
         missing = [header for header in headers(package) if not header.holders]
         yield from _of_headers(package, code, missing, _no_notice)
-    elif code == "LY021":
+    elif code == "LY021" and not _has_own_texts(package):
         unknown = [item for item in headers(package) if item.holders and not item.licence]
         yield from _of_headers(package, code, unknown, _unknown_header)
-    else:
+    elif code != "LY021":
         yield from _of_repository(package, code)
+
+
+def _has_own_texts(package: Package) -> bool:
+    """Tell whether a dependency extends the linter with licenses of its own."""
+    try:
+        names = package.manifest.declared_names
+    except ViewError:
+        return False
+    return any(name.endswith("_ament_copyright") for name in names)
 
 
 def _of_headers(
@@ -63,7 +73,8 @@ def _no_notice(header: Header, others: int) -> str:
 
 
 def _unknown_header(header: Header, others: int) -> str:
-    more = f" (and {others} more files have no known header)" if others > 0 else ""
+    files = "file has" if others == 1 else "files have"
+    more = f" (and {others} more {files} no known header)" if others > 0 else ""
     return f"{_reason(header.text)}{more}"
 
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.ament.finding import Replacement
+from scaffold.ament.finding import Finding, Replacement
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import bundled
 from scaffold.record import NamedTuple
@@ -253,3 +253,24 @@ def identity() -> str:
     """Return what changes when another ruff is installed."""
     status = os.stat(executable())
     return f"{executable()}:{status.st_size}:{status.st_mtime_ns}"
+
+
+def plain(diagnostic: RuffDiagnostic) -> Finding:
+    """Return a finding of ruff unchanged."""
+    return Finding(
+        diagnostic.code,
+        diagnostic.line,
+        diagnostic.column,
+        worded(diagnostic.message),
+        diagnostic.end_line,
+        diagnostic.end_column,
+        diagnostic.fix,
+        diagnostic.fix_title,
+        fix_is_unsafe=diagnostic.fix_is_unsafe,
+    )
+
+
+def worded(message: str) -> str:
+    """Return a message of ruff in our form: lower case start, no period at the end."""
+    message = message.rstrip(".")
+    return message[:1].lower() + message[1:] if message[1:2].islower() else message

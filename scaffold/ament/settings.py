@@ -19,6 +19,7 @@ from scaffold.ament.flake8.options import EXCLUDED, Options, OptionsError, match
 from scaffold.ament.linters import of_target
 from scaffold.ament.pep257 import codes as pep257
 from scaffold.ament.use import linter_tests
+from scaffold.model.reads import Reads, recorded
 from scaffold.record import NamedTuple
 from scaffold.source import Location
 
@@ -330,3 +331,15 @@ def _is_below(path: str, tops: Sequence[str]) -> bool:
 def settings_of(package: Package) -> PackageSettings:
     """Return the settings of a package; read once."""
     return package.remember("style settings", lambda: PackageSettings(package))
+
+
+def files_of_settings(package: Package) -> frozenset[str]:
+    """Return the files that say by what style is judged, by ``Package.full_path``.
+
+    Of those in Python, all tests are looked at, and only those count that run a linter.
+    """
+    looked_at = Reads()
+    with recorded(looked_at):
+        tests = map(package.full_path, settings_of(package).tests)
+    files, _ = looked_at.all()
+    return frozenset(tests) | {path for path in files if not path.endswith(".py")}

@@ -80,10 +80,19 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
 def hook(package: Package, linter: str) -> Command | None:
     """Return the command that runs a linter because the manifest names it; raises ViewError."""
     finds = package.cmake.find(*_FINDING)
-    declared = package.manifest.declared_names
     wrapper = f"ament_cmake_{linter}"
-    is_declared = finds and any(_brings(package, name, wrapper) for name in declared)
-    return finds[0] if is_declared else None
+    is_found = finds and any(_brings(package, name, wrapper) for name in _found(package))
+    return finds[0] if is_found else None
+
+
+def _found(package: Package) -> set[str]:
+    """Return the packages that CMake finds, of those that the manifest names as well.
+
+    ament_lint_auto finds test dependencies alone, so that it does not see a ``<depend>``.
+    """
+    manifest, cmake = package.manifest, package.cmake
+    others = manifest.build_names if cmake.finds_automatically else set()
+    return manifest.test_names | others | {x for x in manifest.declared_names if cmake.finds(x)}
 
 
 def is_switched_off(cmake: CMakeLists, linter: str) -> bool:

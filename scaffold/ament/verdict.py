@@ -12,7 +12,15 @@ from scaffold import distributions
 from scaffold.ament.codes import CODES
 from scaffold.ament.finding import FLAKE8, PEP257, TOO_LARGE, UNPARSABLE, Finding, Replacement
 from scaffold.ament.flake8 import builtins as shadowing
-from scaffold.ament.flake8 import complexity, comprehensions, noqa, plugins, quotes
+from scaffold.ament.flake8 import (
+    complexity,
+    comprehensions,
+    flakes,
+    indirect_names,
+    noqa,
+    plugins,
+    quotes,
+)
 from scaffold.ament.flake8.import_order import check as import_order
 from scaffold.ament.flake8.options import AMENT, Options
 from scaffold.ament.flake8.pycodestyle import (
@@ -25,12 +33,11 @@ from scaffold.ament.flake8.pycodestyle import (
     physical,
     statements,
 )
-from scaffold.ament.flake8.pyflakes import flakes, indirect_names, literals, redefinitions
 from scaffold.ament.pep257 import complete
 from scaffold.ament.pep257 import form as docstrings
 from scaffold.ament.python_text.logical import LogicalLine
 from scaffold.ament.python_text.text import BOM, PythonText, decode
-from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic
+from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic, plain, worded
 from scaffold.ament.settings import Settings
 from scaffold.errors import exhausted
 
@@ -44,7 +51,7 @@ _TAKEN = "E211 E261 E262 E265 E266 E401 W605"
 TAKEN = frozenset(_TAKEN.split())
 """Codes on which ruff's verdict is pycodestyle's."""
 
-_OWN = (blank_lines, statements, redefinitions, indirect_names, comprehensions, literals)
+_OWN = (blank_lines, statements, indirect_names, comprehensions)
 _CONFIGURED = (
     indentation,
     continuation,
@@ -105,7 +112,8 @@ def _judged(
     ruff_findings = _from_ruff(text, reported, options)
     if options.inline_quotes != AMENT.inline_quotes:
         reported = [item for item in reported if not item.code.startswith("Q")]
-    findings = _reported(_with_fixes([*ruff_findings, *own], reported), [settings])
+    placed = [*flakes.placed(text, reported)]
+    findings = _reported(_with_fixes([*ruff_findings, *own], placed), [settings])
     silence = noqa.apply_of_plugins if options.disable_noqa else noqa.apply
     return [*map(_Alignment(text).keep_alignment, _once(silence(text, findings)))]
 
@@ -151,9 +159,7 @@ def _broken(
         )
     own = _syntax_error(text) if text.tree is None else None
     errors = [
-        (item.line, item.column, flakes.worded(item.message))
-        for item in diagnostics
-        if not item.code
+        (item.line, item.column, worded(item.message)) for item in diagnostics if not item.code
     ]
     if not errors and isinstance(own, IndentationError):
         errors = [(1, 1, own.msg)]  # ruff takes tabs for another width
@@ -192,18 +198,9 @@ def _from_ruff(
     text: PythonText, diagnostics: Sequence[RuffDiagnostic], options: Options
 ) -> Iterator[Finding]:
     if text.tree is None:
-        yield from (flakes.plain(item) for item in diagnostics if item.code in CODES)
+        yield from (plain(item) for item in diagnostics if item.code in CODES)
         return
-    named = tuple(f"`{name}`" for name in options.builtins)
-    yield from flakes.translate(
-        text,
-        [
-            item
-            for item in diagnostics
-            if item.code.startswith("F")
-            and not (item.code == "F821" and item.message.endswith(named))
-        ],
-    )
+    yield from flakes.check(text, options.builtins, diagnostics)
     lines: dict[str, set[int]] = {}
     for diagnostic in diagnostics:
         lines.setdefault(diagnostic.code, set()).add(diagnostic.line)
@@ -219,18 +216,18 @@ def _from_ruff(
             yield from module.check(logical)
     for diagnostic in diagnostics:
         if diagnostic.code in TAKEN:
-            yield flakes.plain(diagnostic)
+            yield plain(diagnostic)
 
 
 def _with_fixes(
     findings: Iterable[Finding], diagnostics: Sequence[RuffDiagnostic]
 ) -> list[Finding]:
     """Give our findings the fixes that ruff has for the same code at the same line."""
-    plain: dict[tuple[str, int], list[Finding]] = {}
+    same_place: dict[tuple[str, int], list[Finding]] = {}
     for item in diagnostics:
         if item.fix:
-            plain.setdefault((item.code, item.line), []).append(flakes.plain(item))
-    fixes = {key: _joined(same) for key, same in plain.items()}
+            same_place.setdefault((item.code, item.line), []).append(plain(item))
+    fixes = {key: _joined(same) for key, same in same_place.items()}
     result = []
     for finding in findings:
         other = fixes.get((finding.code, finding.line))

@@ -62,7 +62,13 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
     is_harmless = code == "PX065" and _is_for_linter_alone(package)
     for problem in problems:
         reported = diagnostic(code, *problem)
+        is_harmless = is_harmless or (code == "PX050" and _is_unused_file(package, reported))
         yield reported._replace(severity=Severity.WARNING) if is_harmless else reported
+
+
+def _is_unused_file(package: Package, unreadable: Diagnostic) -> bool:
+    """Tell whether a file is not written yet, so that nobody loads it, and no linter does."""
+    return unreadable.message == "the file is empty" and not linter_use(package, "xmllint").runs
 
 
 def _is_for_linter_alone(package: Package) -> bool:

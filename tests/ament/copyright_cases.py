@@ -139,7 +139,7 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             Report(
                 "a/one.py:1:3",
                 "an SPDX line below the notice is not the header of a license "
-                "(and 1 more files have no known header): ament_copyright would "
+                "(and 1 more file has no known header): ament_copyright would "
                 "fail, but no test of this package runs it",
                 severity=Severity.INFO,
             ),

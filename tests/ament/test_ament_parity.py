@@ -324,6 +324,41 @@ def test_copyright_is_as_loud_as_the_linter_in_a_cmake_package(
     assert [d.severity for d in runner.check(Package.of(files), COPYRIGHT)] == [severity]
 
 
+@pytest.mark.parametrize(
+    ("lines", "severity"),
+    [
+        ("", Severity.INFO),
+        ("find_package(ament_lint_common REQUIRED)", Severity.ERROR),
+        ("ament_auto_find_build_dependencies()", Severity.ERROR),
+    ],
+)
+def test_ament_lint_auto_does_not_find_what_is_no_test_dependency(
+    lines: str, severity: Severity
+) -> None:
+    files = {
+        "a.py": "import b\n",
+        "package.xml": "<package format='3'><depend>ament_lint_common</depend></package>",
+        "CMakeLists.txt": f"project(a)\n{lines}\nament_lint_auto_find_test_dependencies()\n",
+    }
+    assert [d.severity for d in runner.check(Package.of(files), COPYRIGHT)] == [severity]
+
+
+def test_a_dependency_may_know_more_licenses() -> None:
+    manifest = "<package format='3'><test_depend>ament_cmake_copyright</test_depend>{}</package>"
+    files = {
+        "a.py": "# Copyright 2026 Ann.\n# All rights reserved. Nobody may copy this file.\n",
+        "CMakeLists.txt": "project(a)\nament_lint_auto_find_test_dependencies()\n",
+    }
+    found = [
+        [d.code for d in runner.check(Package.of({**files, "package.xml": text}), COPYRIGHT)]
+        for text in (
+            manifest.format(""),
+            manifest.format("<test_depend>robots_ament_copyright</test_depend>"),
+        )
+    ]
+    assert found == [["LY021"], []]
+
+
 # -- ament_xmllint: well-formedness
 
 XML = """\

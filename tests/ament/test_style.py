@@ -322,8 +322,8 @@ def test_many_files_are_split_over_several_runs(monkeypatch: pytest.MonkeyPatch)
 def test_several_packages_in_one_run() -> None:
     packages = [Package.of({"a.py": f"import {name}\n"}) for name in ("os", "abc", "ast")]
     style = StyleCheck(packages)
-    said = [style.diagnostics(package) for package in reversed(packages)]
-    assert [d.message.split()[0] for (d,) in said] == ["`ast`", "`abc`", "`os`"]
+    found = [style.diagnostics(package) for package in reversed(packages)]
+    assert [d.message.split()[0] for (d,) in found] == ["'ast'", "'abc'", "'os'"]
 
 
 # -- reference

@@ -125,7 +125,11 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "</node> expected, <node> opened at line 2 is not closed",
             ),
         ),
-        Example("empty", {"plugins.xml": ""}, Report("plugins.xml:1:1", "the file is empty")),
+        Example(
+            "empty, where no linter runs",
+            {"plugins.xml": ""},
+            Report("plugins.xml:1:1", "the file is empty", severity=Severity.WARNING),
+        ),
         Example("not linted", {"AMENT_IGNORE": "", "broken.xml": "<a>"}),
     ),
     "PX051": (

@@ -14,6 +14,9 @@ ROWS = (
         XMLLINT,
         Severity.ERROR,
         message=("</node> expected, <node> opened at line 2 is not closed"),
+        other_severities={
+            Severity.WARNING: "an empty file, where no test of the package runs ament_xmllint"
+        },
         documentation="""\
 **Why.** Whoever loads it (launch, a plugin loader, robot_state_publisher) stops there, and
 ``ament_xmllint`` fails under ``colcon test``. For package.xml itself SC001 says so.

@@ -1,0 +1,166 @@
+"""F codes: what pyflakes reports, with the fixes that ruff has for the same.
+
+pyflakes itself, which ament_flake8 runs, is the verdict. It walks the tree that is parsed anyway,
+in a twentieth of the time of a cold check.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from scaffold import distributions
+from scaffold.ament import linters
+from scaffold.ament.finding import Finding
+from scaffold.ament.python_text.text import PythonText
+from scaffold.ament.ruff import RuffDiagnostic
+
+CODES: Mapping[str, str] = {
+    "UnusedImport": "F401",
+    "ImportShadowedByLoopVar": "F402",
+    "ImportStarUsed": "F403",
+    "LateFutureImport": "F404",
+    "ImportStarUsage": "F405",
+    "ImportStarNotPermitted": "F406",
+    "FutureFeatureNotDefined": "F407",
+    "PercentFormatInvalidFormat": "F501",
+    "PercentFormatExpectedMapping": "F502",
+    "PercentFormatExpectedSequence": "F503",
+    "PercentFormatExtraNamedArguments": "F504",
+    "PercentFormatMissingArgument": "F505",
+    "PercentFormatMixedPositionalAndNamed": "F506",
+    "PercentFormatPositionalCountMismatch": "F507",
+    "PercentFormatStarRequiresSequence": "F508",
+    "PercentFormatUnsupportedFormatCharacter": "F509",
+    "StringDotFormatInvalidFormat": "F521",
+    "StringDotFormatExtraNamedArguments": "F522",
+    "StringDotFormatExtraPositionalArguments": "F523",
+    "StringDotFormatMissingArgument": "F524",
+    "StringDotFormatMixingAutomatic": "F525",
+    "FStringMissingPlaceholders": "F541",
+    "MultiValueRepeatedKeyLiteral": "F601",
+    "MultiValueRepeatedKeyVariable": "F602",
+    "TooManyExpressionsInStarredAssignment": "F621",
+    "TwoStarredExpressions": "F622",
+    "AssertTuple": "F631",
+    "IsLiteral": "F632",
+    "InvalidPrintSyntax": "F633",
+    "IfTuple": "F634",
+    "BreakOutsideLoop": "F701",
+    "ContinueOutsideLoop": "F702",
+    "YieldOutsideFunction": "F704",
+    "ReturnOutsideFunction": "F706",
+    "DefaultExceptNotLast": "F707",
+    "ForwardAnnotationSyntaxError": "F722",
+    "RedefinedWhileUnused": "F811",
+    "UndefinedName": "F821",
+    "UndefinedExport": "F822",
+    "UndefinedLocal": "F823",
+    "DuplicateArgument": "F831",
+    "UnusedVariable": "F841",
+    "UnusedAnnotation": "F842",
+    "RaiseNotImplemented": "F901",
+}
+"""The codes that flake8 has for the messages of pyflakes; ``indirect_names`` judges F824."""
+_GIVEN = {"conf.py": frozenset({"tags"})}
+"""What Sphinx gives its configuration."""
+
+
+def check(
+    text: PythonText, builtins: Collection[str], diagnostics: Sequence[RuffDiagnostic]
+) -> Iterator[Finding]:
+    """Yield what pyflakes reports.
+
+    Args:
+        text: The file; nothing is reported without a syntax tree.
+        builtins: The names that its configuration adds to those of Python.
+        diagnostics: Those of ruff, which tell where an expression ends.
+    """
+    from pyflakes.checker import Checker
+
+    if text.tree is None:
+        return
+    is_before_3 = not linters.of_target().since("pyflakes", 3)
+    # From Python 3.14 on annotations are evaluated when asked for, which ruff knows of the target.
+    is_deferred = distributions.target().python >= (3, 14)
+    ends = {(item.code, item.line, item.column): item for item in diagnostics}
+    for message in Checker(text.tree, text.path, {*builtins}, withDoctest=False).messages:
+        code = CODES.get(type(message).__name__, "")
+        if not code or (is_before_3 and _is_of_3(text, code, message.message_args)):
+            continue
+        column = text.column(message.lineno, message.col)
+        end = ends.get((code, message.lineno, column))
+        if code == "F821" and is_deferred and end is None:
+            continue
+        yield Finding(
+            code,
+            message.lineno,
+            column,
+            message.message % message.message_args,
+            end.end_line if end else 0,
+            end.end_column if end else 0,
+            is_doubtful=_is_made_when_run(text, code, message.message_args),
+        )
+
+
+def _is_of_3(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
+    """Tell whether pyflakes reports this from version 3 on.
+
+    That are annotations without a value, and definitions that replace what is assigned.
+    """
+    if code != "F811":
+        return code == "F842"
+    definitions = (*text.imports, *text.functions, *text.nodes(ast.ClassDef))
+    return arguments[-1] not in {node.lineno for node in definitions}
+
+
+def placed(text: PythonText, diagnostics: Sequence[RuffDiagnostic]) -> Iterator[RuffDiagnostic]:
+    """Yield the diagnostics of ruff at the lines where pyflakes reports the same."""
+    imports = _import_lines(text) if any(item.code == "F401" for item in diagnostics) else {}
+    handlers = _handler_lines(text) if any(item.code == "F841" for item in diagnostics) else {}
+    lines = {"F401": imports, "F841": handlers}
+    for item in diagnostics:
+        line = lines.get(item.code, {}).get(item.line)
+        yield item if line is None else item._replace(line=line)
+
+
+def _import_lines(text: PythonText) -> dict[int, int]:
+    """Return the line of the import statement that covers a line; the first of several."""
+    result: dict[int, int] = {}
+    for node in sorted(text.imports, key=lambda node: (node.lineno, node.col_offset)):
+        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+            result.setdefault(line, node.lineno)
+    return result
+
+
+def _handler_lines(text: PythonText) -> dict[int, int]:
+    """Return the line of an ``except ... as name`` by the lines between it and its body."""
+    result: dict[int, int] = {}
+    for node in text.nodes(ast.ExceptHandler):
+        for line in range(node.lineno, node.body[0].lineno) if node.name else ():
+            result.setdefault(line, node.lineno)
+    return result
+
+
+def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) -> bool:
+    """Tell whether the module may have a name that nothing in its text defines."""
+    if code == "F821":
+        # A configuration such as .cmake-format.py is run by its program, with names from there.
+        is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
+        return text.name.startswith(".") or is_given or _executes_text(text)
+    return code == "F822" and _has_getattr(text)
+
+
+def _executes_text(text: PythonText) -> bool:
+    """Tell whether ``exec(text)`` may define names; one with a dictionary defines them there."""
+    return "exec" in text.text and any(
+        isinstance(node.func, ast.Name) and node.func.id == "exec" and len(node.args) == 1
+        for node in text.nodes(ast.Call)
+    )
+
+
+def _has_getattr(text: PythonText) -> bool:
+    """Tell whether the module answers for names that it lacks (PEP 562)."""
+    return text.tree is not None and any(
+        isinstance(node, ast.FunctionDef) and node.name == "__getattr__" for node in text.tree.body
+    )
