@@ -11,7 +11,7 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
-from scaffold.reporters.entries import SEVERITIES, Entry, in_order
+from scaffold.reporters.entries import SEVERITIES, Entry, Place, in_order
 from scaffold.reporters.paths import in_repository
 from scaffold.reporters.summary import summary
 
@@ -68,7 +68,7 @@ def job_summary(results: Sequence[Result], options: ReportOptions) -> str:
 
 def _worst_first(results: Sequence[Result]) -> list[tuple[Package, Diagnostic]]:
     findings = [
-        Entry(result.package, (diagnostic,))
+        Entry((Place(result.package, diagnostic),))
         for result in results
         for diagnostic in result.diagnostics
     ]

@@ -18,7 +18,15 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.record import NamedTuple
 from scaffold.reporters import ReportOptions, rule_pages
-from scaffold.reporters.entries import SEVERITIES, Entry, by_cause, in_order, is_style
+from scaffold.reporters.entries import (
+    SEVERITIES,
+    Entry,
+    Place,
+    by_cause,
+    in_order,
+    is_style,
+    merged,
+)
 from scaffold.reporters.excerpt import excerpt
 from scaffold.reporters.summary import by_severity, count, fixable, summary
 from scaffold.reporters.text import place
@@ -55,13 +63,15 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
     folded = _fold(results, options)
     hidden = {id(result.package): set(result.diagnostics) for result in folded.results}
     kept = [_without(result, hidden.get(id(result.package), set())) for result in results]
-    entries = in_order(
-        [
-            entry
-            for result in kept
-            for entry in by_cause(result)
-            if SEVERITIES.index(entry.severity) <= SEVERITIES.index(options.severity)
-        ]
+    entries = merged(
+        in_order(
+            [
+                entry
+                for result in kept
+                for entry in by_cause(result)
+                if SEVERITIES.index(entry.severity) <= SEVERITIES.index(options.severity)
+            ]
+        )
     )
     footer = [] if options.quiet else _footer(results, folded, options)
     blocks = _blocks(entries, options)
@@ -165,24 +175,25 @@ def _further(entry: Entry) -> list[Text]:
     shown = others[:_MAX_PLACES]
     rest = len(others) - len(shown)
     more = f" and {count(rest, 'more place')}" if rest else ""
-    places = [place(entry.package, item) for item in shown]
-    if all((item.code, item.text) == (first.code, first.text) for item in shown):
+    places = [place(item.package, item.finding) for item in shown]
+    findings = [item.finding for item in shown]
+    if all((item.code, item.text) == (first.code, first.text) for item in findings):
         return [Text(f"    also at {', '.join(places)}{more}", style="dim")]
     lines = [
         f"    also {at}: {item.code} {shorten(printable(item.text), 80, placeholder=' …')}"
-        for at, item in zip(places, shown, strict=True)
+        for at, item in zip(places, findings, strict=True)
     ]
     return [Text(line, style="dim") for line in (*lines, *([f"   {more}"] if rest else []))]
 
 
-def _new_first(entry: Entry) -> list[Diagnostic]:
+def _new_first(entry: Entry) -> list[Place]:
     """Return the further places of an entry, those with a message that others have last."""
     messages = {entry.first.text}
-    new: list[Diagnostic] = []
-    repeated: list[Diagnostic] = []
+    new: list[Place] = []
+    repeated: list[Place] = []
     for item in entry.places[1:]:
-        (repeated if item.text in messages else new).append(item)
-        messages.add(item.text)
+        (repeated if item.finding.text in messages else new).append(item)
+        messages.add(item.finding.text)
     return [*new, *repeated]
 
 
@@ -199,10 +210,14 @@ def _room(blocks: Sequence[Text], height: int, width: int) -> int:
 def _hidden_lines(entries: Sequence[Entry]) -> list[Text]:
     """Return what does not fit on the screen, by code and by package, and how to see it."""
     result = [item for entry in entries for item in entry.places]
-    codes = Counter(item.code for item in result)
-    names = Counter(printable(entry.package.name) for entry in entries for _ in entry.places)
+    codes = Counter(item.finding.code for item in result)
+    names = Counter(printable(item.package.name) for item in result)
+    numbers = by_severity(item.finding for item in result)
     return [
-        Text(f"not shown: {by_severity(result)}; --all shows them", style="bold"),
+        Text(
+            f"not shown: {numbers}; --all shows them",
+            style="bold",
+        ),
         Text(f"    by code: {_named(codes)}", style="dim"),
         Text(f"    by package: {_named(names)}", style="dim"),
     ]

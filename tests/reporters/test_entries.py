@@ -9,7 +9,7 @@ import pytest
 from scaffold.check.result import Result
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
-from scaffold.reporters.entries import by_cause, in_order
+from scaffold.reporters.entries import by_cause, in_order, merged
 from scaffold.source import Location
 
 
@@ -53,3 +53,49 @@ def test_packages_of_ros1_come_after_crashes() -> None:
     results = [_result(".", "SC007", "package.xml"), _result(".", "ND001", "node.py")]
     ordered = in_order([entry for result in results for entry in by_cause(result)])
     assert [entry.first.code for entry in ordered] == ["ND001", "SC007"]
+
+
+def test_what_keeps_a_package_from_being_built_comes_before_crashes() -> None:
+    codes = ["PX001", "PF004", "CM014", "ND001", "CM011", "E999"]
+    ordered = in_order([entry for code in codes for entry in by_cause(_result(".", code, "a"))])
+    assert [entry.first.code for entry in ordered] == [
+        *("CM011", "E999", "ND001", "PF004", "CM014", "PX001")
+    ]
+
+
+def test_tests_come_after_what_a_robot_runs() -> None:
+    paths = ("test/test_a.py", "a/contest.py", "tests/helper.py")
+    results = [_result(".", "TY003", path) for path in paths]
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [entry.first.location.path for entry in ordered] == [
+        "a/contest.py",
+        "test/test_a.py",
+        "tests/helper.py",
+    ]
+
+
+def test_what_several_packages_have_in_common_is_one_entry() -> None:
+    results = [
+        _result("archive/talker", "SC007", "package.xml"),
+        _result("talker", "SC007", "package.xml"),
+        _result("listener", "SC007", "package.xml"),
+        _result("listener", "PX001", "package.xml"),
+    ]
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    shown = [
+        [(item.package.directory, item.finding.code) for item in entry.places]
+        for entry in merged(ordered)
+    ]
+    assert shown == [
+        [("talker", "SC007"), ("listener", "SC007"), ("archive/talker", "SC007")],
+        [("listener", "PX001")],
+    ]
+
+
+def test_other_findings_of_the_same_cause_are_other_entries() -> None:
+    first = _result("talker", "LF005", "a.launch.py")
+    second = _result("listener", "LF005", "a.launch.py")
+    second.diagnostics[0] = first.diagnostics[0]._replace(message="another", cause="dependency a")
+    first.diagnostics[0] = first.diagnostics[0]._replace(cause="dependency a")
+    entries = [entry for result in (first, second) for entry in by_cause(result)]
+    assert merged(entries) == entries
