@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.errors import InputError
+from scaffold.files.disk import Disk
 from scaffold.writing.transaction import RECORD
 
 if TYPE_CHECKING:
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 
     from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
-    from scaffold.files.disk import Disk
     from scaffold.generate.questions.questions import Given
 
 KEY = "check.distribution"
@@ -61,20 +61,29 @@ def chosen(flag: Sequence[str] | None, settings: Config) -> list[Distribution]:
     return wanted(flag, settings) or [distributions.named(distributions.DEFAULT)]
 
 
-def recorded(directory: str, disk: Disk | None = None) -> list[Distribution] | None:
+def recorded(
+    directory: str, disk: Disk | None = None, *, is_needed: bool = False
+) -> list[Distribution] | None:
     """Return what the record in a package says that it is for; ``None`` without a record.
 
     Args:
         directory: Of the package.
         disk: Records what was accessed.
+        is_needed: Whether nothing else says that a record is damaged.
 
     Raises:
-        InputError: it names a distribution that is not known, or is supported no more.
+        InputError: it names a distribution that is not known, or is supported no more, or it is
+            damaged.
     """
     names = recorded_names(directory, disk)
-    if names is None:
-        return None
     path = os.path.join(directory, RECORD)
+    if names is None:
+        if is_needed and (disk or Disk()).is_file(path):
+            raise InputError(
+                f"{path}: damaged, so it is not known which distribution the package is for: "
+                f"restore it, or name the distribution with {FLAG}"
+            )
+        return None
     for name in names:
         if name in distributions.ENDED:
             raise InputError(
@@ -94,8 +103,6 @@ def recorded_names(directory: str, disk: Disk | None = None) -> list[str] | None
         directory: Of the package.
         disk: Records what was accessed.
     """
-    from scaffold.files.disk import Disk
-
     disk = disk or Disk()
     path = os.path.join(directory, RECORD)
     if not disk.is_file(path):

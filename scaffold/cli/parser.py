@@ -24,11 +24,16 @@ class _Parser(argparse.ArgumentParser):
         self, args: Sequence[str] | None = None, namespace: None = None
     ) -> argparse.Namespace:
         """Parse all words; print the line and exit if one has no meaning."""
+        words = [*(sys.argv[1:] if args is None else args)]
+        if words and all(word.startswith("-") for word in words):  # no verb, which comes first
+            unknown = [word for word in words if word.partition("=")[0] not in self.flags]
+            if unknown:
+                self.error(f"unrecognized arguments: {' '.join(unknown)}")
         options, rest = self.parse_known_args(args, namespace)
         if rest:
             verb = self.chosen or self
-            words = " ".join(rest)
-            verb.error(f"unrecognized arguments: {words}{nearest(rest[0], verb.flags)}")
+            unrecognized = f"unrecognized arguments: {' '.join(rest)}"
+            verb.error(f"{unrecognized}{nearest(rest[0], verb.flags)}")
         return options
 
     @property

@@ -229,7 +229,13 @@ def test_cmake_sections_in_the_order_of_the_tutorial() -> None:
             "ament_cmake",
             {
                 "buildtool_depend": ["ament_cmake", "ament_cmake_python"],
-                "exec_depend": ["python3-numpy", "rclpy", "sensor_msgs", "std_msgs"],
+                "exec_depend": [
+                    "python3-numpy",
+                    "rcl_interfaces",
+                    "rclpy",
+                    "sensor_msgs",
+                    "std_msgs",
+                ],
                 "test_depend": [
                     "ament_cmake_pytest",
                     "ament_index_python",
@@ -242,7 +248,13 @@ def test_cmake_sections_in_the_order_of_the_tutorial() -> None:
         (
             "ament_python",
             {
-                "exec_depend": ["python3-numpy", "rclpy", "sensor_msgs", "std_msgs"],
+                "exec_depend": [
+                    "python3-numpy",
+                    "rcl_interfaces",
+                    "rclpy",
+                    "sensor_msgs",
+                    "std_msgs",
+                ],
                 "test_depend": [
                     "ament_copyright",
                     "ament_flake8",
@@ -1124,7 +1136,7 @@ def test_a_package_that_the_checker_rejects_names_the_template(
     module.write_text("import os\n")
     assert main(["new", "talker", "--node-kind", "blinker"]) == 2
     *lines, last = capsys.readouterr().err.splitlines()
-    finding = "ros2-scaffold: error: talker/blinker.py:1:1: F401 `os` imported but unused"
+    finding = "ros2-scaffold: error: talker/blinker.py:1:1: F401 'os' imported but unused"
     assert f"{finding} (rendered from {module})" in lines
     assert last == "note: nothing was written: the templates are at fault"
     assert os.listdir(tmp_path / "work") == ["ros2-scaffold.toml"]

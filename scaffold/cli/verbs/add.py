@@ -312,7 +312,8 @@ def _refuse_differing(
     ]
     if differing and not force:
         raise ConflictError(
-            f"{', '.join(differing)} in {where or plan.root} already exists and differs; "
+            f"{', '.join(differing)} in {where or plan.root} already "
+            f"{'exist and differ' if len(differing) > 1 else 'exists and differs'}; "
             f"{what_to_do}"
         )
 

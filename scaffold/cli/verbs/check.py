@@ -110,7 +110,7 @@ def _recorded(
     refused: dict[str, InputError] = {}
     for directory in directories:
         try:
-            by_record[directory] = distro.recorded(directory, disk) or default
+            by_record[directory] = distro.recorded(directory, disk, is_needed=True) or default
         except InputError as error:
             refused[directory] = error
     if refused and not by_record:

@@ -283,8 +283,9 @@ def _plan_above(
     if plan is not None and plan.conflicts and not force:
         names = ", ".join(plan.conflicts)
         raise ConflictError(
-            f"{names} in {plan.root} already exists and differs; --force overwrites it; "
-            "nothing was written"
+            f"{names} in {plan.root} already "
+            f"{'exist and differ' if len(plan.conflicts) > 1 else 'exists and differs'}; "
+            "--force overwrites; nothing was written"
         )
     return plan
 

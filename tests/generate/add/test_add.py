@@ -398,6 +398,7 @@ def test_the_diff_is_what_is_needed(demo: Path, capsys: pytest.CaptureFixture[st
             "+  ament_add_pytest_test(test_talker test/test_talker.py TIMEOUT 300)",
             "+endif()",
             "+",
+            "+  <exec_depend>rcl_interfaces</exec_depend>",
             "+  <exec_depend>std_msgs</exec_depend>",
             "+  <test_depend>ament_cmake_pytest</test_depend>",
             "+  <test_depend>ament_index_python</test_depend>",
