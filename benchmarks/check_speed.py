@@ -15,7 +15,8 @@ Printed are, each as a ratio:
 - the smallest package against the floor: a bare Python start and one call of ruff on its files;
 - all packages against ruff alone on the same files, the memory, and with ``--ament`` against
   ament_flake8, ament_pep257 and ament_copyright;
-- an edit in one file, an unchanged workspace and `check --fix` against a check from scratch;
+- an edit in one file, one in a package.xml, an unchanged workspace and `check --fix` against a
+  check from scratch;
 - with ``--ament``: ten packages against the ament linters found there;
 - growth: the time for a package among 10, 40, 160 and 600 copies of the ten under new names,
   against that among 10, and the memory of the largest process.
@@ -151,19 +152,25 @@ def _copied(directory: Path, scratch: Path) -> Path:
 
 
 def _print_large(copy: Path, packages: int, linters: Mapping[str, Path], repeat: int) -> None:
-    """Measure a directory of packages, and edit a file in it."""
+    """Measure a directory of packages, and edit a file and a manifest in it."""
     files = _python_files([copy])
     alone = cost(_ruff(files), repeat=repeat).seconds
     states = States.of([copy], repeat)
     by_size = sorted(files, key=lambda path: Path(path).stat().st_size)
-    edited = by_size[len(by_size) * 3 // 4]
+    edited = Path(by_size[len(by_size) * 3 // 4])
+    manifests = (parent / "package.xml" for parent in edited.parents)
+    manifest = next(path for path in manifests if path.is_file())
     cost(_check([copy]))
 
-    def edit() -> None:
-        with open(edited, "a", encoding="utf-8") as file:
-            file.write("# edited\n")
+    def measured_after(path: Path, line: str) -> Cost:
+        def edit() -> None:
+            with path.open("a", encoding="utf-8") as file:
+                file.write(line)
 
-    once = cost(_check([copy]), repeat=repeat, before=edit)
+        return cost(_check([copy]), repeat=repeat, before=edit)
+
+    once = measured_after(edited, "# edited\n")
+    declared = measured_after(manifest, "<!-- edited -->\n")
     print(f"{packages} packages, {len(files)} Python files")
     print(f"  ruff alone            1.00  ({alone * 1000:.0f} ms)")
     print(*states.lines(alone), sep="\n")
@@ -171,8 +178,13 @@ def _print_large(copy: Path, packages: int, linters: Mapping[str, Path], repeat:
     _forget_everything()
     fixed = cost([*_check([copy]), "--fix"])
     print("  against a check with nothing in the cache")
-    for name, measured in (("unchanged", states.unchanged), ("one edited", once), ("--fix", fixed)):
-        print(f"  check, {name:10} {measured.seconds / states.new.seconds:8.2f}", end="")
+    for name, measured in (
+        ("unchanged", states.unchanged),
+        ("one edited", once),
+        ("package.xml edited", declared),
+        ("--fix", fixed),
+    ):
+        print(f"  check, {name:18} {measured.seconds / states.new.seconds:8.2f}", end="")
         print(f"  ({measured.seconds * 1000:.0f} ms, {measured.megabytes:.0f} MB)", flush=True)
     of_python = {name: program for name, program in linters.items() if name in PYTHON_LINTERS}
     if of_python:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
@@ -10,9 +11,16 @@ from scaffold.check.engine_rules import RuleCrashed
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
-from scaffold.model.install.unused import is_copy_of_old_code, is_out_of_reach
+from scaffold.model.install.unused import (
+    is_copy_of_old_code,
+    is_in_uncalled_function,
+    is_out_of_reach,
+)
 from scaffold.model.package import Package
+from scaffold.model.python.guards import is_unevaluated
+from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 _OF_LINTERS = ("E9", "F")
 
@@ -99,7 +107,32 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     is_of_linters = code.startswith(_OF_LINTERS)
     if is_of_linters and runs_linter(package, diagnostic):
         return False
-    return is_copy_of_old_code(package, path) or (is_of_linters and is_out_of_reach(package, path))
+    if is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
+        return True
+    return is_of_linters and (
+        is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
+    )
+
+
+def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
+    """Tell whether an undefined name is in a function that is not called, or after the spin.
+
+    Or in an annotation that is not evaluated.
+    """
+    if undefined.code != "F821":
+        return False
+    at = undefined.location
+    try:
+        module = package.module(at.path)
+        if is_in_uncalled_function(package, at.path, at.line):
+            return True
+    except ViewError:
+        return False
+    return any(
+        only_while_stopping(module, name) or is_unevaluated(module, name)
+        for name in module.walk(ast.Name)
+        if (name.lineno, name.col_offset + 1) == (at.line, at.column)
+    )
 
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:

@@ -18,7 +18,7 @@ class Part(NamedTuple):
     """What was found in one go: by a rule in a package, or by all rules that read one file."""
 
     files: frozenset[str]
-    """The Python files that it depends on, by ``Package.full_path``."""
+    """The files that it depends on, by ``Package.full_path``."""
     facts: frozenset[FactId]
     """The facts of this and other packages that it depends on."""
     diagnostics: tuple[Diagnostic, ...]
@@ -27,8 +27,8 @@ class Part(NamedTuple):
 class Verdict(NamedTuple):
     """What was found in a package, in parts that hold while what they depend on is the same.
 
-    That is on condition that nothing but Python files was edited: after any other change nothing
-    of it holds.
+    That is on condition that nothing but files that are followed (`scaffold.model.reads`) was
+    edited: after any other change nothing of it holds.
     """
 
     parts: Mapping[str, Part]
@@ -52,7 +52,7 @@ class Earlier(NamedTuple):
     verdict: Verdict
     """Its style is that of the files as they are now."""
     edited: Collection[str]
-    """Python files of this and other packages, by ``Package.full_path``."""
+    """Files of this and other packages, by ``Package.full_path``."""
     settled: Settled
     """What this run has found out about the facts of the verdict."""
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.ament.settings import settings_of
+from scaffold.ament.settings import files_of_settings
 from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
 from scaffold.check.ament_rules import AMENT_RULES
@@ -154,9 +154,11 @@ class Session:
         results: list[Result] = []
         for target in targets:
             package = target.package
-            rules = self.check_rules(package, earlier.get(package.directory))
+            previous = earlier.get(package.directory)
+            rules = self.check_rules(package, previous)
             results.append(self.result(target, rules, style.by_file(package) if style else {}))
-            package.forget_views()
+            # The next packages may ask about the files that were edited, and know of all others.
+            package.forget_views(previous.edited if previous else ())
         return results
 
     def result(
@@ -287,8 +289,7 @@ class Session:
             verdict = check.verdict({})
         check.end()
         if verdict is not None:
-            tests = settings_of(package).tests
-            verdict = verdict._replace(configuring=frozenset(map(package.full_path, tests)))
+            verdict = verdict._replace(configuring=files_of_settings(package))
         count = sum(not self.adjustments.excludes(package, path) for path in package.files)
         foreign = tuple(sorted(self.adjustments.foreign_files(package).values()))
         left = {*reported}

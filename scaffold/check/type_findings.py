@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression, type_rules
+from scaffold.check.cache.facts import to_store
 from scaffold.check.result import Earlier, Part
 from scaffold.record import NamedTuple
 from scaffold.types.check import TypeCheck
@@ -13,7 +14,7 @@ from scaffold.types.check import TypeCheck
 if TYPE_CHECKING:
     from scaffold.check.type_rules import TypeRule
     from scaffold.diagnostic import Diagnostic
-    from scaffold.model.facts import FactId, StoredFact
+    from scaffold.model.facts import Fact, FactId, StoredFact
     from scaffold.model.package import Package
 
 
@@ -79,15 +80,17 @@ class TypeFindings:
             diagnostics = suppression.apply(package, diagnostics, codes)
         verdict = check.verdict({})
         check.end()
-        if reported:
-            package.forget_views()
         if verdict is None:
             return Typed(diagnostics)
         parts = dict(check.parts)
-        for path, files in self._check.reached_by(package).items():
+        facts: set[Fact] = set()
+        for path, reads in self._check.reached_by(package).items():
             judged = verdict.parts.get(path, _NOTHING)
-            parts[path] = judged._replace(files=judged.files | files)
-        return Typed(diagnostics, parts, verdict.facts)
+            files, used = reads.all()
+            facts |= used
+            ids = frozenset(item.id for item in used)
+            parts[path] = judged._replace(files=judged.files | files, facts=judged.facts | ids)
+        return Typed(diagnostics, parts, {**verdict.facts, **to_store(facts, (), {})})
 
 
 _NOTHING = Part(frozenset(), frozenset(), ())

@@ -31,7 +31,10 @@ class TypeRule(FileRule):
         return [*_reported(package)]
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
-        """Yield what is wrong in a file."""
+        """Yield what is wrong in a file; nothing in one for ROS 1, whose messages are others."""
+        roots = package.imports(path)
+        if "rospy" in roots and "rclpy" not in roots:
+            return
         for item in _reported(package).get(path, ()):
             if item.kind in self.kinds:
                 with suppress(ViewError):
@@ -44,7 +47,7 @@ class TypeRule(FileRule):
         result = self.judge(finding)
         if result is not None and finding.is_certain():
             passed = finding.passed_in()
-            comes = f" ({passed[0]!r} comes from line {passed[1]})" if passed else ""
+            comes = f" ({passed[0]!r} comes from {passed[1]})" if passed else ""
             yield result._replace(message=f"{result.message}{comes}")
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:

@@ -23,7 +23,7 @@ class EarlierFacts:
     Args:
         package: The package of the verdict.
         stored: The facts, also of packages around it.
-        edited: The Python files that were edited since, by ``Package.full_path``.
+        edited: The files that were edited since, by ``Package.full_path``.
         settled: What this run has found out about them; more is added.
     """
 
@@ -58,12 +58,12 @@ class EarlierFacts:
         return True
 
     def end(self) -> None:
-        """Stop recalling facts; packages compute them again.
+        """Stop recalling facts; packages compute them again, unless they did in this run.
 
         What is recalled for this package need not hold for others, which depend on other packages.
         """
         for directory in {directory for directory, _ in self._stored} & self._homes.keys():
-            self._homes[directory].forget_facts()
+            self._homes[directory].end_assumptions()
 
     def recall(self, wanted: FactId) -> Fact | None:
         """Return a fact if it is known to have the value that it had."""

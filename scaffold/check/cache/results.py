@@ -16,6 +16,7 @@ from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
 from scaffold.model.facts import StoredFact
+from scaffold.model.package import Identity
 from scaffold.model.reads import is_followed
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
     from scaffold.model.facts import FactId
-    from scaffold.model.package import Identity, Package
+    from scaffold.model.package import Package
 
 
 _NOTHING = Part(frozenset(), frozenset(), ())
@@ -38,8 +39,8 @@ class _Record(NamedTuple):
 
     directory: str
     only: tuple[str, ...] | None
-    identity: tuple[str, bool]
-    """What every other package may depend on."""
+    identity: tuple[str, bool, str, bool]
+    """See `Identity`."""
     needs: tuple[int, ...] | None
     """Places of the packages that the verdict depends on; ``None`` for all."""
     files: int
@@ -82,7 +83,8 @@ class ResultCache:
             return
         edits = [self._edits(run, at) for at in range(len(stored))]
         for record, target, edited in zip(stored, self._targets, edits, strict=True):
-            if edited is None and record.identity != tuple(target.package.identity):
+            is_same = edited is not None and all(path.endswith(".py") for path in edited)
+            if not is_same and record.identity != target.package.identity:
                 return
         for at, record in enumerate(stored):
             needs = [at, *(range(len(stored)) if record.needs is None else record.needs)]
@@ -95,7 +97,7 @@ class ResultCache:
                 self._remember(run, at, record, edited)
 
     def _edits(self, run: CachedRun, at: int) -> frozenset[str] | None:
-        """Return the Python files of a package that were edited, ``None`` after other changes."""
+        """Return the followed files of a package that were edited, ``None`` after other changes."""
         package = self._targets[at].package
         changed = run.changed(at)
         if changed is None:
@@ -126,7 +128,7 @@ class ResultCache:
             self._trees[at] = {asked: answer for asked, answer in seen if asked not in full}
         else:
             return
-        package.identify(*record.identity)
+        package.identify(Identity(*record.identity))
         self._outside = run.outside
 
     def run(self, session: Session) -> Iterator[Result]:
@@ -201,8 +203,12 @@ def _encode_findings(result: Result, encode: _Encode) -> bytes:
 def _is_unaffected(
     package: Package, verdict: tuple[Any, ...] | None, edited: frozenset[str]
 ) -> bool:
-    """Tell whether no finding in a package depends on the edited files."""
-    if verdict is None or any(path.startswith(package.full_path("")) for path in edited):
+    """Tell whether no finding in a package depends on the edited files.
+
+    Which of its findings count may depend on the manifests of other packages.
+    """
+    start = package.full_path("")
+    if verdict is None or any(path.startswith(start) or path[-3:] != ".py" for path in edited):
         return False
     paths, parts, types, *_, facts, _ = verdict
     places = {at for at, path in enumerate(paths) if path in edited}

@@ -41,7 +41,7 @@ ENVIRONMENT = (
 SCREEN = ("COLORTERM", "COLUMNS", "FORCE_COLOR", "LINES", "NO_COLOR", "TERM")
 """The variables that only decide how they are shown."""
 
-_MAGIC = b"scaffold-run-7\n"
+_MAGIC = b"scaffold-run-8\n"
 
 
 class CachedRun:

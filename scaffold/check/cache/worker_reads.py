@@ -10,7 +10,7 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.files.disk import Answer, Disk, Question
-    from scaffold.model.package import Package
+    from scaffold.model.package import Identity, Package
 
 
 class _Seen(NamedTuple):
@@ -33,7 +33,7 @@ class WorkerReads(NamedTuple):
     at: int
     inside: _Seen
     outside: _Seen
-    identity: tuple[str, bool] | None
+    identity: Identity | None
     used: tuple[int, ...]
     uses_all: bool
     uses_interfaces: bool
@@ -52,7 +52,7 @@ class WorkerReads(NamedTuple):
         package.outside.note(self.outside.seen, is_settled=self.outside.is_settled)
         package.is_repeatable &= self.is_repeatable
         if self.identity is not None:
-            package.identify(*self.identity)
+            package.identify(self.identity)
         around = package.workspace
         around.used.update((id(packages[at]), packages[at]) for at in self.used)
         around.uses_all |= self.uses_all

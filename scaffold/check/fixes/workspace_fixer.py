@@ -46,6 +46,7 @@ class _Piece:
         """Of the last check."""
         self.checked = self.overlay
         """The files as they were then."""
+        self.identity = target.package.identity
         self.earlier: Earlier | None = None
         """What is left of the last check, for the next one."""
         self.style: dict[str, Sequence[Diagnostic]] = {}
@@ -60,6 +61,7 @@ class _Piece:
     def take(self, result: Result) -> None:
         """Keep what a check found."""
         self.result, self.checked, self.earlier = result, self.overlay, None
+        self.identity = self.package.identity
         self.style.clear()
 
     def apply(self, diagnostics: list[Diagnostic], *, unsafe: bool) -> bool:
@@ -71,16 +73,18 @@ class _Piece:
         return applied > 0
 
     def edited(self) -> frozenset[str] | None:
-        """Return the Python files that differ from the last check, ``None`` if others do."""
+        """Return the followed files that differ from the last check, ``None`` if others do."""
         edited = self.overlay.edited_since(self.checked)
         if edited is None or not all(map(is_followed, edited)):
+            return None
+        if self.package.identity != self.identity:
             return None
         return frozenset(map(self.package.full_path, edited))
 
     def leave(self, edited: frozenset[str] | None) -> None:
         """Keep of the last check what does not depend on edited files, for the next one."""
         verdict = self.result.verdict if self.result is not None else None
-        if edited is not None and verdict is not None:
+        if edited is not None and verdict is not None and edited.isdisjoint(verdict.configuring):
             left = Earlier.of(self.package, verdict, edited)
             style = {**left.verdict.style, **self.style}
             self.earlier = left._replace(verdict=left.verdict._replace(style=style))

@@ -9,6 +9,8 @@ import pytest
 from scaffold.check.cache.facts import EarlierFacts, to_store
 from scaffold.model.facts import Fact, FactId, StoredFact, fact
 from scaffold.model.package import Package
+from scaffold.model.rclpy.attributes import is_used_elsewhere
+from scaffold.model.rclpy.file import rclpy_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,7 +29,7 @@ def count_of_imports(package: Package, path: str) -> int:
 def stored(package: Package) -> Mapping[FactId, StoredFact]:
     """Ask for facts; return them as an earlier run stored them."""
     package.imports("a.py")
-    package.occurrences("os")
+    package.is_mentioned_once("os", "a.py")
     return to_store(package.facts, (), {})
 
 
@@ -71,3 +73,43 @@ def test_a_recalled_fact_knows_what_it_is_made_of() -> None:
     recalled = [earlier.recall(wanted) for wanted in facts if "count" in str(wanted)]
     assert to_store(filter(None, recalled), (), {}) == facts
     assert len(facts) == 2
+
+
+@pytest.mark.parametrize(
+    ("other", "holds"), [("y = 2\n", True), ("tick()\n", False), ("tick.tock = 1\n", False)]
+)
+@pytest.mark.parametrize("own", ["def tick(): ...\n", "def tick(): ...\n\n\ntick()\n"])
+def test_a_word_that_is_mentioned_twice_in_its_file_does_not_depend_on_others(
+    own: str, other: str, *, holds: bool
+) -> None:
+    package = Package.of({"a.py": own, "b.py": "y = 1\n"})
+    is_once = package.is_mentioned_once("tick", "a.py")
+    facts = to_store(package.facts, (), {})
+    earlier = EarlierFacts(Package.of({"a.py": own, "b.py": other}), facts, {"/b.py"}, {})
+    assert earlier.hold(facts) is (holds or not is_once)
+
+
+@pytest.mark.parametrize(
+    ("other", "is_used"),
+    [
+        ("def stop(node):\n    node.worker.start()\n", True),
+        ("class B:\n    def run(self):\n        self.worker.start()\n", True),
+        (
+            "class B:\n    def run(self):\n        self.worker = 1\n        self.worker += 1\n",
+            False,
+        ),
+        ("worker = 1\n", False),
+    ],
+)
+def test_an_attribute_is_looked_for_again_in_the_edited_file_alone(
+    other: str, *, is_used: bool
+) -> None:
+    texts = {"a.py": "class A:\n    def __init__(self):\n        self.worker = 1\n", "c.py": ""}
+    package = Package.of({**texts, "b.py": "y = 1\n"})
+    assert not is_used_elsewhere(package, rclpy_file(package, "a.py"), "worker")
+    facts = to_store(package.facts, (), {})
+    edited = Package.of({**texts, "b.py": other})
+    earlier = EarlierFacts(edited, facts, {"/b.py"}, {})
+    assert earlier.hold(facts) is not is_used
+    assert not edited.parsed_module("c.py")
+    assert is_used_elsewhere(edited, rclpy_file(edited, "a.py"), "worker") is is_used
