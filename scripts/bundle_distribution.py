@@ -172,41 +172,6 @@ def compared_names(old: Mapping[str, str], new: Mapping[str, str]) -> str:
     return "".join(lines)
 
 
-# -- arguments
-
-
-def arguments(files: Mapping[str, str]) -> dict[str, str]:
-    """Return the arguments of functions and methods: by position, a bar, by name only."""
-    result: dict[str, str] = {}
-    for path, text in files.items():
-        module = module_name(path)
-        for node in _flat(ast.parse(text).body):
-            if isinstance(node, Function):
-                result[f"{module}.{node.name}"] = _listed(node, 0)
-            if not isinstance(node, ast.ClassDef):
-                continue
-            for item in _flat(node.body):
-                if isinstance(item, Function):
-                    name = "" if item.name == "__init__" else f".{item.name}"
-                    result[f"{module}.{node.name}{name}"] = _listed(item, 1)
-    return result
-
-
-def _listed(node: Function, skipped: int) -> str:
-    positional = [item.arg for item in [*node.args.posonlyargs, *node.args.args]]
-    extra = ["..."] if node.args.kwarg is not None else []
-    keywords = [item.arg for item in node.args.kwonlyargs]
-    return " ".join([*positional[skipped:], "|", *keywords, *extra])
-
-
-def compared_arguments(old: Mapping[str, str], new: Mapping[str, str]) -> str:
-    """Return the functions that take other arguments than on the base, a line each."""
-    before, after = arguments(old), arguments(new)
-    public = [name for name in after if "._" not in name]
-    lines = [f"{name}: {after[name]}\n" for name in public if before.get(name) != after[name]]
-    return "".join(sorted(lines))
-
-
 # -- stubs
 
 
@@ -491,7 +456,6 @@ def main() -> int:
     changed, gone = stubs(sources, name)
     files = {
         "names.txt": compared_names(old, new),
-        "arguments.txt": compared_arguments(old, new),
         "interfaces.txt": interfaces(sources, name),
         "removed_stubs.txt": "".join(f"{path}\n" for path in gone),
         **{f"stubs/{path}": of_subclasses(text) for path, text in changed.items()},

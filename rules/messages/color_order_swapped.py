@@ -37,7 +37,7 @@ class ColorOrderSwapped(MessageRule):
     """An image with red first is treated as one with blue first, or the other way round.
 
     **Why.** Red and blue are swapped, and nothing complains: thresholds in HSV find nothing, or
-    the wrong object.
+    the wrong object. cv_bridge refuses a gray image that is sent as one with colors.
 
     **Fix.** Ask cv_bridge for ``bgr8``, which OpenCV works with, or use ``COLOR_RGB2...``.
 
@@ -65,6 +65,44 @@ class ColorOrderSwapped(MessageRule):
                 "swapped; use COLOR_RGB2HSV",
             ),
             Report("b.py:8:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
+        ),
+        Example(
+            "one channel for three",
+            {
+                "a.py": _FILE.format("bgr8").replace(
+                    "cv2.imread(path)", "cv2.cvtColor(path, cv2.COLOR_BGR2GRAY)"
+                ),
+                "b.py": _FILE.format("rgb8").replace(
+                    "frame = cv2.imread(path)",
+                    "gray = cv2.cvtColor(path, cv2.COLOR_BGR2GRAY)\n"
+                    "    _, frame = cv2.threshold(gray, 120, 255, cv2.THRESH_BINARY)",
+                ),
+                "c.py": _FILE.format("mono8").replace("imread(path)", "inRange(path, 1, 2)"),
+            },
+            Report(
+                "a.py:8:12", "'frame' is gray, but is sent as BGR: CvBridgeError; write 'mono8'"
+            ),
+            Report(
+                "b.py:9:12", "'frame' is gray, but is sent as RGB: CvBridgeError; write 'mono8'"
+            ),
+        ),
+        Example(
+            "an image that a method is given",
+            {
+                "a.py": "import cv2\nfrom cv_bridge import CvBridge\n"
+                "from sensor_msgs.msg import Image\n\n\n"
+                "class Finder:\n"
+                "    def on_image(self, msg: Image):\n"
+                "        image = CvBridge().imgmsg_to_cv2(msg, 'bgr8')\n"
+                "        self.find(image)\n\n"
+                "    def find(self, frame):\n"
+                "        return cv2.cvtColor(frame, cv2.COLOR_RGB2HSV)\n"
+            },
+            Report(
+                "12:36",
+                "'frame' is BGR, but COLOR_RGB2HSV takes RGB: red and blue are "
+                "swapped; use COLOR_BGR2HSV",
+            ),
         ),
         Example(
             "a converted image, and one of a camera",
@@ -118,16 +156,62 @@ class ColorOrderSwapped(MessageRule):
                 case ast.Call(
                     func=ast.Attribute(attr="cv2_to_imgmsg"), args=[ast.Name() as image, *_]
                 ):
-                    order = _order(types, image)
-                    wanted_order = _ORDER.get(_encoding(types, call, "encoding"), "")
-                    if order and wanted_order and order != wanted_order:
-                        message = (
-                            f"{image.id!r} is {order}, but is sent as {wanted_order}: red and "
-                            "blue are swapped"
-                        )
-                        yield self.report(module.location(call), message)
+                    problem = _sent_problem(types, call, image)
+                    if problem:
+                        yield self.report(module.location(call), problem)
 
 
+def _sent_problem(types: MessageTypes, call: ast.Call, image: ast.Name) -> str:
+    """Return why an image does not fit the encoding that it is sent with; empty if it may."""
+    wanted = _ORDER.get(_encoding(types, call, "encoding"), "")
+    if wanted and _is_gray(types, image):
+        return f"{image.id!r} is gray, but is sent as {wanted}: CvBridgeError; write 'mono8'"
+    order = _order(types, image)
+    if order and wanted and order != wanted:
+        return f"{image.id!r} is {order}, but is sent as {wanted}: red and blue are swapped"
+    return ""
+
+
+def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
+    """Tell whether an image was converted to gray, or made a mask, and at most filtered since."""
+    for _ in range(_DEEPEST):
+        made = (
+            _thresholded(types, image)
+            or _value_before(types, image)
+            or types.facts.evaluator.single_value(image)
+        )
+        if not isinstance(made, ast.Call) or not made.args:
+            return False
+        names = [types.module.qualified_name(node) or "" for node in (made.func, *made.args[1:2])]
+        if names[0] in {"cv2.cvtColor", "cv2.inRange"}:
+            return names[0] == "cv2.inRange" or names[-1].endswith("2GRAY")
+        if names[0] not in _FILTERS or not isinstance(made.args[0], ast.Name):
+            return False
+        image = made.args[0]
+    return False
+
+
+def _thresholded(types: MessageTypes, image: ast.Name) -> ast.Call | None:
+    """Return the call of ``_, mask = cv2.threshold(...)`` that gives an image its only value."""
+    lookup = types.module.index.lookup(image.id, image)
+    if lookup is None or len(lookup[1]) != 1:
+        return None
+    match types.module.parent(types.module.parent(lookup[1][0].node) or image):
+        case ast.Assign(
+            targets=[ast.Tuple(elts=[_, ast.Name(id=name)])], value=ast.Call() as made
+        ) if name == image.id:
+            is_threshold = types.module.qualified_name(made.func) == "cv2.threshold"
+            return made if is_threshold else None
+    return None
+
+
+_FILTERS = frozenset(
+    f"cv2.{name}"
+    for name in (
+        *("GaussianBlur", "medianBlur", "blur", "bilateralFilter", "resize", "flip", "rotate"),
+        *("equalizeHist", "dilate", "erode", "Canny", "threshold", "adaptiveThreshold"),
+    )
+)
 _DEEPEST = 5
 """The most conversions that an image is followed through."""
 
@@ -136,6 +220,9 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     """Return the order of colors that an image has; empty if it is not known."""
     if _is_frame(types, image):
         return "BGR"
+    passed = _passed(types, image)
+    if passed is not None:
+        return _order(types, passed, depth - 1) if depth else ""
     made = _value_before(types, image) or types.facts.evaluator.single_value(image)
     if not isinstance(made, ast.Call):
         return ""
@@ -144,6 +231,24 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     if isinstance(made.func, ast.Attribute) and made.func.attr == "imgmsg_to_cv2":
         return _ORDER.get(_encoding(types, made, "desired_encoding"), "")
     return _converted_order(types, made, depth)
+
+
+def _passed(types: MessageTypes, image: ast.Name) -> ast.Name | None:
+    """Return the image that the only call of a function gives it as this parameter."""
+    module = types.module
+    parameter = types.facts.parameter_of(image)
+    function = module.enclosing_function(image)
+    if parameter is None or function is None or _value_before(types, image) is not None:
+        return None
+    names = [argument.arg for argument in function.args.args]
+    uses = [*module.index.names(function.name), *module.index.attributes(function.name)]
+    match [module.parent(use) for use in uses], uses:
+        case [ast.Call(func=called, args=given, keywords=[]) as call], [use] if called is use:
+            place = names.index(parameter.arg) - int(isinstance(use, ast.Attribute))
+            value = given[place] if 0 <= place < len(given) else None
+            is_own = types.facts.callback(call.func).function is function
+            return value if is_own and isinstance(value, ast.Name) else None
+    return None
 
 
 def _converted_order(types: MessageTypes, call: ast.Call, depth: int) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
+from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes, TypeMismatches
 
 _CODE = (
@@ -41,6 +42,7 @@ _SCAN = (
     "        return message, near\n"
 )
 _RIGHT = ("20.0 + self.count", "[0.1] * 9", "min(self.count, 255)", "True", "f'{self.count}'")
+_FOR_INTS = {"bool": "bool", "float32": "float", "float64": "float"}
 
 
 class FieldValueUnfit(MessageRule):
@@ -133,7 +135,11 @@ class FieldValueUnfit(MessageRule):
                 "'data' of std_msgs/msg/UInt8 is uint8, but self.count grows "
                 "without bound in line 18: uint8 holds 0 to 255",
             ),
-            Report("19:26", "'data' of std_msgs/msg/Bool is bool, but 1 is an int"),
+            Report(
+                "19:26",
+                "'data' of std_msgs/msg/Bool is bool, but 1 is an int: subscribers "
+                "get False; write bool(...)",
+            ),
             Report("19:42", "'data' of std_msgs/msg/String is string, but self.count is an int"),
         ),
         Example(
@@ -154,7 +160,11 @@ class FieldValueUnfit(MessageRule):
                 "        text.data = self.get_parameter('text')\n"
                 "        return raw, scaled, text\n"
             },
-            Report("8:28", "'data' of std_msgs/msg/Float64 is float64, but count.data is an int"),
+            Report(
+                "8:28",
+                "'data' of std_msgs/msg/Float64 is float64, but count.data is an "
+                "int: subscribers get another number; write float(...)",
+            ),
             Report(
                 "10:28",
                 "'data' of std_msgs/msg/String is string, but 'a'.upper().encode() is bytes",
@@ -319,7 +329,11 @@ class FieldValueUnfit(MessageRule):
                 "numbers = Float32MultiArray(data=0.5)\n"
                 "small = Int8(data=-129)\n"
             },
-            Report("5:18", "'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int"),
+            Report(
+                "5:18",
+                "'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int: "
+                "subscribers get another number; write float(...)",
+            ),
             Report(
                 "6:22",
                 "'position' of geometry_msgs/msg/Pose is geometry_msgs/Point, but "
@@ -350,4 +364,16 @@ class FieldValueUnfit(MessageRule):
                     misfits.is_alike(item) or misfits.is_zero(item) or misfits.is_unreachable(item)
                 )
                 severity = Severity.WARNING if is_harmless else Severity.ERROR
+                message += "" if is_harmless else _consequence(item.field.type.name, problem)
                 yield self.report(types.module.location(item.value), message, severity=severity)
+
+
+def _consequence(type_: str, problem: str) -> str:
+    """Return what comes of an int in a field for other numbers, and what to write."""
+    instead = _FOR_INTS.get(type_, "") if problem.endswith(" is an int") else ""
+    if not instead:
+        return ""
+    is_sent = target().fact("messages.has_check_fields")
+    arrives = "another number" if instead == "float" else "False"
+    outcome = f"subscribers get {arrives}" if is_sent else "AssertionError"
+    return f": {outcome}; write {instead}(...)"

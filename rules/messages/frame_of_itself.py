@@ -41,7 +41,7 @@ class FrameOfItself(RclpyRule):
 
     code = "MS013"
     name = "frame-of-itself"
-    other_severities = {Severity.WARNING: "a child that is above its parent in REP 105"}
+    other_severities = {Severity.WARNING: "the child is above its parent in REP 105"}
     examples = (
         Example("two frames", {"odometry.py": _NODE.format("'odom'", "'base_link'")}),
         Example(

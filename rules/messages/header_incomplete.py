@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
-from scaffold.api.messages import MessageTypes, unstamped
+from scaffold.api.messages import MessageTypes, childless, unstamped
+from scaffold.api.rclpy import is_used_elsewhere
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import Temperature\n\n\n"
@@ -73,6 +74,27 @@ class HeaderIncomplete(MessageRule):
             ),
         ),
         Example(
+            "odometry of no child",
+            {
+                "odom.py": "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n\n\n"
+                "class Wheels(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('wheels')\n"
+                "        self.publisher = self.create_publisher(Odometry, 'odom', 10)\n\n"
+                "    def tick(self):\n"
+                "        odometry = Odometry()\n"
+                "        odometry.header.stamp = self.get_clock().now().to_msg()\n"
+                "        odometry.header.frame_id = 'odom'\n"
+                "        odometry.twist.twist.linear.x = 0.5\n"
+                "        self.publisher.publish(odometry)\n"
+            },
+            Report(
+                "11:20",
+                "nav_msgs/msg/Odometry is sent in line 15 without a child frame; "
+                "set child_frame_id",
+            ),
+        ),
+        Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
     )
@@ -81,21 +103,26 @@ class HeaderIncomplete(MessageRule):
         if types.module.in_tests:
             return
         for unset in unstamped(types):
-            if _is_used_elsewhere(package, types, unset.sent.args[0]):
-                continue
-            line = types.module.location(unset.sent).line
-            what = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
-            message = (
-                f"{unset.message.name} is published in line {line} {what}; "
-                f"set header.{unset.missing}"
-            )
-            yield self.report(types.module.location(unset.made), message)
+            if _is_ours(package, types, unset.sent.args[0]):
+                line = types.module.location(unset.sent).line
+                what = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
+                message = (
+                    f"{unset.message.name} is published in line {line} {what}; "
+                    f"set header.{unset.missing}"
+                )
+                yield self.report(types.module.location(unset.made), message)
+        for unset in childless(types):
+            if _is_ours(package, types, unset.sent.args[0]):
+                line = types.module.location(unset.sent).line
+                message = (
+                    f"{unset.message.name} is sent in line {line} without a child frame; "
+                    "set child_frame_id"
+                )
+                yield self.report(types.module.location(unset.made), message)
 
 
-def _is_used_elsewhere(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
-    """Return whether another file uses the attribute that holds a message."""
-    return isinstance(sent, ast.Attribute) and any(
-        module.index.attributes(sent.attr)
-        for module in package.modules()
-        if module is not types.module
+def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
+    """Tell whether no other module uses the attribute that holds a message."""
+    return not isinstance(sent, ast.Attribute) or not is_used_elsewhere(
+        package, types.facts, sent.attr
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
@@ -50,6 +50,69 @@ class MarkerNotShown(MessageRule):
     examples = (
         Example("colored, numbered", {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")}),
         Example(
+            "made by a function that a loop calls: no alpha, one id",
+            {
+                "show.py": "from visualization_msgs.msg import Marker, MarkerArray\n\n\n"
+                "def shown(place):\n"
+                "    marker = Marker(ns='trees', id=1, type=Marker.CYLINDER)\n"
+                "    marker.pose.position = place\n"
+                "    marker.scale.x = marker.scale.y = marker.scale.z = 0.3\n"
+                "    marker.color.g = 1.0\n"
+                "    return marker\n\n\n"
+                "def fill(array: MarkerArray, places):\n"
+                "    for place in places:\n"
+                "        array.markers.append(shown(place))\n"
+            },
+            Report(
+                "5:14",
+                "all markers of this loop have the id 1: RViz shows the last one; count them",
+            ),
+            Report("5:14", "nothing sets color.a, which is 0 then: RViz does not show this marker"),
+        ),
+        Example(
+            "made by a function for a list: one id",
+            {
+                "show.py": "from visualization_msgs.msg import Marker, MarkerArray\n\n\n"
+                "def shown(place):\n"
+                "    marker = Marker(type=Marker.SPHERE)\n"
+                "    marker.pose.position = place\n"
+                "    marker.scale.x = marker.scale.y = marker.scale.z = 0.3\n"
+                "    marker.color.a = 1.0\n"
+                "    return marker\n\n\n"
+                "def all_of(places):\n"
+                "    return MarkerArray(markers=[shown(place) for place in places])\n"
+            },
+            Report(
+                "5:14",
+                "all markers of this loop have the id 0: RViz shows the last one; count them",
+            ),
+        ),
+        Example(
+            "a color without alpha",
+            {
+                "show.py": "from std_msgs.msg import ColorRGBA\n"
+                "from visualization_msgs.msg import Marker\n\n"
+                "RED = ColorRGBA(r=1.0)\nBLUE = ColorRGBA(b=1.0, a=1.0)\n"
+                "MARKERS = [Marker(color=RED), Marker(color=BLUE)]\n"
+            },
+            Report("4:7", "this color has no a, which is 0 then: RViz does not show it; add a=1.0"),
+        ),
+        Example(
+            "made by a function whose result is changed later",
+            {
+                "show.py": "from visualization_msgs.msg import Marker\n\n\n"
+                "def shown(place):\n"
+                "    marker = Marker()\n"
+                "    marker.pose.position = place\n"
+                "    return marker\n\n\n"
+                "def fill(array, places):\n"
+                "    for place in places:\n"
+                "        marker = shown(place)\n"
+                "        marker.color.a = 1.0\n"
+                "        array.markers.append(marker)\n"
+            },
+        ),
+        Example(
             "possibly set elsewhere",
             {"show.py": _NODE.format("number", "r", "self.paint(marker)")},
         ),
@@ -88,25 +151,43 @@ class MarkerNotShown(MessageRule):
             match assignment:
                 case ast.Assign(targets=[ast.Name() as name], value=ast.Call(args=[]) as made):
                     class_ = types.class_of(made.func)
-                    if class_ is not None and class_.name == _MARKER and not made.keywords:
+                    is_marker = class_ is not None and class_.name == _MARKER
+                    if is_marker and all(word.arg for word in made.keywords):
                         for problem in _problems(types, assignment, name):
                             yield self.report(types.module.location(made), problem)
+        for color in _transparent(types):
+            message = "this color has no a, which is 0 then: RViz does not show it; add a=1.0"
+            yield self.report(types.module.location(color), message)
+
+
+def _transparent(types: MessageTypes) -> Iterator[ast.Call]:
+    """Yield the colors that are made without alpha in a file about markers that never sets it."""
+    if not types.module.mentions("Marker"):
+        return
+    for call in types.module.walk(ast.Call):
+        words = {word.arg for word in call.keywords}
+        if words and not words & {"a", None} and words <= {"r", "g", "b", "check_fields"}:
+            class_ = types.class_of(call.func)
+            is_set = any(isinstance(x.ctx, ast.Store) for x in types.module.index.attributes("a"))
+            if class_ is not None and class_.name == "std_msgs/msg/ColorRGBA" and not is_set:
+                yield call
 
 
 def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator[str]:
     uses = _uses(types, name)
-    if uses is None:
+    if uses is None or not isinstance(made.value, ast.Call):
         return
-    actions = {types.module.text(value) for value in _given(types, uses, "action")}
-    fields = {types.module.text(use).partition(".")[2] for use in uses}
+    words = {word.arg or "": word.value for word in made.value.keywords}
+    actions = {types.module.text(value) for value in _given(types, uses, words, "action")}
+    fields = {types.module.text(use).partition(".")[2] for use in uses} | words.keys()
     if actions <= _ADDING and fields.isdisjoint(_COLORS):
         yield "nothing sets color.a, which is 0 then: RViz does not show this marker"
     if actions <= _ADDING and not any(field.startswith("scale") for field in fields):
         yield "nothing sets scale, which is 0 then: RViz does not show this marker"
-    loop = next((p for p in types.module.parents(made) if isinstance(p, ast.For)), None)
+    loop = _loop_around(types, made)
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
-    ids, spaces = (list(_given(types, uses, key)) for key in ("id", "ns"))
+    ids, spaces = (list(_given(types, uses, words, key)) for key in ("id", "ns"))
     values = [types.facts.evaluator.evaluate(value) for value in (*ids, *spaces)]
     if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):
         shown = f"the id {values[0]}" if ids else "the id 0"
@@ -138,24 +219,73 @@ def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None
                 if isinstance(field.ctx, ast.Load) and above.attr == "color":
                     return None
                 result.append(field)
-            case ast.Call(func=ast.Attribute(attr="append" | "publish"), args=[only]) if (
-                only is use
-            ):
-                is_sent = True
-            case ast.List():
+            case _ if _is_sending(types, above, use):
                 is_sent = True
             case _:
                 return None
     return result if is_sent else None
 
 
-def _given(types: MessageTypes, uses: Sequence[ast.Attribute], field: str) -> Iterator[ast.expr]:
-    """Yield what is assigned to a field."""
+def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> bool:
+    """Tell whether a marker is appended, published, or returned to what does that."""
+    match node:
+        case ast.Call(func=ast.Attribute(attr="append" | "publish"), args=[only]):
+            return only is use
+        case ast.Return():
+            return bool(_calls_appended(types, node))
+    return isinstance(node, ast.List)
+
+
+def _calls_appended(types: MessageTypes, node: ast.AST) -> Sequence[ast.Call]:
+    """Return the calls of the function around a place if all results are appended or published."""
+    module = types.module
+    function = module.enclosing_function(node)
+    if function is None or function.decorator_list:
+        return ()
+    uses = [*module.index.names(function.name), *module.index.attributes(function.name)]
+    calls = [module.parent(use) for use in uses]
+    for use, call in zip(uses, calls, strict=True):
+        match module.parent(call) if isinstance(call, ast.Call) and call.func is use else None:
+            case ast.Call(func=ast.Attribute(attr="append" | "publish"), args=[only]) if (
+                only is call
+            ):
+                continue
+            case ast.ListComp(elt=only) as listed if only is call and _is_filling(types, listed):
+                continue
+        return ()
+    return [call for call in calls if isinstance(call, ast.Call)]
+
+
+def _is_filling(types: MessageTypes, listed: ast.ListComp) -> bool:
+    """Tell whether a list of markers goes into a message as it is."""
+    match types.module.parent(listed):
+        case ast.Assign(targets=[ast.Attribute(attr="markers")]) | ast.keyword(arg="markers"):
+            return True
+    return False
+
+
+def _loop_around(types: MessageTypes, made: ast.Assign) -> ast.For | ast.ListComp | None:
+    """Return the loop that makes a marker, by itself or by calling the function that does."""
+    calls = _calls_appended(types, made)
+    places: list[ast.AST] = [made, *(calls if len(calls) == 1 else ())]
+    above = (parent for place in places for parent in types.module.parents(place))
+    return next((parent for parent in above if isinstance(parent, ast.For | ast.ListComp)), None)
+
+
+def _given(
+    types: MessageTypes,
+    uses: Sequence[ast.Attribute],
+    words: Mapping[str, ast.expr],
+    field: str,
+) -> Iterator[ast.expr]:
+    """Yield what is assigned to a field, or passed for it."""
+    if field in words:
+        yield words[field]
     for use in uses:
         above = types.module.parent(use)
         if use.attr == field and isinstance(above, ast.Assign) and isinstance(use.ctx, ast.Store):
             yield above.value
 
 
-def _ends_early(loop: ast.For) -> bool:
+def _ends_early(loop: ast.AST) -> bool:
     return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))

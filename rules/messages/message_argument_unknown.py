@@ -30,6 +30,19 @@ class MessageArgumentUnknown(MessageRule):
     examples = (
         Example("a field", {"talker.py": _PREFIX.format("data='hello'")}),
         Example("unpacked arguments", {"talker.py": _PREFIX.format("**fields, check_fields=True")}),
+        Example("passed on", {"talker.py": _PREFIX.format("*args, **fields")}),
+        Example(
+            "the results of a function, by position",
+            {
+                "turn.py": "from geometry_msgs.msg import Quaternion\n"
+                "from tf_transformations import quaternion_from_euler\n\n"
+                "TURNED = Quaternion(*quaternion_from_euler(0.0, 0.0, 1.57))\n"
+            },
+            Report(
+                "4:21",
+                "geometry_msgs/msg/Quaternion takes only keyword arguments: TypeError; write x=...",
+            ),
+        ),
         Example(
             "misspelled",
             {"talker.py": _PREFIX.format("dta='hello'")},
@@ -94,7 +107,7 @@ class MessageArgumentUnknown(MessageRule):
 def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     has = [field.name for field in owner.section.fields]
     more = ["check_fields"] if target().fact("messages.has_check_fields") else []
-    if call.args and not isinstance(call.args[0], ast.Starred):
+    if call.args and not _may_be_empty(call.args[0]):
         example = f"; write {has[0]}=..." if has else ""
         yield call.args[0], f"{owner.name} takes only keyword arguments: TypeError{example}"
     for word in call.keywords:
@@ -106,3 +119,8 @@ def _flaws(owner: MessageClass, call: ast.Call) -> Iterator[tuple[ast.AST, str]]
                 f"(definition: {owner.origin})"
             )
             yield word, message
+
+
+def _may_be_empty(given: ast.expr) -> bool:
+    """Tell whether an argument is ``*args``, which a function of the user passes on."""
+    return isinstance(given, ast.Starred) and isinstance(given.value, ast.Name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
@@ -51,6 +52,22 @@ class ObjectAppendedAgain(MessageRule):
                     "        self.path.poses.append(pose)"
                 )
             },
+        ),
+        Example(
+            "a list of one object, several times: filled one by one, or all alike",
+            {
+                "a.py": _LOOP.format(
+                    "    array.poses = [Pose()] * 2\n    poses = [Pose()] * 3\n"
+                    "    for x, pose in enumerate(poses):\n"
+                    "        pose.position.x = float(x)\n"
+                    "    poses = [Pose() for _ in range(3)]\n"
+                )
+            },
+            Report(
+                "7:13",
+                "a list with one object several times: what is set in one element "
+                "is set in all; write [Pose() for _ in range(...)]",
+            ),
         ),
         Example(
             "a list that is new; a copy",
@@ -123,6 +140,44 @@ class ObjectAppendedAgain(MessageRule):
                             f"are the last {text}; make a new one before it is filled"
                         )
                         yield self.report(types.module.location(item), message)
+        for assigned in types.module.walk(ast.Assign):
+            multiplied = _multiplied(types, assigned)
+            if multiplied:
+                message = (
+                    f"a list with one object several times: what is set in one element is set in "
+                    f"all; write [{multiplied} for _ in range(...)]"
+                )
+                yield self.report(types.module.location(assigned.value), message)
+
+
+def _multiplied(types: MessageTypes, assigned: ast.Assign) -> str:
+    """Return the message that is multiplied in a list whose elements are filled one by one."""
+    match assigned:
+        case ast.Assign(
+            targets=[ast.Name(id=name)],
+            value=ast.BinOp(left=ast.List(elts=[ast.Call() as made]), op=ast.Mult()),
+        ) if types.class_of(made.func) is not None:
+            function = types.module.enclosing_function(assigned)
+            if function is not None and _fills_elements(types, function, name):
+                return types.module.text(made)
+    return ""
+
+
+def _fills_elements(types: MessageTypes, function: ast.AST, name: str) -> bool:
+    """Tell whether fields of the elements of a list are assigned."""
+    elements = {
+        target.id
+        for loop in types.module.below(function, ast.For)
+        if re.search(rf"\b{name}\b", types.module.text(loop.iter))
+        for target in ast.walk(loop.target)
+        if isinstance(target, ast.Name)
+    }
+    stores = types.module.below(function, ast.Attribute)
+    starts = (f"{name}[", *(f"{element}." for element in elements))
+    return any(
+        isinstance(store.ctx, ast.Store) and types.module.text(store).startswith(starts)
+        for store in stores
+    )
 
 
 def _made_once(

@@ -57,6 +57,16 @@ class PrivateTopicDiffers(Rule):
             ),
         ),
         Example(
+            "remapped by a launch file",
+            {
+                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "launch/talk.launch.py": "from launch_ros.actions import Node\n\n"
+                "LISTENER = Node(package='talk', executable='b',\n"
+                "                remappings=[('chatter', 'a/chatter')])\n",
+            },
+        ),
+        Example(
             "private to the node that subscribes",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
@@ -80,7 +90,8 @@ class PrivateTopicDiffers(Rule):
                 continue
             for topic in awaited if is_sent else sent:
                 other = topic.subscriptions[0] if is_sent else topic.publishers[0]
-                if topic.is_plain and _is_same_but_private(other, private):
+                is_same = topic.is_plain and _is_same_but_private(other, private)
+                if is_same and not is_remapped(package, other):
                     here, there = (other, private) if is_sent else (private, other)
                     place = f"{there.location.path}:{there.location.line}"
                     message = (

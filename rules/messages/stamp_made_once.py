@@ -37,7 +37,7 @@ class StampMadeOnce(RclpyRule):
 
     code = "MS012"
     name = "stamp-made-once"
-    other_severities = {Severity.WARNING: "a message that is made once is sent again"}
+    other_severities = {Severity.WARNING: "a message that is made once is sent again and again"}
     examples = (
         Example(
             "the time of the message",

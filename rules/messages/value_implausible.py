@@ -76,7 +76,9 @@ class ValueImplausible(MessageRule):
 
     code = "MS026"
     name = "value-implausible"
-    other_severities = {Severity.WARNING: "a range or an encoding that other programs may accept"}
+    other_severities = {
+        Severity.WARNING: "it is a range or an encoding that other programs may accept"
+    }
     examples = (
         Example("plausible", {"talker.py": _NODE.format(*_GOOD)}),
         Example(
@@ -118,6 +120,85 @@ class ValueImplausible(MessageRule):
             Report("8:40", "unknown encoding 'bgr': CvBridgeError; write 'bgr8'"),
         ),
         Example(
+            "yaws: of a quaternion, and for one",
+            {
+                "turn.py": "import math\n\nfrom geometry_msgs.msg import Pose, Quaternion\n\n\n"
+                "def turned(yaw):\n"
+                "    half_yaw = yaw / 2\n"
+                "    yield Quaternion(z=math.sin(half_yaw), w=math.cos(half_yaw))\n"
+                "    yield Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))\n"
+                "    yield Quaternion(z=math.sin(yaw), w=math.cos(yaw))\n\n\n"
+                "def yaws(pose: Pose):\n"
+                "    yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)\n"
+                "    yaw = math.atan2(pose.orientation.z, pose.orientation.w)\n"
+                "    yaw = pose.orientation.z\n"
+                "    half = math.atan2(pose.orientation.z, pose.orientation.w)\n"
+                "    return yaw, half\n"
+            },
+            Report(
+                "10:24",
+                "a quaternion takes half the angle: write sin(yaw / 2.0) and cos(yaw / 2.0)",
+            ),
+            Report("15:11", "this is half of the angle: multiply by 2.0"),
+            Report(
+                "16:11",
+                "z of a quaternion is no angle: write 2.0 * "
+                "math.atan2(pose.orientation.z, pose.orientation.w), or "
+                "euler_from_quaternion()",
+            ),
+        ),
+        Example(
+            "the diagonal of a covariance, its first row",
+            {
+                "odom.py": "from nav_msgs.msg import Odometry\n\n\n"
+                "def filled():\n"
+                "    odometry = Odometry()\n"
+                "    for i in range(6):\n"
+                "        odometry.pose.covariance[7 * i] = 0.1\n"
+                "    for i in range(6):\n"
+                "        odometry.twist.covariance[i] = 0.1\n"
+                "    covariance = [0.0] * 9\n"
+                "    for i in range(3):\n"
+                "        covariance[i] = 0.1\n"
+                "    for i in range(36):\n"
+                "        odometry.twist.covariance[i] = 0.0\n"
+                "    return odometry\n"
+            },
+            Report(
+                "9:9",
+                "this fills the first row of the matrix; the variances are on its "
+                "diagonal: write [7 * i]",
+            ),
+            Report(
+                "12:9",
+                "this fills the first row of the matrix; the variances are on its "
+                "diagonal: write [4 * i]",
+            ),
+        ),
+        Example(
+            "shapes of an image",
+            {
+                "look.py": "import numpy as np\nfrom sensor_msgs.msg import Image\n\n\n"
+                "def wrong(image: Image):\n"
+                "    data = np.frombuffer(image.data, np.uint8)\n"
+                "    return data.reshape(image.width, image.height)\n\n\n"
+                "def right(image: Image):\n"
+                "    width, height = image.width, image.height\n"
+                "    return np.frombuffer(image.data, np.uint8).reshape((height, width))\n\n\n"
+                "def sizes(pixels):\n"
+                "    height, width = pixels.shape[:2]\n"
+                "    w, h, _ = pixels.shape\n"
+                "    return height, width, w, h\n\n\n"
+                "def turned(image: Image):\n"
+                "    data = np.frombuffer(image.data, np.uint8)\n"
+                "    return data.reshape((image.width, image.height)).T\n"
+            },
+            Report(
+                "7:25", "an image or a map has rows first: write reshape(image.height, image.width)"
+            ),
+            Report("17:5", "a shape has the height first: write height, width = ....shape[:2]"),
+        ),
+        Example(
             "rows for columns",
             {
                 "map.py": "from nav_msgs.msg import MapMetaData\n\n\n"
@@ -145,6 +226,32 @@ class ValueImplausible(MessageRule):
                 yield self.report(module.location(item.value), message)
         for call in module.walk(ast.Call):
             yield from self._check_call(types, call)
+            turned = _turned_shape(types, call)
+            if turned:
+                message = f"an image or a map has rows first: write reshape({turned})"
+                yield self.report(module.location(call.args[0]), message)
+        for assigned in module.walk(ast.Assign):
+            yield from self._check_yaw(types, assigned)
+            if _is_shape_turned(assigned) and not module.mentions(*_SHAPED):
+                message = "a shape has the height first: write height, width = ....shape[:2]"
+                yield self.report(module.location(assigned.targets[0]), message)
+            count = _first_row(types, assigned)
+            if count:
+                message = (
+                    f"this fills the first row of the matrix; the variances are on its diagonal: "
+                    f"write [{count + 1} * {module.text(_index(assigned.targets[0]))}]"
+                )
+                yield self.report(module.location(assigned.targets[0]), message)
+
+    def _check_yaw(self, types: MessageTypes, assigned: ast.Assign) -> Iterator[Diagnostic]:
+        """Report a yaw that is read from a quaternion as it is, or as half of it."""
+        match assigned:
+            case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (
+                _is_angle(name)
+            ):
+                problem = _yaw_problem(types, value)
+                if problem:
+                    yield self.report(types.module.location(value), problem)
 
     def _check_values(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
@@ -159,6 +266,11 @@ class ValueImplausible(MessageRule):
                     f"w=cos({text} / 2.0)"
                 )
                 yield self.report(at, message)
+            elif key == ("geometry_msgs/msg/Quaternion", "z") and (
+                angle := _whole_angle(types, item.holder, item.value)
+            ):
+                message = f"a quaternion takes half the angle: write sin({angle} / 2.0) and "
+                yield self.report(at, message + f"cos({angle} / 2.0)")
             elif key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):
                 low, high, meaning = _RANGES[key]
                 if value < low or value > high:
@@ -272,4 +384,134 @@ def _is_angle(node: ast.expr) -> bool:
             return not _WORDS.isdisjoint(re.split(r"[_\d]+", name.lower()))
         case ast.Call(args=[value], func=ast.Name(id="float") | ast.Attribute(attr="radians")):
             return _is_angle(value)
+    return False
+
+
+def _whole_angle(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
+    """Return the yaw whose sine and cosine are z and w, without being halved; empty if none."""
+    angle = _argument_of(types, z, "sin")
+    if angle is None or not _is_angle(angle):
+        return ""
+    if isinstance(types.facts.evaluator.single_value(angle), ast.BinOp):
+        return ""
+    text = types.module.text(angle)
+    function = types.module.enclosing_function(holder)
+    for item in types.assigned:
+        if item.field.name == "w" and types.module.text(item.holder) == types.module.text(holder):
+            other = _argument_of(types, item.value, "cos")
+            if other is not None and types.module.text(other) == text:
+                return text if types.module.enclosing_function(item.holder) is function else ""
+    return ""
+
+
+def _argument_of(types: MessageTypes, node: ast.expr, function: str) -> ast.expr | None:
+    """Return the argument of a function of math or numpy."""
+    match node:
+        case ast.Call(args=[argument]):
+            name = types.module.qualified_name(node.func) or ""
+            return argument if name in {f"math.{function}", f"numpy.{function}"} else None
+    return None
+
+
+def _yaw_problem(types: MessageTypes, value: ast.expr) -> str:
+    """Return what is wrong with a yaw that is read from a quaternion; empty if nothing."""
+    match value:
+        case ast.Attribute(attr="z", value=holder) if _is_quaternion(types, holder):
+            text = types.module.text(holder)
+            return (
+                "z of a quaternion is no angle: write "
+                f"2.0 * math.atan2({text}.z, {text}.w), or euler_from_quaternion()"
+            )
+        case ast.Call(
+            args=[ast.Attribute(attr="z", value=first), ast.Attribute(attr="w", value=second)]
+        ) if types.module.text(first) == types.module.text(second):
+            name = types.module.qualified_name(value.func)
+            is_half = name in {"math.atan2", "numpy.arctan2"} and _is_quaternion(types, first)
+            return "this is half of the angle: multiply by 2.0" if is_half else ""
+    return ""
+
+
+def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:
+    """Tell whether an expression is a quaternion: by its type, or as what messages call one."""
+    owner = types.type_of(node)
+    if owner is not None:
+        return owner.name == "geometry_msgs/msg/Quaternion"
+    value = types.facts.evaluator.single_value(node)
+    return isinstance(value, ast.Attribute) and value.attr in {"orientation", "rotation"}
+
+
+_SIZES = {36: 6, 9: 3}
+"""The rows of the matrices in messages, by their elements."""
+
+
+def _index(target: ast.expr) -> ast.expr:
+    return target.slice if isinstance(target, ast.Subscript) else target
+
+
+def _first_row(types: MessageTypes, assigned: ast.Assign) -> int:
+    """Return the rows of a covariance of which a loop fills the first; 0 for other assignments."""
+    match assigned:
+        case ast.Assign(targets=[ast.Subscript(value=matrix, slice=ast.Name(id=name))]):
+            rows = _SIZES.get(_elements_of(types, matrix), 0)
+            loop = types.module.parent(assigned)
+            match loop:
+                case ast.For(
+                    target=ast.Name(id=counter), iter=ast.Call(func=ast.Name("range"), args=[end])
+                ) if counter == name and types.facts.evaluator.evaluate(end) == rows:
+                    return rows
+    return 0
+
+
+def _elements_of(types: MessageTypes, matrix: ast.expr) -> int:
+    """Return the number of elements of a covariance: a field, or a list that is named so."""
+    match matrix:
+        case ast.Attribute(attr=name) if name.endswith("covariance"):
+            type_ = types.field_type_of(matrix)
+            return (type_.array_size or 0) if type_ is not None else 0
+        case ast.Name(id=name) if "cov" in name:
+            match types.facts.evaluator.single_value(matrix):
+                case ast.BinOp(left=ast.List(elts=[_]), op=ast.Mult(), right=count):
+                    number = types.facts.evaluator.evaluate(count)
+                    return number if isinstance(number, int) else 0
+    return 0
+
+
+def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
+    """Return the right shape where data of a message is reshaped with its width first."""
+    module = types.module
+    shape = call.args[0].elts if call.args and isinstance(call.args[0], ast.Tuple) else call.args
+    match call.func, [types.facts.evaluator.single_value(item) for item in shape[:2]]:
+        case ast.Attribute(attr="reshape"), [
+            ast.Attribute(attr="width", value=first),
+            ast.Attribute(attr="height", value=second),
+        ] if module.text(first) == module.text(second):
+            function = module.enclosing_function(call)
+            text = module.text(function or module.tree)
+            if any(word in text for word in _TURNED):
+                return ""
+            if any(word.arg == "order" for word in call.keywords):
+                return ""
+            words = [module.text(item) for item in (shape[1], shape[0], *shape[2:])]
+            return ", ".join(words)
+    return ""
+
+
+_ACROSS = frozenset({"w", "width", "cols", "columns", "img_w", "img_width", "image_width"})
+_DOWN = frozenset({"h", "height", "rows", "img_h", "img_height", "image_height"})
+
+
+_SHAPED = (".shape = ", "reshape((w", "reshape(w")
+"""What code contains that gives its arrays their width first."""
+
+
+def _is_shape_turned(assigned: ast.Assign) -> bool:
+    """Tell whether the first two numbers of the shape of an image are taken the wrong way."""
+    match assigned:
+        case ast.Assign(
+            targets=[ast.Tuple(elts=[ast.Name(id=first), ast.Name(id=second), *_])],
+            value=ast.Attribute(attr="shape", value=image)
+            | ast.Subscript(value=ast.Attribute(attr="shape", value=image)),
+        ):
+            is_plain = not any(word in ast.unparse(image) for word in _TURNED)
+            return is_plain and first in _ACROSS and second in _DOWN
     return False

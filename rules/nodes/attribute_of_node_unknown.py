@@ -102,6 +102,24 @@ class AttributeOfNodeUnknown(RclpyRule):
                 "did you mean 'publishers'?",
             ),
         ),
+        Example(
+            "of a node with a lifecycle",
+            {
+                "pump.py": "from rclpy.lifecycle import LifecycleNode\n\n\n"
+                "class Pump(LifecycleNode):\n"
+                "    def on_activate(self, state):\n"
+                "        self.timer = self.create_lifecycle_timer(1.0, self.tick)\n"
+                "        return super().on_activate(state)\n\n"
+                "    def on_cleanup(self, state):\n"
+                "        self.trigger_shutdown()\n\n"
+                "    def tick(self):\n        self.get_logger().info('runs')\n"
+            },
+            Report(
+                "6:22",
+                "neither Pump nor rclpy's Node has 'create_lifecycle_timer': "
+                "AttributeError; did you mean 'create_lifecycle_publisher'?",
+            ),
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import conditions_on, is_handled
-from scaffold.api.rclpy import RclpyFile, clocks_of
+from scaffold.api.rclpy import NUMBER, RclpyFile, clocks_of
 
 _NAMES = {
     "ROS_TIME": "the ROS clock",
@@ -33,7 +33,8 @@ class ClocksMixed(RclpyRule):
     """Times of different clocks are subtracted or compared.
 
     **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` is of the
-    system clock, the clock of a node is a ROS clock, also while it shows the system's time.
+    system clock, the clock of a node is a ROS clock, also while it shows the system's time. A
+    number of seconds is no time of rclpy at all.
 
     **Fix.** Begin with ``self.get_clock().now()``, or with
     ``Time(clock_type=ClockType.ROS_TIME)``.
@@ -68,6 +69,18 @@ class ClocksMixed(RclpyRule):
             },
         ),
         Example(
+            "begins with a number",
+            {
+                "driver.py": "import time\n\n" + _NODE.format("time.time()", ""),
+                "other.py": _NODE.format("0.0", "if not self.last:\n            return\n        "),
+            },
+            Report(
+                "driver.py:15:20",
+                "a time of rclpy and a number cannot be subtracted: TypeError; "
+                "begin with the clock of the node: self.get_clock().now()",
+            ),
+        ),
+        Example(
             "a stamp and the system clock",
             {
                 "age.py": "from rclpy.clock import Clock\nfrom rclpy.time import Time\n\n\n"
@@ -85,7 +98,7 @@ class ClocksMixed(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        if not file.module.mentions("Time(", "Clock("):
+        if not file.module.mentions("Time(", "Clock(", "get_clock("):
             return
         for node in (*file.module.walk(ast.BinOp), *file.module.walk(ast.Compare)):
             match node:
@@ -98,12 +111,20 @@ class ClocksMixed(RclpyRule):
             pair = _mixed(file, node, left, right)
             if pair is not None and not isinstance(operator, ast.Is | ast.IsNot | ast.In):
                 verb = "subtracted" if isinstance(node, ast.BinOp) else "compared"
-                first, second = (_NAMES.get(kind, kind) for kind in pair)
-                message = (
-                    f"times of {first} and of {second} cannot be {verb}: TypeError; "
-                    "use Time(clock_type=ClockType.ROS_TIME) or the clock of the node"
-                )
-                yield self.report(file.module.location(node), message)
+                if NUMBER not in pair:
+                    yield self.report(file.module.location(node), _of_two_clocks(pair, verb))
+                elif not isinstance(operator, ast.Eq | ast.NotEq):
+                    message = f"a time of rclpy and a number cannot be {verb}: TypeError; "
+                    message += "begin with the clock of the node: self.get_clock().now()"
+                    yield self.report(file.module.location(node), message)
+
+
+def _of_two_clocks(pair: tuple[str, str], verb: str) -> str:
+    first, second = (_NAMES.get(kind, kind) for kind in pair)
+    return (
+        f"times of {first} and of {second} cannot be {verb}: TypeError; "
+        "use Time(clock_type=ClockType.ROS_TIME) or the clock of the node"
+    )
 
 
 def _mixed(
@@ -115,6 +136,8 @@ def _mixed(
     differing = [(x, y) for x, y in pairs if x and y and x != y]
     if not differing or is_handled(file.module, node, "TypeError"):
         return None
+    if NUMBER in differing[0] and max(map(len, sides)) == 1:
+        return None  # TY006 reports this
     if len(differing) < len(pairs):
         for side, clocks in zip((left, right), sides, strict=True):
             if len({*clocks.values()}) > 1 and not _begins_wrong(file, node, side, clocks):

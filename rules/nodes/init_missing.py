@@ -9,9 +9,9 @@ from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, V
 from scaffold.api.programs import (
     Execution,
     calls_others,
-    files_of,
     late_init,
     may_init,
+    paths_of,
     run_of,
     starts_of,
 )
@@ -101,8 +101,9 @@ def _problem_of(package: Package, path: str, function: str | None) -> tuple[Loca
 def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
     facts = run.facts
     late = late_init(facts, made)
-    for file in files_of(package, facts.module.path):
-        if may_init(file) and not (late and file is facts):
+    own = facts.module.path
+    for path in paths_of(package, own):
+        if may_init(package, path) and not (late and path == own):
             return None
     if any(word.arg in {"context", None} for word in made.keywords):
         return None

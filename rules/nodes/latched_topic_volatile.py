@@ -39,7 +39,7 @@ class LatchedTopicVolatile(RclpyRule):
     code = "ND121"
     name = "latched-topic-volatile"
     severity = Severity.WARNING
-    other_severities = {Severity.ERROR: "a topic that is published only once"}
+    other_severities = {Severity.ERROR: "the topic is published only once"}
     examples = (
         Example(
             "transient local",

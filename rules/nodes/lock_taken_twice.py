@@ -27,7 +27,7 @@ _NODE = (
 
 
 class LockTakenTwice(PythonRule):
-    """Code that holds a ``threading.Lock`` takes it again.
+    """Code that holds a ``threading.Lock`` takes it again, or returns without releasing it.
 
     **Why.** It waits for itself: the thread hangs at the first call, and with it all callbacks.
 
@@ -48,6 +48,33 @@ class LockTakenTwice(PythonRule):
                 "10:13",
                 "the lock of line 9 is taken again while it is held: the thread "
                 "waits for itself; use threading.RLock()",
+            ),
+        ),
+        Example(
+            "returns with the lock",
+            {
+                "store.py": "import threading\n\nLOCK = threading.Lock()\n\n\n"
+                "def wrong(store):\n"
+                "    LOCK.acquire()\n"
+                "    if not store:\n        return None\n"
+                "    item = store.pop()\n"
+                "    LOCK.release()\n"
+                "    return item\n\n\n"
+                "def right(store):\n"
+                "    LOCK.acquire()\n"
+                "    if not store:\n        LOCK.release()\n        return None\n"
+                "    item = store.pop()\n"
+                "    LOCK.release()\n"
+                "    return item\n\n\n"
+                "def tried(store):\n"
+                "    LOCK.acquire()\n"
+                "    try:\n        return store.pop()\n"
+                "    finally:\n        LOCK.release()\n"
+            },
+            Report(
+                "9:9",
+                "the lock of line 7 is not released on this path: the next one to "
+                "take it waits forever; write 'with' and the lock",
             ),
         ),
         Example(
@@ -73,6 +100,13 @@ class LockTakenTwice(PythonRule):
                 )
                 yield self.report(module.location(node), message)
                 break
+        for held in _acquired_blocks(file):
+            for left in _left_inside(file, held):
+                message = (
+                    f"the lock of line {held.line} is not released on this path: the next one to "
+                    "take it waits forever; write 'with' and the lock"
+                )
+                yield self.report(module.location(left), message)
 
 
 class _Held(NamedTuple):
@@ -102,6 +136,27 @@ def _acquired_blocks(file: RclpyFile) -> Iterator[_Held]:
         field, number = file.module.index.place(statement)
         following = getattr(file.module.parent(statement), field)[number + 1 :]
         yield _Held(lock, statement.lineno, _up_to_release(file, following, lock))
+
+
+def _left_inside(file: RclpyFile, held: _Held) -> Iterator[ast.Return]:
+    """Yield what returns between taking a lock and releasing it further down."""
+    if not held.body:
+        return
+    function = file.function_of(held.body[0])
+    last = held.body[-1].end_lineno or 0
+    is_released_later = any(
+        func.lineno > last and file.function_of(func) is function
+        for func in file.module.index.attributes("release")
+        if _lock(file, func.value) is held.lock
+    )
+    for statement in held.body if is_released_later else ():
+        for node in file.module.below(statement, ast.Return):
+            tried = (x for x in file.module.parents(node) if isinstance(x, ast.Try))
+            is_released = any(
+                _releases(file, x, held.lock) for block in tried for x in block.finalbody
+            )
+            if file.function_of(node) is function and not is_released:
+                yield node
 
 
 def _up_to_release(

@@ -50,7 +50,7 @@ class MadeInCallback(RclpyRule):
 
     code = "ND124"
     name = "made-in-callback"
-    other_severities = {Severity.WARNING: "it is kept, or a client"}
+    other_severities = {Severity.WARNING: "what is made is kept, or is a client"}
     examples = (
         Example("once", {"talker.py": _NODE.format("        self.timer.cancel()\n")}),
         Example(

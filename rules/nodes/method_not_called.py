@@ -82,6 +82,37 @@ class MethodNotCalled(RclpyRule):
             Report("15:16", "'is_done' is a method that is not called; write is_done()"),
         ),
         Example(
+            "a method of the node as a statement, and compared",
+            {
+                "talker.py": _NODE.format("()", "()", "()", "()", "()") + "        self.stop\n"
+                "        self.create_timer(1.0, self.tick)\n        self.tick\n"
+                "        assert self.stop is True\n"
+                "        assert self.stop is not None\n\n"
+                "    def stop(self):\n        return True\n\n"
+                "    def tick(self):\n        pass\n"
+            },
+            Report("15:9", "'stop' is a method that is not called; write stop()"),
+            Report("18:16", "'stop' is a method that is not called; write stop()"),
+        ),
+        Example(
+            "an event",
+            {
+                "talker.py": _NODE.format("()", "()", "()", "()", "()").replace(
+                    "        while rclpy",
+                    "        self.stopped = threading.Event()\n"
+                    "        self.stopped.clear\n"
+                    "        if self.stopped or self.stopped.is_set():\n            return\n"
+                    "        while rclpy",
+                )
+                + "import threading\n"
+            },
+            Report("12:9", "self.stopped.clear is not called; add the parentheses"),
+            Report(
+                "13:12",
+                "self.stopped is an Event, which is always true; write self.stopped.is_set()",
+            ),
+        ),
+        Example(
             "in parts of conditions",
             {"talker.py": _PARTS},
             Report(
@@ -112,9 +143,42 @@ class MethodNotCalled(RclpyRule):
             elif file.module.qualified_name(node) in _FUNCTIONS:
                 message = f"{file.module.text(node)} is not called; add the parentheses"
                 yield self.report(file.module.location(node), message)
+            elif _is_condition(file, node) and _is_event(file, node):
+                text = file.module.text(node)
+                message = f"{text} is an Event, which is always true; write {text}.is_set()"
+                yield self.report(file.module.location(node), message)
+            elif _is_method_of_thread(file, node):
+                message = f"{file.module.text(node)} is not called; add the parentheses"
+                yield self.report(file.module.location(node), message)
             elif _is_method_of_rclpy(file, node) or _is_own_method(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
                 yield self.report(file.module.location(node), message)
+
+
+_OF_THREADS = {
+    "threading.Event": frozenset({"set", "clear"}),
+    "threading.Thread": frozenset({"start", "join"}),
+    "threading.Lock": frozenset({"acquire", "release"}),
+}
+"""Methods that are of use only if they are called."""
+
+
+def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Tell whether a statement only names a method of a thread, an event or a lock."""
+    made = file.evaluator.single_value(node.value)
+    name = file.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
+    is_statement = isinstance(file.module.parent(node), ast.Expr)
+    return is_statement and node.attr in _OF_THREADS.get(name or "", ())
+
+
+def _is_event(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Tell whether an attribute certainly is an event of threads or of asyncio."""
+    values = file.evaluator.attribute_values(node) or ()
+    names = [
+        file.module.qualified_name(value.func) if isinstance(value, ast.Call) else None
+        for value in values
+    ]
+    return bool(names) and {*names} <= {"threading.Event", "asyncio.Event"}
 
 
 def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
@@ -124,7 +188,15 @@ def _needs_value(file: RclpyFile, node: ast.Attribute) -> bool:
             return not attr.startswith("__") and attr not in _FUNCTION_HAS
         case ast.Expr():
             return True
-    return _is_condition(file, node)
+    return _is_compared(file, node) or _is_condition(file, node)
+
+
+def _is_compared(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether it is compared with a plain value, which it never is."""
+    match file.module.parent(node):
+        case ast.Compare(left=left, comparators=[ast.Constant(value=value)]):
+            return left is node and value is not None
+    return False
 
 
 def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
@@ -144,11 +216,27 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
 
 
 def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
-    """Tell whether a node tests one of its own methods, and nothing replaces that."""
+    """Tell whether a node only names one of its own methods, and nothing replaces that."""
     owner = file.owner_of(node.value)
     function = owner.method(node.attr) if isinstance(owner, NodeClass) else None
     is_plain = function is not None and not function.decorator_list
-    return is_plain and _is_condition(file, node) and not file.evaluator.stores(node.attr)
+    if not is_plain or file.evaluator.stores(node.attr) or _is_read_from(file, node):
+        return False
+    return not isinstance(file.module.parent(node), ast.Expr) or not _is_passed(file, node)
+
+
+def _is_passed(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Tell whether the method is a callback somewhere: naming it again does no harm."""
+    return any(
+        not isinstance(above := file.module.parent(use), ast.Expr | ast.Compare)
+        and not (isinstance(above, ast.Call) and above.func is use)
+        for use in file.module.index.attributes(node.attr)
+    )
+
+
+def _is_read_from(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Tell whether an attribute of the method is read, which may be one that is set elsewhere."""
+    return isinstance(file.module.parent(node), ast.Attribute)
 
 
 def _is_method_of_rclpy(file: RclpyFile, node: ast.Attribute) -> bool:

@@ -6,7 +6,13 @@ import ast
 from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.rclpy import NodeClass, NodeDefinition, RclpyCall, RclpyFile
+from scaffold.api.rclpy import (
+    NodeClass,
+    NodeDefinition,
+    RclpyCall,
+    RclpyFile,
+    is_used_elsewhere,
+)
 
 _RUNNING = ("spin", "executor", "add_node", "run", "thread", "start", "launch", "wait")
 _NODE = (
@@ -138,11 +144,7 @@ def _left_out(
                 is_own = is_own and not isinstance(scope and scope[0], ast.Module)
             case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):
                 uses = file.module.index.attributes(attribute)
-                is_own = not any(
-                    module.index.attributes(attribute)
-                    for module in package.modules()
-                    if module is not file.module
-                )
+                is_own = not is_used_elsewhere(package, file, attribute)
             case _:
                 continue
         if is_own and not any(_hands_on(file, use) for use in uses):
@@ -151,12 +153,17 @@ def _left_out(
 
 def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
     """Tell whether a node may see to it that it is spun, or a base class that is not here."""
-    words = ast.unparse(class_.node).lower()
-    if any(word in words for word in ("spin", "executor", "thread", "add_node")):
+    names = (node.attr for node in file.module.below(class_.node, ast.Attribute))
+    # Most code of a class takes long to write out, and its attributes tell most of the time.
+    if any(map(_may_spin, names)) or _may_spin(ast.unparse(class_.node)):
         return True
     if class_.base is None:
         return False
     return class_.base.facts is not file or _spins_itself(file, class_.base)
+
+
+def _may_spin(words: str) -> bool:
+    return any(word in words.lower() for word in ("spin", "executor", "thread", "add_node"))
 
 
 def _hands_on(file: RclpyFile, use: ast.Name | ast.Attribute) -> bool:

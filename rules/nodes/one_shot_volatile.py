@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
@@ -18,13 +19,25 @@ _NODE = (
     "        self.map_pub = self.create_publisher(String, 'map', {})\n"
     "        self.map_pub.publish(String(data='map'))\n"
 )
+_PROGRAM = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Teller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('teller')\n"
+    "        self.publisher = self.create_publisher(String, 'joined', 10)\n\n"
+    "    def tell(self):\n"
+    "        self.publisher.publish(String(data='here'))\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n    teller = Teller()\n    {}\n    teller.tell()\n    rclpy.shutdown()\n"
+)
 _LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
 
 
 class OneShotVolatile(RclpyRule):
-    """A message is published once, in the constructor, with volatile durability.
+    """A message is published once, in the constructor or by a program that ends, and volatile.
 
     **Why.** Subscribers are discovered only after the constructor: they never get the message.
+    A program that publishes and ends is gone before any is discovered.
 
     **Fix.** Publish with ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)``,
     and subscribe with the same profile.
@@ -46,6 +59,19 @@ class OneShotVolatile(RclpyRule):
                 "subscribers miss it; use TRANSIENT_LOCAL",
             ),
         ),
+        Example(
+            "published by a program that ends, or that waits",
+            {
+                "tell.py": _PROGRAM.format("pass"),
+                "later.py": _PROGRAM.format("time.sleep(2.0)"),
+            },
+            Report(
+                "tell.py:12:9",
+                "the only message on 'joined' is published as soon as the publisher "
+                "is there, and the program ends: no subscriber is found by then; "
+                "wait for get_subscription_count()",
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -59,11 +85,30 @@ class OneShotVolatile(RclpyRule):
             if not calls or len(calls) != 1:
                 continue
             call = calls[0]
-            if file.function_of(call) is not owner.constructor or file.is_conditional(call):
+            if file.is_conditional(call):
                 continue
             topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
-            message = (
-                f"the only message{topic} is published in the constructor: later subscribers "
-                "miss it; use TRANSIENT_LOCAL"
-            )
-            yield self.report(file.module.location(call), message)
+            if file.function_of(call) is owner.constructor:
+                message = (
+                    f"the only message{topic} is published in the constructor: later subscribers "
+                    "miss it; use TRANSIENT_LOCAL"
+                )
+                yield self.report(file.module.location(call), message)
+            elif file.init_calls and not _waits(file, call):
+                message = (
+                    f"the only message{topic} is published as soon as the publisher is there, and "
+                    "the program ends: no subscriber is found by then; wait for "
+                    "get_subscription_count()"
+                )
+                yield self.report(file.module.location(call), message)
+
+
+_WAITING = ("spin", "sleep", "wait", "get_subscription_count", "input(", "Thread(", "asyncio")
+"""What programs contain that last longer, or look for subscribers."""
+
+
+def _waits(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether a program may last until its message is sent."""
+    loops = (ast.For, ast.While, ast.AsyncFor)
+    in_loop = any(isinstance(x, loops) for x in file.module.parents(call))
+    return in_loop or file.module.in_tests or file.module.mentions(*_WAITING)

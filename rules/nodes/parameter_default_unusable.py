@@ -50,7 +50,7 @@ class ParameterDefaultUnusable(RclpyRule):
     code = "ND083"
     name = "parameter-default-unusable"
     other_severities = {
-        Severity.WARNING: "no parameter has a default, and a file of the package sets this one"
+        Severity.WARNING: "the parameter has no default, and a file of the package sets it"
     }
     examples = (
         Example("a default", {"talker.py": _NODE.format("1.0", "description='Hz'", "'slow'")}),
@@ -120,9 +120,26 @@ class ParameterDefaultUnusable(RclpyRule):
             ),
         ),
         Example(
+            "a name without a default, next to one with it, that a YAML file sets",
+            {
+                "talker.py": _PLAIN.format("'rate', 2.0")
+                + "        self.declare_parameter('gain')\n",
+                "config/talker.yaml": "/**:\n  ros__parameters:\n    gain: 2\n",
+            },
+            Report(
+                "talker.py:8:32",
+                "parameter 'gain' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "an empty list",
             {"talker.py": _PLAIN.format("'names', []")},
-            Report("7:32", "parameter 'names' becomes a byte array: the default is an empty list"),
+            Report(
+                "7:32",
+                "parameter 'names' becomes a byte array: the default is an empty "
+                "list; write its type instead, such as Parameter.Type.STRING_ARRAY",
+            ),
         ),
         Example(
             "a comma is missing",
@@ -148,12 +165,11 @@ class ParameterDefaultUnusable(RclpyRule):
             error = problem.rpartition(": ")[2]
             if problem and not is_handled(file.module, parameter.call, error):
                 yield self.report(file.module.location(node or parameter.call), problem)
-        is_file_meant = all(parameter.default_node is None for parameter in file.parameters)
         for parameter in file.parameters:
             yield from self._check_commas(file, parameter)
             problem = _missing_problem(parameter)
             if problem:
-                is_set = is_file_meant and parameter.name in _set_names(package)
+                is_set = parameter.default_node is None and parameter.name in _set_names(package)
                 yield self.report(
                     parameter.name_location,
                     problem,
@@ -224,5 +240,8 @@ def _missing_problem(parameter: Parameter) -> str:
     if parameter.default_node is None:
         return f"parameter {parameter.name!r} has no default: its value is None until it is set"
     if parameter.default in ([], ()):
-        return f"parameter {parameter.name!r} becomes a byte array: the default is an empty list"
+        return (
+            f"parameter {parameter.name!r} becomes a byte array: the default is an empty list; "
+            "write its type instead, such as Parameter.Type.STRING_ARRAY"
+        )
     return ""

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, RclpyRule, Report, Safety
-from scaffold.api.parameters import Declared, declared_by
+from scaffold.api.parameters import declared_by
 from scaffold.api.python import UNKNOWN
 from scaffold.api.rclpy import FIELDS, RclpyFile, is_listed_parameter, name_asked, parameter_read
 
@@ -107,12 +107,5 @@ def _read(package: Package, file: RclpyFile, field: ast.Attribute) -> tuple[str,
                 name = name_asked(file, field, parameter.id) or UNKNOWN
             if owner is not None and isinstance(name, str):
                 declared = declared_by(owner, package)
-                return name, declared.types.get(name) or _of_empty_list(declared, name)
+                return name, declared.types.get(name) or ""
     return "", ""
-
-
-def _of_empty_list(declared: Declared, name: str) -> str:
-    """Return the type that rclpy infers from an empty default list, else nothing."""
-    place = declared.places.get(name)
-    is_empty = place is not None and place.default == [] and not place.has_descriptor
-    return "byte_array" if is_empty else ""

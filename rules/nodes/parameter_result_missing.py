@@ -67,6 +67,21 @@ class ParameterResultMissing(RclpyRule):
             ),
         ),
         Example(
+            "the truth that a method returns",
+            {
+                "talker.py": _NODE.format(
+                    "parameters", "        return self.accept(parameters)\n\n"
+                )
+                + "    def accept(self, parameters):\n"
+                "        if not parameters:\n            return False\n        return True\n"
+            },
+            Report(
+                "11:9",
+                "returns the result of self.accept(), which is True or False, not a "
+                "SetParametersResult: every change is rejected",
+            ),
+        ),
+        Example(
             "never set",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
             Report(

@@ -56,6 +56,29 @@ class PublisherOrCallbackUnused(RclpyRule):
             },
             Report("20:9", "callback 'right_callback' is never registered: it never runs"),
         ),
+        Example(
+            "a publisher for each topic, and what is never called",
+            {
+                "talker.py": _NODE.format("self.chatter_pub.publish(String())\n\n{}").format(
+                    "    def add_joystick(self):\n"
+                    "        self.create_subscription(String, 'joy', print, 10)\n\n"
+                    "    def add_lanes(self):\n"
+                    "        for lane in ('a', 'b'):\n"
+                    "            self.lane_pub = self.create_publisher(String, lane, 10)\n"
+                    "        self.lane_pub.publish(String())\n"
+                ),
+                "other.py": "def start(node):\n    node.add_lanes()\n",
+            },
+            Report(
+                "talker.py:15:9",
+                "nothing calls add_joystick(): the subscription in it does not exist",
+            ),
+            Report(
+                "talker.py:20:29",
+                "each pass of the loop replaces 'lane_pub': messages go to the last "
+                "topic alone; keep the publishers in a list or a dict",
+            ),
+        ),
         Example("used", {"talker.py": _NODE.format("self.chatter_pub.publish(String(data='a'))")}),
         Example(
             "used by another module",
@@ -74,22 +97,29 @@ class PublisherOrCallbackUnused(RclpyRule):
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.init_calls or file.module.in_tests:
             return  # a class that other packages may inherit from, or use
+        path = file.module.path
         for publisher in file.publishers:
             name = _kept_in(file, publisher.call)
-            if not name or isinstance(publisher.name, Unknown) or publisher.is_conditional:
+            if not name:
                 continue
-            if package.occurrences(name) == 1:
+            is_known = not isinstance(publisher.name, Unknown) and not publisher.is_conditional
+            if is_known and package.is_mentioned_once(name, path):
                 message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
                 yield self.report(publisher, message)
+            elif _is_replaced(file, publisher.call, name):
+                message = (
+                    f"each pass of the loop replaces {name!r}: messages go to the last topic "
+                    "alone; keep the publishers in a list or a dict"
+                )
+                yield self.report(publisher, message)
         for class_ in file.classes:
-            for name in _callbacks(file, class_):
-                if package.occurrences(name) == 1:
-                    message = f"callback {name!r} is never registered: it never runs"
+            for name, message in (*_setups(file, class_), *_callbacks(file, class_)):
+                if package.is_mentioned_once(name, path):
                     yield self.report(file.module.name_location(class_.methods[name]), message)
 
 
-def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[str]:
-    """Yield the methods with the name of a callback that only this package can register."""
+def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
+    """Yield the methods named like callbacks that only this package can register, and messages."""
     if class_.is_lifecycle or file.module.mentions("getattr(self"):
         return
     if len(class_.node.bases) != 1:
@@ -100,7 +130,7 @@ def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[str]:
             takes_message or name.endswith(("_callback", "_cb"))
         )
         if is_named and not method.decorator_list:
-            yield name
+            yield name, f"callback {name!r} is never registered: it never runs"
 
 
 def _kept_in(file: RclpyFile, call: ast.Call) -> str:
@@ -111,3 +141,44 @@ def _kept_in(file: RclpyFile, call: ast.Call) -> str:
         case ast.AnnAssign(target=ast.Attribute(value=ast.Name(), attr=name)):
             return name
     return ""
+
+
+_MADE = {
+    "create_subscription": "subscription",
+    "create_publisher": "publisher",
+    "create_timer": "timer",
+    "create_service": "service",
+}
+
+
+def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
+    """Yield the methods without arguments that create entities, and messages."""
+    if class_.is_lifecycle or class_.base is not None or len(class_.node.bases) != 1:
+        return
+    if file.module.mentions("getattr("):
+        return
+    for name, method in class_.methods.items():
+        if len(method.args.args) != 1 or method.decorator_list or name.startswith("__"):
+            continue
+        made = [
+            _MADE.get(call.func.attr, "")
+            for call in file.calls_in(method)
+            if isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) == "self"
+        ]
+        created = [kind for kind in made if kind]
+        if created:
+            yield name, f"nothing calls {name}(): the {created[0]} in it does not exist"
+
+
+def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:
+    """Tell whether a loop over topics keeps each publisher in the same attribute, and no other."""
+    loop = next((x for x in file.module.parents(call) if isinstance(x, ast.For)), None)
+    if loop is None or file.function_of(loop) is not file.function_of(call):
+        return False
+    counters = {x.id for x in ast.walk(loop.target) if isinstance(x, ast.Name)}
+    topic = call.args[1] if len(call.args) > 1 else call
+    varies = any(isinstance(x, ast.Name) and x.id in counters for x in ast.walk(topic))
+    stores = [x for x in file.module.index.attributes(name) if isinstance(x.ctx, ast.Store)]
+    inside = [x for x in ast.walk(loop) if isinstance(x, ast.Attribute) and x.attr == name]
+    leaves = any(isinstance(x, ast.Break | ast.Return | ast.If) for x in ast.walk(loop))
+    return varies and not leaves and len(stores) == 1 and inside == stores

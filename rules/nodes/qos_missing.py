@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import Publisher, RclpyFile, Subscription, excess_arguments
+from scaffold.api.rclpy import Publisher, RclpyFile, Subscription
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n{}\n\n"
@@ -33,7 +34,7 @@ class QosMissing(RclpyRule):
     examples = (
         Example("a depth", {"talker.py": _NODE.format("", ", 10")}),
         Example(
-            "a keyword of ROS 1, which ND040 reports",
+            "a keyword of ROS 1, which TY004 reports",
             {"talker.py": _NODE.format("", ", queue_size=10")},
         ),
         Example(
@@ -50,14 +51,13 @@ class QosMissing(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         entities: list[Publisher | Subscription] = [*file.publishers, *file.subscriptions]
-        refused = {excess.call for excess in excess_arguments(file)}  # ND040 reports these calls
         for entity in entities:
-            problem = None if entity.call in refused else self._problem(entity)
+            problem = self._problem(entity)
             if problem:
                 yield self.report(entity, problem)
 
     def _problem(self, entity: Publisher | Subscription) -> str | None:
-        if entity.has_unknown_arguments:
+        if entity.has_unknown_arguments or _has_old_keyword(entity.call):
             return None
         if entity.owner is None and entity.name_argument is None:
             return None  # a method of this name that is not rclpy's
@@ -68,3 +68,8 @@ class QosMissing(RclpyRule):
         if qos is not None and qos.depth is None:
             return "QoS profile without a depth: InvalidQoSProfileException"
         return None
+
+
+def _has_old_keyword(call: ast.Call) -> bool:
+    """Tell whether the depth has the name that it has in ROS 1, which TY004 reports."""
+    return any(word.arg == "queue_size" for word in call.keywords)

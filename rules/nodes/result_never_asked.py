@@ -68,7 +68,9 @@ class ResultNeverAsked(RclpyRule):
             for name, method in node.methods.items():
                 if "result" not in name or len(method.args.args) != _WITH_FUTURE:
                     continue
-                if method.decorator_list or package.occurrences(name) > 1:
+                if method.decorator_list:
+                    continue
+                if not package.is_mentioned_once(name, file.module.path):
                     continue
                 message = (
                     f"nothing calls {name!r}: the result is never asked for; call "

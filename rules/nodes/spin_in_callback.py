@@ -51,7 +51,9 @@ class SpinInCallback(RclpyRule):
 
     code = "ND033"
     name = "spin-in-callback"
-    other_severities = {Severity.WARNING: "in the constructor, and nothing else spins the node"}
+    other_severities = {
+        Severity.WARNING: "it is in the constructor, and nothing else spins the node"
+    }
     examples = (
         Example("a callback", {"caller.py": _NODE.format("future.add_done_callback(self.answer)")}),
         Example(

@@ -48,14 +48,53 @@ class StepWithoutFraction(RclpyRule):
     examples = (
         Example("both parts", {"odometry.py": _NODE.format(_BOTH)}),
         Example(
+            "the time of what is written to a bag",
+            {
+                "copy_bag.py": "import time\n\nfrom rclpy.clock import Clock\n"
+                "from rosbag2_py import SequentialWriter\n\n\n"
+                "def copy(data):\n"
+                "    writer = SequentialWriter()\n"
+                "    clock = Clock()\n"
+                "    writer.write('chatter', data, clock.now().nanoseconds)\n"
+                "    writer.write('chatter', data, int(clock.now().nanoseconds / 1e9))\n"
+                "    writer.write('chatter', data, int(time.time()))\n"
+                "    writer.write('chatter', data, int(time.time() * 1e9))\n"
+            },
+            Report(
+                "11:35",
+                "the time of a message in a bag is all its nanoseconds; write "
+                "self.get_clock().now().nanoseconds",
+            ),
+            Report(
+                "12:35",
+                "the time of a message in a bag is all its nanoseconds; write "
+                "self.get_clock().now().nanoseconds",
+            ),
+        ),
+        Example(
             "whole seconds",
             {"odometry.py": _NODE.format("float(now.sec - self.last.sec)")},
             Report(
                 "14:24",
-                "time step from 'sec' alone: it is 0 or 1, whatever the time "
-                "between; use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / "
-                "1e9",
+                "time step from 'sec' alone: it has no fraction, and is 0 within a second; "
+                "use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
             ),
+        ),
+        Example(
+            "whole seconds, each of which is counted once",
+            {
+                "odometry.py": _NODE.format("now.sec - self.last.sec")
+                .replace("        self.last = now\n", "")
+                .replace("dt\n", "dt\n            if dt > 0:\n                self.last = now\n")
+            },
+        ),
+        Example(
+            "whole seconds that are compared with a delay",
+            {
+                "odometry.py": _NODE.format("now.sec - self.last.sec").replace(
+                    "self.yaw += msg.angular_velocity.z * dt", "self.is_late = dt > self.delay"
+                )
+            },
         ),
         Example(
             "nanoseconds",
@@ -138,10 +177,10 @@ class StepWithoutFraction(RclpyRule):
             for part in _PARTS:
                 if not (_is_part(file, node.left, part) and _is_part(file, node.right, part)):
                     continue
-                if _has_other_part(file, node, part) or not _is_step(file, node):
+                if not _needs_other_part(file, node, part):
                     continue
                 happens = (
-                    "it is 0 or 1, whatever the time between"
+                    "it has no fraction, and is 0 within a second"
                     if part == "sec"
                     else "it is negative whenever a second ends"
                 )
@@ -150,6 +189,13 @@ class StepWithoutFraction(RclpyRule):
                     "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9"
                 )
                 yield self.report(file.module.location(node), message)
+
+
+def _needs_other_part(file: RclpyFile, node: ast.BinOp, part: str) -> bool:
+    """Tell whether a difference of one part is a step in time, for which both are needed."""
+    if _has_other_part(file, node, part) or not _is_step(file, node):
+        return False
+    return part != "sec" or not _is_meant_whole(file, node)
 
 
 def _is_of_one_time(file: RclpyFile, left: ast.expr, right: ast.expr) -> bool:
@@ -212,21 +258,39 @@ def _is_step(file: RclpyFile, node: ast.expr) -> bool:
         case ast.BinOp(op=ast.Mult() | ast.Div()):
             return True
         case ast.Assign(targets=[ast.Name(id=name) | ast.Attribute(attr=name) as target]):
-            return name in _STEPS or any(
-                isinstance(use.ctx, ast.Load) and _is_factor(file, use)
-                for use in _uses(file, target)
-            )
+            return name in _STEPS or any(_is_factor(file, use) for use in _uses(file, target))
     return False
 
 
+def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
+    """Tell whether a number of whole seconds does: compared alone, or each second counts once."""
+    match file.module.parent(node):
+        case ast.Assign(targets=[ast.Name() | ast.Attribute() as target]):
+            tests = [file.module.parent(use) for use in _uses(file, target)]
+        case _:
+            return False
+    if all(isinstance(test, ast.Compare) for test in tests):
+        return True
+    begin = file.module.text(node.right).removesuffix(".sec")
+    conditions = [file.module.parent(test) for test in tests if isinstance(test, ast.Compare)]
+    return any(
+        begin in map(file.module.text, statement.targets)
+        for condition in conditions
+        for statement in (condition.body if isinstance(condition, ast.If) else ())
+        if isinstance(statement, ast.Assign)
+    )
+
+
 def _uses(file: RclpyFile, target: ast.expr) -> Sequence[ast.Name | ast.Attribute]:
+    """Return where a variable is read; of a local one, in its function."""
     if isinstance(target, ast.Attribute):
-        return file.module.index.attributes(target.attr)
-    name = target.id if isinstance(target, ast.Name) else ""
-    function = file.module.enclosing_function(target)
-    return [
-        x for x in file.module.index.names(name) if file.module.enclosing_function(x) is function
-    ]
+        found: Sequence[ast.Name | ast.Attribute] = file.module.index.attributes(target.attr)
+    else:
+        name = target.id if isinstance(target, ast.Name) else ""
+        function = file.module.enclosing_function(target)
+        names = file.module.index.names(name)
+        found = [x for x in names if file.module.enclosing_function(x) is function]
+    return [use for use in found if isinstance(use.ctx, ast.Load)]
 
 
 def _is_factor(file: RclpyFile, use: ast.expr) -> bool:

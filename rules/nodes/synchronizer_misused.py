@@ -44,7 +44,7 @@ class SynchronizerMisused(MessageRule):
 
     code = "ND104"
     name = "synchronizer-misused"
-    other_severities = {Severity.WARNING: "a slop that is too large"}
+    other_severities = {Severity.WARNING: "the slop is too large"}
     examples = (
         Example("matches", {"viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER)}),
         Example(

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import is_guarded_by
-from scaffold.api.rclpy import RclpyFile
+from scaffold.api.rclpy import RclpyFile, is_used_elsewhere
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
@@ -61,6 +61,17 @@ class ThreadTargetCalled(RclpyRule):
             Report("9:33", "work() is called here, not in the thread; pass it without ()"),
             Report("10:27", "timer with period 0 uses all CPU time"),
             Report("19:9", "coroutine ask() is not awaited: it never runs"),
+        ),
+        Example(
+            "a coroutine as a condition",
+            {
+                "talker.py": _NODE.format("", "0.1", "await ").replace(
+                    "await self.ask()\n",
+                    "if not self.ask():\n            return\n        task = self.ask()\n"
+                    "        await task\n",
+                )
+            },
+            Report("19:16", "coroutine ask() is not awaited: it is always true"),
         ),
         Example(
             "an argument in parentheses",
@@ -117,25 +128,23 @@ def _is_never_started(package: Package, file: RclpyFile, call: ast.Call) -> bool
     if file.module.qualified_name(call.func) != "threading.Thread":
         return False
     index = file.module.index
-    uses: Sequence[ast.Name | ast.Attribute]
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
             scope = index.lookup(name.id, name)
             uses = [use for use in index.names(name.id) if index.lookup(use.id, use) == scope]
             is_own = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
+            return is_own and _are_idle(file, uses)
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):
-            uses = index.attributes(attribute)
-            is_own = bool(file.init_calls) and not any(
-                module.index.attributes(attribute)
-                for module in package.modules()
-                if module is not file.module
-            )
-        case ast.Expr():
-            return True
-        case _:
-            return False
+            is_idle = bool(file.init_calls) and _are_idle(file, index.attributes(attribute))
+            return is_idle and not is_used_elsewhere(package, file, attribute)
+        case parent:
+            return isinstance(parent, ast.Expr)
+
+
+def _are_idle(file: RclpyFile, uses: Sequence[ast.Name | ast.Attribute]) -> bool:
+    """Tell whether nothing that uses a thread starts it, or gives it to somebody else."""
     reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
-    return is_own and all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
+    return all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
 
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
@@ -161,7 +170,20 @@ def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
                     word.value,
                     f"({text}) is not a tuple: TypeError in the thread; write ({text},)",
                 )
-    if isinstance(file.module.parent(call), ast.Expr):
+    effect = _effect_unawaited(file, call)
+    if effect:
         function = file.callback(call.func).function
         if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
-            yield call, f"coroutine {function.name}() is not awaited: it never runs"
+            yield call, f"coroutine {function.name}() is not awaited: {effect}"
+
+
+def _effect_unawaited(file: RclpyFile, call: ast.Call) -> str:
+    """Return what comes of a coroutine that is only made; empty if it may be run later."""
+    match file.module.parent(call):
+        case ast.Expr():
+            return "it never runs"
+        case ast.UnaryOp(op=ast.Not()) | ast.If() | ast.While() | ast.IfExp() as above if (
+            getattr(above, "test", call) is call
+        ):
+            return "it is always true"
+    return ""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.programs import phases_of
+from scaffold.api.python import returned
 from scaffold.api.rclpy import RclpyFile
 
 _BROADCASTERS = frozenset(
@@ -81,6 +82,25 @@ class TransformSentOnce(RclpyRule):
                 "subscribers never get it; use StaticTransformBroadcaster",
             ),
         ),
+        Example(
+            "one that a method makes, another by a timer",
+            {
+                "base.py": _TWO_FRAMES.format("'base_link'")
+                .replace(
+                    "        self.broadcaster.sendTransform(mount)\n", "        return mount\n"
+                )
+                .replace(
+                    "        mount = Tr",
+                    "        self.broadcaster.sendTransform(self.mount())\n\n"
+                    "    def mount(self):\n        mount = Tr",
+                )
+            },
+            Report(
+                "11:9",
+                "the transform of 'laser' is sent once, by the constructor: later "
+                "subscribers never get it; use StaticTransformBroadcaster",
+            ),
+        ),
         Example("the same frame once more", {"base.py": _TWO_FRAMES.format("'laser'")}),
         Example("a frame that is not known", {"base.py": _TWO_FRAMES.format("self.get_name()")}),
     )
@@ -114,9 +134,9 @@ class TransformSentOnce(RclpyRule):
 
 def _frame(file: RclpyFile, call: ast.Call) -> str | None:
     """Return the child frame of the transform that a call sends; ``None`` if that is not known."""
-    match call:
-        case ast.Call(args=[ast.Name(id=name)], keywords=[]):
-            function = file.function_of(call)
+    sent, function = _sent(file, call)
+    match sent:
+        case ast.Name(id=name):
             stores = [
                 store.value
                 for store in file.evaluator.stores("child_frame_id")
@@ -127,6 +147,18 @@ def _frame(file: RclpyFile, call: ast.Call) -> str | None:
             value, notes = file.evaluator.trace(stores[0]) if len(stores) == 1 else (None, ())
             return value if isinstance(value, str) and not notes else None
     return None
+
+
+def _sent(file: RclpyFile, call: ast.Call) -> tuple[ast.expr | None, ast.AST | None]:
+    """Return what a call sends, and the function that makes it: maybe another one of the file."""
+    match call:
+        case ast.Call(args=[ast.Call() as inner], keywords=[]):
+            function = file.callback(inner.func).function
+            values = returned(function) if isinstance(function, ast.FunctionDef) else []
+            return (values[0].value, function) if len(values) == 1 else (None, None)
+        case ast.Call(args=[sent], keywords=[]):
+            return sent, file.function_of(call)
+    return None, None
 
 
 def _is_broadcaster(file: RclpyFile, node: ast.expr) -> bool:

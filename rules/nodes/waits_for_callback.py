@@ -122,6 +122,19 @@ class WaitsForCallback(RclpyRule):
             ),
         ),
         Example(
+            "an event that must come in time",
+            {
+                "relay.py": _NODE.format(
+                    "        if not self.arrived.wait(timeout=1.0):\n            return response\n"
+                )
+            },
+            Report(
+                "22:16",
+                "callback 'answer' waits for self.arrived, which another callback "
+                "sets: that one never runs meanwhile, and this waits in vain",
+            ),
+        ),
+        Example(
             "an event, with many threads and one callback group",
             {"relay.py": _WAITS},
             Report(
@@ -169,7 +182,7 @@ class WaitsForCallback(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        if not file.module.mentions("while ", ".wait()"):
+        if not file.module.mentions("while ", ".wait("):
             return
         seen: set[ast.AST] = set()
         executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
@@ -187,9 +200,10 @@ class WaitsForCallback(RclpyRule):
                 if may_run_meanwhile(file, executed) and not _excludes(file, executed, setters):
                     continue
                 seen.add(node)
+                effect = "this waits in vain" if _is_limited(node) else "the node hangs"
                 message = (
                     f"{executed.origin} waits for self.{name}, which another callback sets: that "
-                    "one never runs meanwhile, and the node hangs"
+                    f"one never runs meanwhile, and {effect}"
                 )
                 yield self.report(file.module.location(node), message)
 
@@ -215,20 +229,32 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
         if file.function_of(node) is not executed.function:
             continue
         match node:
-            case ast.Call(
-                func=ast.Attribute(attr="wait", value=ast.Attribute(attr=name) as event),
-                args=[],
-                keywords=[],
-            ):
+            case ast.Call(func=ast.Attribute(attr="wait", value=ast.Attribute(attr=name) as event)):
                 made = file.evaluator.single_value(event)
-                if isinstance(made, ast.Call) and (
+                is_event = isinstance(made, ast.Call) and (
                     file.module.qualified_name(made.func) == "threading.Event"
-                ):
+                )
+                if is_event and (not _is_limited(node) or _is_asked(file, node)):
                     yield node, name
             case ast.While() if not _leaves(node):
                 name = _attribute_asked(file, node.test)
                 if name:
                     yield node, name
+
+
+def _is_limited(node: ast.AST) -> bool:
+    """Tell whether a call waits for some time alone."""
+    return isinstance(node, ast.Call) and bool(node.args or node.keywords)
+
+
+def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether it matters if the event came; else this may be a sleep that can be ended."""
+    match file.module.parent(call):
+        case ast.UnaryOp(op=ast.Not()) as negated:
+            return isinstance(file.module.parent(negated), ast.If)
+        case ast.If():
+            return True
+    return False
 
 
 def _attribute_asked(file: RclpyFile, test: ast.expr) -> str:

@@ -4,23 +4,33 @@ from __future__ import annotations
 
 import ast
 import re
+import sys
 
 from scaffold.api import Diagnostic, Example, Report, TypeRule
-from scaffold.api.rclpy import rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
-    class_in,
-    class_itself,
     full_name,
-    has_call,
     in_words,
     is_certain_misfit,
     is_function,
+    members,
     name_of,
-    overload_problem,
-    parameters,
+    short_name,
     with_article,
+)
+
+from ._arguments import (
+    TIMEOUTS,
+    has_too_many,
+    instead,
+    is_int_as_well,
+    is_one_of_publishers,
+    is_uncallable,
+    is_unpacked,
+    parameter_name,
+    timeout,
+    unlike,
 )
 
 _NODE = (
@@ -57,14 +67,17 @@ _SPEAKER = (
 )
 _UNCHECKED = (".get_parameter_or",)
 """What works with anything as long as the parameter is declared."""
-_ONLY_SHOWN = {("DeclareLaunchArgument()", "description")}
-"""What `ros2 launch --show-args` prints, whatever it is."""
+_ANY_VALUE = {
+    ("DeclareLaunchArgument()", "description"),
+    *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
+}
+"""What `ros2 launch --show-args` prints, whatever it is, and what is only tested for truth."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """What calls ``int()`` on its nanoseconds, which are annotated as an int."""
 _COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
 """A number that is computed with a value of unknown type."""
-_TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
-"""Where functions of tf2 with several signatures take a timeout."""
+_OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
+"""The class of a message, or of a part of a service or an action."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 
@@ -83,6 +96,30 @@ class ArgumentTypeUnfit(TypeRule):
     name = "argument-type-unfit"
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
+        Example(
+            "a number that may be whole, for a range of whole numbers",
+            {
+                "limits.py": "from typing import Optional, Union\n\n"
+                "from rcl_interfaces.msg import IntegerRange\n\n\n"
+                "def limits(low: Optional[Union[int, float]] = None):\n"
+                "    if low is not None:\n"
+                "        return [IntegerRange(from_value=low, to_value=9)]\n"
+                "    return []\n\n\nlimits(0.5)\n"
+            },
+        ),
+        Example(
+            "a class that comes from a table with other things in it",
+            {
+                "listener.py": "from rclpy.node import Node\n"
+                "from std_msgs.msg import Int32, String\n\n"
+                "THEMES = {\n"
+                "    'a': {'topic': 'a', 'type': String},\n"
+                "    'b': {'topic': 'b', 'type': Int32},\n}\n\n\n"
+                "def listen(node: Node):\n"
+                "    for theme in THEMES.values():\n"
+                "        node.create_subscription(theme['type'], theme['topic'], print, 10)\n"
+            },
+        ),
         Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
         Example(
             "a description in several parts",
@@ -116,6 +153,35 @@ class ArgumentTypeUnfit(TypeRule):
                 "15:29",
                 "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
                 "str: publish() fails ('text' comes from line 19)",
+            ),
+        ),
+        Example(
+            "what a method is called with, whatever its annotation says",
+            {
+                "speaker.py": _SPEAKER.format("String(data='hello')", "'hello'").replace(
+                    "def show(self, text)", "def show(self, text: String)"
+                )
+            },
+            Report(
+                "15:29",
+                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+                "str: publish() fails ('text' comes from line 19)",
+            ),
+        ),
+        Example(
+            "a default that nobody replaces",
+            {
+                "beat.py": "from rclpy.node import Node\n\n\n"
+                "class Beat(Node):\n"
+                "    def __init__(self, period='0.5'):\n"
+                "        super().__init__('beat')\n"
+                "        self.create_timer(period, print)\n\n\n"
+                "Beat()\n"
+            },
+            Report(
+                "7:27",
+                "'timer_period_sec' of create_timer() must be a float, not a str: "
+                "create_timer() fails ('period' comes from line 5)",
             ),
         ),
         Example(
@@ -172,15 +238,142 @@ class ArgumentTypeUnfit(TypeRule):
             Report(
                 "16:35",
                 "'feedback' of publish_feedback() must be an "
-                "example_interfaces.action.Fibonacci_Feedback, not a float: "
+                "example_interfaces.action.Fibonacci.Feedback, not a float: "
                 "publish_feedback() fails",
             ),
             Report(
                 "18:31",
                 "'feedback' of publish_feedback() must be an "
-                "example_interfaces.action.Fibonacci_Feedback, not an "
-                "example_interfaces.action.Fibonacci_Result: publish_feedback() "
+                "example_interfaces.action.Fibonacci.Feedback, not an "
+                "example_interfaces.action.Fibonacci.Result: publish_feedback() "
                 "fails",
+            ),
+        ),
+        Example(
+            "what is sent through a publisher, a client of a service or of an action",
+            {
+                "talker.py": "from example_interfaces.action import Fibonacci\n"
+                "from rclpy.action import ActionClient\n"
+                "from rclpy.node import Node\n"
+                "from std_msgs.msg import Bool, String\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('talker')\n"
+                "        self.talker = self.create_publisher(String, 'talk', 10)\n"
+                "        self.reporter = self.create_client(Trigger, 'report')\n"
+                "        self.counter = ActionClient(self, Fibonacci, 'count')\n\n"
+                "    def talk(self):\n"
+                "        self.talker.publish(String(data='hello'))\n"
+                "        self.talker.publish(b'serialized')\n"
+                "        self.talker.publish(self.other)\n"
+                "        self.reporter.call_async(Trigger.Request())\n"
+                "        self.counter.send_goal_async(Fibonacci.Goal(order=3))\n\n"
+                "    def fail(self):\n"
+                "        self.talker.publish(Bool(data=True))\n"
+                "        self.talker.publish('hello')\n"
+                "        self.reporter.call_async(Trigger.Response())\n"
+                "        self.reporter.call_async(Trigger)\n"
+                "        self.counter.send_goal_async(Fibonacci.Goal)\n"
+                "        self.counter.send_goal_async(3)\n"
+            },
+            Report(
+                "23:29",
+                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+                "std_msgs.msg.Bool: publish() fails",
+            ),
+            Report(
+                "24:29",
+                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+                "str: publish() fails",
+            ),
+            Report(
+                "25:34",
+                "'request' of call_async() must be a std_srvs.srv.Trigger.Request, "
+                "not a std_srvs.srv.Trigger.Response: call_async() fails",
+            ),
+            Report(
+                "26:34",
+                "'request' of call_async() must be a std_srvs.srv.Trigger.Request, "
+                "not the class 'Trigger': call_async() fails; write "
+                "Trigger.Request()",
+            ),
+            Report(
+                "27:38",
+                "'goal' of send_goal_async() must be an "
+                "example_interfaces.action.Fibonacci.Goal, not the class "
+                "'Fibonacci.Goal': send_goal_async() fails; write Fibonacci.Goal()",
+            ),
+            Report(
+                "28:38",
+                "'goal' of send_goal_async() must be an "
+                "example_interfaces.action.Fibonacci.Goal, not an int: "
+                "send_goal_async() fails",
+            ),
+        ),
+        Example(
+            "what is no list of parameters",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from rclpy.parameter import Parameter\n\n\n"
+                "class Talker(Node):\n"
+                "    def change(self):\n"
+                "        self.set_parameters([Parameter('rate', value=2.0)])\n"
+                "        self.set_parameters(Parameter('rate', value=2.0))\n"
+                "        self.set_parameters({'rate': 2.0})\n"
+                "        self.set_parameters([('rate', 2.0)])\n"
+            },
+            Report(
+                "8:29",
+                "'parameter_list' of set_parameters() must be a list, not an "
+                "rclpy.parameter.Parameter: set_parameters() fails",
+            ),
+            Report(
+                "9:29",
+                "'parameter_list' of set_parameters() must be a list, not a dict: "
+                "set_parameters() fails",
+            ),
+            Report(
+                "10:29",
+                "'parameter_list' of set_parameters() must be a list of "
+                "rclpy.parameter.Parameter, not a list of rclpy.parameter.Parameter "
+                "or tuple: set_parameters() fails",
+            ),
+        ),
+        Example(
+            "what launch only tests for truth",
+            {
+                "demo.launch.py": "from launch_ros.actions import Node\n\n"
+                "NODE = Node(package='demo', executable='talk', emulate_tty='True')\n"
+            },
+        ),
+        Example(
+            "arguments of launch",
+            {
+                "talk.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import RegisterEventHandler, TimerAction\n"
+                "from launch.event_handlers import OnProcessExit\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    node = Node(package='a', executable='b', respawn_delay='1')\n"
+                "    wait = TimerAction(period=1.0, actions=[node])\n"
+                "    ended = OnProcessExit(target_action=wait, on_exit=[])\n"
+                "    return LaunchDescription([wait, RegisterEventHandler([ended])])\n"
+            },
+            Report(
+                "8:46", "'respawn_delay' of Node() must be a float or None, not a str: Node() fails"
+            ),
+            Report(
+                "10:27",
+                "'target_action' of OnProcessExit() must be a "
+                "launch.actions.execute_local.ExecuteLocal, function or None, not a "
+                "launch.actions.timer_action.TimerAction: OnProcessExit() fails",
+            ),
+            Report(
+                "11:58",
+                "'event_handler' of RegisterEventHandler() must be a "
+                "launch.event_handler.BaseEventHandler, not a list: "
+                "RegisterEventHandler() fails",
             ),
         ),
         Example(
@@ -267,6 +460,24 @@ class ArgumentTypeUnfit(TypeRule):
             ),
         ),
         Example(
+            "a message for the text in it",
+            {
+                "orders.py": "import json\n\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Orders(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('orders')\n"
+                "        self.create_subscription(String, 'orders', self.on_order, 10)\n\n"
+                "    def on_order(self, msg):\n"
+                "        self.order = json.loads(msg)\n"
+                "        self.order = json.loads(msg.data)\n"
+            },
+            Report(
+                "13:33",
+                "json.loads() cannot use a std_msgs.msg.String: TypeError; pass its field 'data'",
+            ),
+        ),
+        Example(
             "a callback with annotations of its own",
             {
                 "speaker.py": "from rcl_interfaces.msg import Parameter, SetParametersResult\n"
@@ -323,15 +534,15 @@ class ArgumentTypeUnfit(TypeRule):
             ),
             Report(
                 "10:58",
-                "'callback_group' of create_timer() must be a "
+                "'callback_group' of create_timer() must be an "
                 "rclpy.callback_groups.CallbackGroup or None, not the class "
                 "'ReentrantCallbackGroup': create_timer() fails; write "
                 "ReentrantCallbackGroup()",
             ),
             Report(
                 "13:36",
-                "'rel_time' of sleep_for() must be a rclpy.duration.Duration, not a "
-                "float: sleep_for() fails; write Duration(seconds=...)",
+                "'rel_time' of sleep_for() must be an rclpy.duration.Duration, not "
+                "a float: sleep_for() fails; write Duration(seconds=...)",
             ),
         ),
         Example(
@@ -354,14 +565,14 @@ class ArgumentTypeUnfit(TypeRule):
             {"age.py": _TIMES},
             Report(
                 "8:25",
-                "'until' of sleep_until() must be a rclpy.time.Time, not a "
+                "'until' of sleep_until() must be an rclpy.time.Time, not a "
                 "builtin_interfaces.msg.Time: sleep_until() fails; write "
                 "rclpy.time.Time.from_msg(...)",
             ),
             Report(
                 "9:19",
                 "'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, "
-                "not a rclpy.time.Time: it cannot be published; write .to_msg()",
+                "not an rclpy.time.Time: it cannot be published; write .to_msg()",
             ),
         ),
         Example(
@@ -396,42 +607,42 @@ class ArgumentTypeUnfit(TypeRule):
             r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
         )
         if matched is None:
-            return self._judge_element(finding)
+            return self._judge_element(finding) or self._judge_message(finding)
         expected, given = matched["expected"], matched["given"]
         if matched["callee"].endswith(".publish_feedback"):
             given = re.sub(_COMPUTED, r"\1", given)
-        is_misfit = is_certain_misfit(expected, given) or _is_uncallable(finding, expected, given)
-        if not is_misfit or matched["callee"].endswith(_UNCHECKED) or _is_unpacked(finding):
+        is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
+        if not is_misfit or matched["callee"].endswith(_UNCHECKED) or is_unpacked(finding):
             return None
-        is_for_others = _has_too_many(finding, matched["callee"])  # which TY004 reports
-        is_for_others = is_for_others or _is_one_of_publishers(finding)
+        is_for_others = has_too_many(finding, matched["callee"])  # which TY004 reports
+        is_for_others = is_for_others or is_one_of_publishers(finding)
+        is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))
         if is_for_others or (expected.startswith("(") and is_function(given)):
             return None  # functions differ in their annotations; ND003 counts the arguments
         owner, _, method = matched["callee"].rpartition(".")
         called = owner if method in {"__init__", "__new__"} else method
-        where = f"{full_name(called).rpartition('.')[2]}()"
-        hint = _instead(expected, given)
-        if re.search(r"\.(?:msg|srv|action)\.\w+$", full_name(owner or called)):
-            field = _parameter(finding, matched["callee"])
+        where = f"{short_name(called)}()"
+        hint = instead(finding.package, expected, given)
+        if re.fullmatch(_OF_MESSAGE, full_name(owner or called)):
+            field = parameter_name(finding, matched["callee"])
             return self.report(
                 finding,
                 f"{field!r} of {full_name(owner)} is {with_article(name_of(expected))}, not "
                 f"{in_words(given)}: it cannot be published{hint}",
             )
-        parameter = _parameter(finding, matched["callee"])
+        parameter = parameter_name(finding, matched["callee"])
         if expected.startswith("("):
             expected = "function"
         elif expected.startswith("type["):
             expected = "class"
         is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
         is_made_int = is_made_int and given.rstrip("*") == "float"
-        if is_made_int or (where, parameter) in _ONLY_SHOWN:
+        if is_made_int or (where, parameter) in _ANY_VALUE:
             return None
         needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
         return self.report(
             finding,
-            f"{needs} must be {with_article(name_of(expected))}, not {in_words(given)}: "
-            f"{where} fails{hint}",
+            f"{needs} must be {unlike(expected, given)}: {where} fails{hint}",
         )
 
     def _judge_element(self, finding: TypeFinding) -> Diagnostic | None:
@@ -457,13 +668,31 @@ class ArgumentTypeUnfit(TypeRule):
                 )
         return None
 
+    def _judge_message(self, finding: TypeFinding) -> Diagnostic | None:
+        """Judge a message that a function of Python is given for the text or number in it."""
+        matched = finding.match(
+            r"Argument to (?:[a-z]+ )*`[\w.]+` is incorrect: Expected `.+`, "
+            rf"found `(?P<given>{MARKED})`"
+        )
+        call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+        if matched is None or call is None:
+            return None
+        given = full_name(matched["given"])
+        called = finding.module.qualified_name(call.func) or ""
+        if ".msg." not in given or called.partition(".")[0] not in sys.stdlib_module_names:
+            return None
+        names = members(finding.package, matched["given"])
+        fields = [name for name in names if name.islower() and not name.startswith("get_")]
+        hint = f"; pass its field {fields[0]!r}" if len(fields) == 1 else ""
+        return self.report(finding, f"{called}() cannot use a {given}: TypeError{hint}")
+
     def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
         """Judge a timeout: the type checker does not say which argument fits no signature."""
         call = finding.node(ast.Call)
         matched = finding.match(rf"No overload of .*`{MARKED}\.(?P<name>\w+)` matches arguments")
-        if call is None or matched is None or matched["name"] not in _TIMEOUTS:
+        if call is None or matched is None or matched["name"] not in TIMEOUTS:
             return None
-        value = _timeout(call, matched["name"])
+        value = timeout(call, matched["name"])
         if not (isinstance(value, ast.Constant) and type(value.value) in {int, float}):
             return None
         name, kind = matched["name"], with_article(type(value.value).__name__)
@@ -472,82 +701,3 @@ class ArgumentTypeUnfit(TypeRule):
             f"'timeout' of {name}() must be a rclpy.duration.Duration, not {kind}: {name}() fails; "
             "write Duration(seconds=...)",
         )
-
-
-def _has_too_many(finding: TypeFinding, callee: str) -> bool:
-    """Tell whether the call has more arguments without names than its function takes."""
-    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
-    return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
-
-
-def _is_one_of_publishers(finding: TypeFinding) -> bool:
-    """Tell whether the object called may be made for another type, as a condition says."""
-    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
-    if call is None or not isinstance(call.func, ast.Attribute):
-        return False
-    receiver = call.func.value
-    if not isinstance(receiver, ast.Attribute):
-        return False
-    file = rclpy_file(finding.package, finding.path)
-    values = file.evaluator.attribute_values(receiver) or ()
-    made = [value for value in values if isinstance(value, ast.Call) and value.args]
-    return len({ast.dump(value.args[0]) for value in made}) > 1
-
-
-def _is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
-    """Tell whether an object of ROS that cannot be called is given for a function."""
-    class_ = class_in(given)
-    return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
-
-
-def _timeout(call: ast.Call, name: str) -> ast.expr | None:
-    """Return the timeout that one of these functions gets."""
-    for keyword in call.keywords:
-        if keyword.arg == "timeout":
-            return keyword.value
-    place = _TIMEOUTS[name]
-    return call.args[place] if len(call.args) > place else None
-
-
-def _instead(expected: str, given: str) -> str:
-    """Return what to write instead, where that is clear."""
-    wanted, class_ = class_in(expected.partition(" | ")[0]), class_itself(given)
-    if wanted and class_:
-        return f"; write {full_name(class_).rpartition('.')[2]}()"
-    name = full_name(wanted) if wanted else ""
-    is_number = re.match(r"(?:int|float)\b|Literal\[-?[0-9]", given) is not None
-    if name == "rclpy.duration.Duration" and is_number:
-        return "; write Duration(seconds=...)"
-    if name == "rclpy.time.Time" and class_in(given).startswith("Time"):
-        return "; write rclpy.time.Time.from_msg(...)"
-    if name == "builtin_interfaces.msg.Time" and class_in(given).startswith("Time"):
-        return "; write .to_msg()"
-    return ""
-
-
-def _is_unpacked(finding: TypeFinding) -> bool:
-    """Tell whether the argument is ``**values``: each of them may fit a parameter of its own."""
-    return any(
-        keyword.arg is None
-        and finding.location in {finding.module.location(item) for item in (keyword, keyword.value)}
-        for call in finding.module.walk(ast.Call)
-        for keyword in call.keywords
-    )
-
-
-def _parameter(finding: TypeFinding, callee: str) -> str:
-    """Return the name of the parameter that the place is an argument of."""
-    for call in finding.module.walk(ast.Call):
-        if not call.lineno <= finding.location.line <= (call.end_lineno or call.lineno):
-            continue
-        for keyword in call.keywords:
-            places = (keyword, keyword.value)
-            if any(finding.module.location(item) == finding.location for item in places):
-                return keyword.arg or ""
-        for number, argument in enumerate(call.args):
-            if isinstance(argument, ast.Starred):
-                break
-            if finding.module.location(argument) == finding.location:
-                names = parameters(finding.package, callee)
-                return names[number] if number < len(names) else ""
-    return ""

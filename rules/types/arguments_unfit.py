@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Report, TypeRule, closest_name
+from scaffold.api import Diagnostic, Edit, Example, Fix, Report, TypeRule, closest_name
 from scaffold.api.rclpy import LOG_METHODS, is_of_rclpy, rclpy_file
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
-    full_name,
     keywords,
     overload_problem,
     parameters,
+    short_name,
 )
 
 _OLD_KEYWORDS = frozenset({"node_name", "node_namespace", "node_executable"})
 """What launch_ros calls otherwise since Foxy."""
 _CALLEE = rf"(?:[a-z]+ )*`(?P<callee>(?:{MARKED}|[^\W\d]\w*)(?:\.\w+)?)`"
+_OF_ROS1 = "queue_size"
+"""What ROS 1 calls the depth of publishers and subscriptions."""
 _UNBOUND = re.compile(r" of function `[^`.]+\.")
 """Matches a method that is called on its class."""
 _NODE = (
@@ -30,6 +32,19 @@ _NODE = (
     "        self.timer = self.create_timer({})\n\n"
     "    def tick(self):\n"
     "        pass\n"
+)
+_SERVER = (
+    "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n\n\n"
+    "def main():\n"
+    "    rclpy.init({}sys.argv)\n"
+    "    node = Node('server')\n"
+    "    rclpy.spin_once(node{})\n"
+)
+_TALKER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def start(self):\n"
+    "        self.talker = self.create_publisher(String, 'talk', {}=10)\n"
 )
 _LOG = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState\n\n\n"
@@ -176,6 +191,67 @@ class ArgumentsUnfit(TypeRule):
             Report("7:56", "create_timer() gets 'timer_period_sec' twice: TypeError"),
         ),
         Example(
+            "arguments of rclpy without their names",
+            {"server.py": _SERVER.format("", ", 0.1")},
+            Report(
+                "8:16",
+                "init() takes no positional argument, not 1 (as keywords: args, "
+                "context, domain_id, signal_handler_options): TypeError",
+                fix="pass it as args=",
+            ),
+            Report(
+                "10:27",
+                "spin_once() takes 1 positional argument at most, not 2 (as "
+                "keywords: executor, timeout_sec): TypeError",
+                fix="pass it as timeout_sec=",
+            ),
+            fixed={"server.py": _SERVER.format("args=", ", timeout_sec=0.1")},
+        ),
+        Example(
+            "the depth as ROS 1 names it",
+            {"talker.py": _TALKER.format("queue_size")},
+            Report(
+                "7:61",
+                "create_publisher() has no argument 'queue_size', which is "
+                "qos_profile= in ROS 2: TypeError",
+                fix="write qos_profile=",
+            ),
+            fixed={"talker.py": _TALKER.format("qos_profile")},
+        ),
+        Example(
+            "tried, and asked for: an older distribution is kept",
+            {
+                "server.py": "import inspect\n\nfrom rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Server(Node):\n"
+                "    def serve(self):\n"
+                "        try:\n"
+                "            self.create_service(Trigger, 'a', print, introspection=True)\n"
+                "        except TypeError:\n"
+                "            self.create_service(Trigger, 'a', print)\n"
+                "        try:\n"
+                "            self.b = self.create_service(Trigger, 'b', print, lazy=True)\n"
+                "        except Exception:\n"
+                "            self.b = self.create_service(Trigger, 'b', print)\n"
+                "        if 'lazy' in inspect.signature(self.create_service).parameters:\n"
+                "            self.create_service(Trigger, 'c', print, lazy=True)\n"
+            },
+        ),
+        Example(
+            "a failure that a handler of anything hides",
+            {
+                "server.py": "from rclpy.node import Node\n"
+                "from std_srvs.srv import Trigger\n\n\n"
+                "class Server(Node):\n"
+                "    def serve(self):\n"
+                "        try:\n"
+                "            self.create_service(Trigger, 'a', print, lazy=True)\n"
+                "        except Exception as error:\n"
+                "            self.get_logger().error(str(error))\n"
+            },
+            Report("8:54", "create_service() has no argument 'lazy': TypeError"),
+        ),
+        Example(
             "an unknown one",
             {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
             Report("7:56", "create_timer() has no argument 'oneshot': TypeError"),
@@ -195,14 +271,71 @@ class ArgumentsUnfit(TypeRule):
             or _repeated(finding)
             or _of_no_overload(finding)
         )
-        return self.report(finding, f"{problem}: TypeError") if problem else None
+        if not problem:
+            return None
+        called = problem.partition("()")[0]
+        cause = f"arguments of {called}" if called != problem else ""
+        return self.report(finding, f"{problem}: TypeError", _fix(finding), cause=cause)
+
+
+def _fix(finding: TypeFinding) -> Fix | None:
+    """Return the fix that names an argument as the function does, where that is certain."""
+    matched = finding.match(rf"Too many positional arguments to {_CALLEE}: .*")
+    if matched is not None:
+        names = keywords(finding.package, matched["callee"])
+        return _as_keyword(finding, names, int("." in matched["callee"]))
+    depth = _depth(finding)
+    if depth is None or not isinstance(depth.value, ast.Constant):
+        return None
+    start, _ = finding.module.span(depth)
+    edit = Edit(finding.path, start, start + len(_OF_ROS1), "qos_profile")
+    return Fix("write qos_profile=", (edit,))
+
+
+def _as_keyword(finding: TypeFinding, names: Sequence[str], bound: int) -> Fix | None:
+    """Return the fix that makes the last positional argument of a call a keyword argument."""
+    matched = finding.match(r".*: expected (?P<most>\d+), got .*")
+    for call in finding.parents():
+        if isinstance(call, ast.Call) and matched is not None:
+            is_last = len(call.args) == int(matched["most"]) - bound + 1
+            name = _meant(finding, call.args[-1], names) if is_last else ""
+            if not name or any(word.arg in {name, None} for word in call.keywords):
+                return None
+            start, _ = finding.module.span(call.args[-1])
+            return Fix(f"pass it as {name}=", (Edit(finding.path, start, start, f"{name}="),))
+    return None
+
+
+def _meant(finding: TypeFinding, node: ast.expr, names: Sequence[str]) -> str:
+    """Return the name of the parameter that a value is for; empty if that is not certain."""
+    match node:
+        case ast.Name(id=name) if name in names:
+            return name
+        case ast.Constant(value=int() | float()):
+            periods = [name for name in names if name.endswith("_sec")]
+            return periods[0] if len(periods) == 1 else ""
+    is_command_line = finding.module.qualified_name(node) == "sys.argv"
+    return "args" if is_command_line and "args" in names else ""
+
+
+def _depth(finding: TypeFinding) -> ast.keyword | None:
+    """Return the keyword that is a depth as ROS 1 names it, in a call without another one."""
+    matched = finding.match(rf"Argument `{_OF_ROS1}` does not match any .* of {_CALLEE}")
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    if matched is None or call is None:
+        return None
+    names = parameters(finding.package, matched["callee"])
+    given = {*names[: len(call.args)], *(word.arg for word in call.keywords)}
+    if "qos_profile" not in names or "qos_profile" in given:
+        return None
+    return next((word for word in call.keywords if word.arg == _OF_ROS1), None)
 
 
 def _shown(callee: str) -> str:
     """Return how a call is written: ``create_timer()``, ``TransformListener()``."""
     owner, _, method = callee.rpartition(".")
     name = owner if method in {"__init__", "__new__"} else method
-    return f"{full_name(name).rpartition('.')[2]}()"
+    return f"{short_name(name)}()"
 
 
 def _missing(finding: TypeFinding) -> str:
@@ -216,6 +349,8 @@ def _missing(finding: TypeFinding) -> str:
         for call in _calls(finding)
     ):
         return ""  # they may be among those that are too many, which is reported
+    if any(word.arg == _OF_ROS1 for call in _calls(finding) for word in call.keywords):
+        return ""  # the depth is given, which is reported
     names = [repr(name) for name in re.findall(r"`(\w+)`", matched["names"])]
     return f"{_shown(matched['callee'])} lacks {' and '.join(names)}"
 
@@ -292,6 +427,8 @@ def _unknown(finding: TypeFinding) -> str:
         return ""
     callee = matched["callee"]
     names = [*parameters(finding.package, callee), *keywords(finding.package, callee)]
+    if _depth(finding) is not None:
+        return f"{_shown(callee)} has no argument {_OF_ROS1!r}, which is qos_profile= in ROS 2"
     closest = closest_name(finding.package, matched["name"], names, 0.6)
     hint = f" (did you mean {closest!r}?)" if closest else ""
     return f"{_shown(callee)} has no argument {matched['name']!r}{hint}"

@@ -12,6 +12,7 @@ from scaffold.api.types import (
     in_words,
     is_certain_misfit,
     name_of,
+    short_name,
     with_article,
 )
 
@@ -79,7 +80,7 @@ class AssignedTypeUnfit(TypeRule):
             Report(
                 "8:20",
                 "'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, "
-                "not a rclpy.time.Time: it cannot be published",
+                "not an rclpy.time.Time: it cannot be published",
                 severity=Severity.WARNING,
             ),
         ),
@@ -96,7 +97,7 @@ class AssignedTypeUnfit(TypeRule):
         if not is_certain_misfit(expected, given):
             return None
         class_ = class_itself(given)
-        hint = f"; write {full_name(class_).rpartition('.')[2]}()" if class_ else ""
+        hint = f"; write {short_name(class_)}()" if class_ else ""
         is_alike = _are_alike(finding, full_name(class_in(expected)), full_name(class_in(given)))
         is_converted = full_name(class_in(given)) in _CONVERTED and finding.module.mentions("tf2")
         outcome = "" if is_alike else f": it cannot be published{hint}"

@@ -21,6 +21,7 @@ from scaffold.api import (
     fact,
 )
 from scaffold.api.distributions import removed_name
+from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import (
     MARKED,
@@ -65,10 +66,25 @@ _DRIVE = (
     "        return response\n"
 )
 _RECORD = "import sqlite3\n\nimport rclpy\n\nrclpy.init()\nprint(sqlite3.version)\n"
+_LIMIT = (
+    "from rcl_interfaces.msg import SetParametersResult\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Limit(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('limit')\n"
+    "        self.add_on_set_parameters_callback(self.on_set)\n\n"
+    "    def on_set(self, parameters):\n"
+    "        for parameter in parameters:\n"
+    "            if parameter.{} == 3:\n"
+    "                self.limit = parameter.value\n"
+    "        return SetParametersResult(successful=True)\n"
+)
 _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
-_IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names})
+_IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names, "ament_index_python"})
 """What modules of ROS import for themselves, which their annotations alone do not show."""
+_OF_WINDOWS = frozenset({"msvcrt", "winreg", "winsound"})
+"""Modules that are empty for the type checker, and only used where they are not."""
 _BASES = frozenset(
     {
         "launch.action.Action",
@@ -80,11 +96,15 @@ _BASES = frozenset(
 """Classes of which no object is: only classes derived from them are used."""
 _INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
 """A service or an action, of which there are no objects either, but of its parts."""
-_MESSAGE = re.compile(r"(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>\w+)")
+_MESSAGE = re.compile(r"(?!rclpy\.)(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>[\w.]+)")
 _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
-_PLAIN = frozenset({"str", "int", "float", "bool"})
+_TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
+_SECONDS = frozenset({"sec", "secs", "seconds", "to_sec", "total_seconds"})
+_NANOSECONDS = frozenset({"nanosec", "nsec", "nsecs", "nanosecs", "to_nsec"})
+"""What other libraries, messages and ROS 1 call the parts of a time."""
+_PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
 _METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
 """Matches a method that is not called."""
 _FEW = 6
@@ -108,7 +128,46 @@ class AttributeMissing(TypeRule):
     other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
     kinds = frozenset({"missing-attribute"})
     examples = (
+        Example(
+            "seconds as ROS 1 has them, in an f-string as well",
+            {
+                "age.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+                "from std_msgs.msg import Header\n\n\n"
+                "class Age(Node):\n"
+                "    def show(self, header: Header):\n"
+                "        age = self.get_clock().now() - Time.from_msg(header.stamp)\n"
+                "        if age.nanoseconds < 5e9 and age.to_sec() < 5.0:\n"
+                "            self.get_logger().info(f'{age.seconds:.1f} s, {age.nanosec} ns')\n"
+            },
+            Report(
+                "9:38",
+                "rclpy.duration.Duration has no 'to_sec': AttributeError; write .nanoseconds / 1e9",
+            ),
+            Report(
+                "10:39",
+                "rclpy.duration.Duration has no 'seconds': AttributeError; write "
+                ".nanoseconds / 1e9",
+            ),
+            Report(
+                "10:60",
+                "rclpy.duration.Duration has no 'nanosec': AttributeError; write .nanoseconds",
+            ),
+        ),
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
+        Example(
+            "a node that another module is given",
+            {
+                "package.xml": "<package><name>arm</name></package>\n",
+                "arm/util.py": "def title(node, prefix=''):\n    return prefix + node.name()\n",
+                "arm/main.py": "from rclpy.node import Node\n\nfrom .util import title\n\n\n"
+                "class Arm(Node):\n    def __init__(self):\n        super().__init__('arm')\n"
+                "        print(title(self))\n\n\nArm()\n",
+            },
+            Report(
+                "arm/util.py:2:21",
+                "Arm has no 'name': AttributeError ('node' comes from line 9 of arm/main.py)",
+            ),
+        ),
         Example(
             "a property of Node that something else is assigned to, which ND013 reports",
             {
@@ -133,6 +192,76 @@ class AttributeMissing(TypeRule):
         Example(
             "what a module imports for itself",
             {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
+        ),
+        Example(
+            "the parameters of a callback",
+            {"limit.py": _LIMIT.format("type")},
+            Report(
+                "12:16",
+                "rclpy.parameter.Parameter has no 'type': AttributeError; did you mean 'type_'?",
+                fix="write 'type_'",
+            ),
+            fixed={"limit.py": _LIMIT.format("type_")},
+        ),
+        Example(
+            "what a method looks up",
+            {
+                "finder.py": "from rclpy.node import Node\nfrom rclpy.time import Time\n"
+                "from tf2_ros import Buffer, TransformException\n\n\n"
+                "class Finder(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('finder')\n"
+                "        self.buffer = Buffer()\n"
+                "        self.create_timer(1.0, self.tell)\n\n"
+                "    def where(self):\n"
+                "        try:\n"
+                "            return self.buffer.lookup_transform('map', 'base_link', Time())\n"
+                "        except TransformException:\n"
+                "            return None\n\n"
+                "    def tell(self):\n"
+                "        found = self.where()\n"
+                "        if found is not None:\n"
+                "            self.at = found.transform.translation\n"
+                "            self.at = found.position\n"
+            },
+            Report(
+                "22:23",
+                "geometry_msgs.msg.TransformStamped has no 'position': "
+                "AttributeError; it has child_frame_id, header, transform",
+            ),
+        ),
+        Example(
+            "the bytes of a bag",
+            {
+                "read.py": "from geometry_msgs.msg import Twist\n"
+                "from rosbag2_py import SequentialReader\n\n\n"
+                "def read():\n"
+                "    last = Twist()\n"
+                "    reader = SequentialReader()\n"
+                "    while reader.has_next():\n"
+                "        topic, data, stamp = reader.read_next()\n"
+                "        print(topic, stamp, last.linear.x, data.linear.x)\n"
+            },
+            Report("10:44", "a bytes has no 'linear': AttributeError"),
+        ),
+        Example(
+            "a client from a table that states its kind",
+            {
+                "asker.py": _NODE.format("destroy") + "\n    def wait(self, task):\n"
+                "        self.kinds = {1: {'a': {'client': self.client, 'kind': 'action'}}}\n"
+                "        for name, item in self.kinds[1].items():\n"
+                "            if item['kind'] == 'action':\n"
+                "                item['client'].wait_for_server()\n"
+                "            elif item['kind'] == 'service':\n"
+                "                item['client'].wait_for_service()\n"
+            },
+        ),
+        Example(
+            "a module of Windows",
+            {
+                "keys.py": "import os\n\nimport rclpy\n\nrclpy.init()\n"
+                "if os.name == 'nt':\n    import msvcrt\n\n    print(msvcrt.getch())\n"
+            },
         ),
         Example(
             "a name that only a later Python removed",
@@ -358,20 +487,17 @@ class AttributeMissing(TypeRule):
         name, owner = matched["name"], _without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
         is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
-        if name.startswith("_") or is_imported or is_known:
+        if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
         known = _plain(node, owner) or _known(finding, node, owner)
         if known is None:
             return None
         shown, names = known
         method = shown.rpartition(".")[2] if _METHOD.fullmatch(owner) else ""
-        is_future = shown == "rclpy.task.Future"
-        closest = "" if is_future else closest_name(finding.package, name, names - {name}, 0.6)
-        hint = f"; did you mean {closest!r}?" if closest else ""
-        if method:
-            hint = f"; write {method}()"
-        if is_future:
-            hint = "; what the future brings is in result()"
+        hint = _instead(shown, name, method)
+        closest = "" if hint else closest_name(finding.package, name, names - {name}, 0.6)
+        if closest:
+            hint = f"; did you mean {closest!r}?"
         names -= _OF_ALL_MESSAGES
         if not hint and len(names) <= _FEW:
             hint = f"; it has {', '.join(sorted(names))}" if names else ""
@@ -385,6 +511,30 @@ class AttributeMissing(TypeRule):
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
         return self.report(finding, message, fix, severity=severity, cause=_cause(shown))
+
+
+def _instead(shown: str, name: str, method: str) -> str:
+    """Return what to write instead, where it is not another name of the same object."""
+    if method:
+        return f"; write {method}()"
+    if shown == "rclpy.task.Future":
+        return "; what the future brings is in result()"
+    if shown in _TIMES and name in _SECONDS:
+        return "; write .nanoseconds / 1e9"
+    return "; write .nanoseconds" if shown in _TIMES and name in _NANOSECONDS else ""
+
+
+def _is_chosen(finding: TypeFinding, node: ast.Attribute) -> bool:
+    """Tell whether a condition asks a table of what kind the object is that comes from it."""
+    if not isinstance(node.value, ast.Subscript):
+        return False
+    module = finding.module
+    table = module.text(node.value.value)
+    return any(
+        isinstance(part, ast.Subscript) and module.text(part.value) == table
+        for condition in conditions_on(module, node)
+        for part in ast.walk(condition)
+    )
 
 
 def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
@@ -401,7 +551,7 @@ def _known(
     """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
     name, package = node.attr, finding.package
     if finding.message.startswith("Module"):
-        return owner, module_names(package, owner)
+        return None if owner in _OF_WINDOWS else (owner, module_names(package, owner))
     is_of_workspace = re.fullmatch(r"\w+", owner) is not None  # it has no mark
     if is_of_workspace:
         return None if _is_set(package, name) else (owner, own_members(package, owner))
@@ -411,7 +561,7 @@ def _known(
     shown = full_name(class_)
     if shown == _EXECUTOR and _is_set(package, "executor"):
         return None  # ND013 reports that something else is assigned
-    is_message = re.search(r"\.(msg|srv|action)\.\w+$", shown) is not None
+    is_message = _MESSAGE.fullmatch(shown) is not None
     is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
     if not is_message and is_settable:
         return None  # an object of rclpy takes any attribute
@@ -423,8 +573,7 @@ def _cause(shown: str) -> str:
     matched = _MESSAGE.fullmatch(shown)
     if matched is None:
         return ""
-    name, _, part = matched["name"].partition("_")
-    return f"fields of {matched['package']}/{matched['kind']}/{name}{part and f'.{part}'}"
+    return f"fields of {matched['package']}/{matched['kind']}/{matched['name']}"
 
 
 def _without_none(owner: str) -> str:
@@ -441,15 +590,20 @@ def _class_of_object(owner: str) -> str | None:
 
 def _is_of_message_around(shown: str, name: str) -> bool:
     """Tell whether the annotation of a callback names the feedback for the message around it."""
-    return shown.endswith("_Feedback") and name in _AROUND_FEEDBACK
+    return shown.endswith(".Feedback") and name in _AROUND_FEEDBACK
 
 
 @fact
 def _is_set(package: Package, name: str) -> bool:
     """Tell whether some code of the package sets an attribute of this name."""
-    pattern = re.compile(rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode())
-    files = (package.data(path) for path in package.python_files)
-    return any(name.encode() in data and pattern.search(data) for data in files)
+    return any(_sets(package, path, name) for path in package.python_files)
+
+
+@fact
+def _sets(package: Package, path: str, name: str) -> bool:
+    pattern = rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
+    data = package.data(path)
+    return name.encode() in data and re.search(pattern, data) is not None
 
 
 def _fix(finding: TypeFinding, node: ast.Attribute, closest: str, *, is_sure: bool) -> Fix:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Sequence
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TypeRule, closest_name
 from scaffold.api.distributions import target
-from scaffold.api.types import TypeFinding, later_modules, module_names
+from scaffold.api.types import TypeFinding, later_modules, module_names, modules_with
 
 _INSTEAD = {
     "asynchat": "asyncio",
@@ -77,7 +78,10 @@ class ModuleUnknown(TypeRule):
         ),
         Example(
             "modules that Python 3.12 lacks, a misspelled one",
-            {"talker.py": "import imp\nfrom distutils import util\nimport rclpy.nodes\n"},
+            {
+                "talker.py": "import imp\nfrom distutils import util\nimport rclpy.nodes\n"
+                "from std_msgs.srv import SetBool\n"
+            },
             Report("1:8", "Python 3.12 has no module 'imp': ModuleNotFoundError; use importlib"),
             Report(
                 "2:6",
@@ -89,6 +93,11 @@ class ModuleUnknown(TypeRule):
                 "3:8",
                 "ROS 2 Jazzy has no module 'rclpy.nodes': ModuleNotFoundError; did "
                 "you mean 'rclpy.node'?",
+            ),
+            Report(
+                "4:6",
+                "ROS 2 Jazzy has no module 'std_msgs.srv': ModuleNotFoundError; did "
+                "you mean 'example_interfaces.srv' or 'std_srvs.srv'?",
             ),
         ),
         Example(
@@ -157,7 +166,10 @@ class ModuleUnknown(TypeRule):
             )
             return self.report(finding, message, self._fix(finding, module))
         closest = closest_name(finding.package, last, module_names(finding.package, above), 0.6)
-        hint = f"; did you mean '{above}.{closest}'?" if closest else ""
+        likely = _with_names(finding, module)
+        if closest:
+            likely = [f"{above}.{closest}"]
+        hint = f"; did you mean {' or '.join(map(repr, likely))}?" if likely else ""
         return self.report(
             finding, f"ROS 2 {target().title} has no module {module!r}: ModuleNotFoundError{hint}"
         )
@@ -165,12 +177,7 @@ class ModuleUnknown(TypeRule):
     def _of_later_python(self, finding: TypeFinding, module: str) -> Diagnostic | None:
         """Report a module that Python does not have yet, or one imported from its package."""
         later = later_modules()
-        names = [
-            f"{module}.{alias.name}"
-            for node in finding.module.walk(ast.ImportFrom)
-            if node.module == module and node.lineno == finding.location.line
-            for alias in node.names
-        ]
+        names = [f"{module}.{name}" for name in _imported(finding, module)]
         new = next((name for name in (module, *names) if name in later), None)
         if new is None:
             return None  # a package of the user's that is called like one of Python
@@ -192,3 +199,19 @@ class ModuleUnknown(TypeRule):
                 edit = Edit(finding.path, start + len(above), start + len(module), "")
                 return Fix(f"import {above!r}", (edit,))
         return None
+
+
+def _imported(finding: TypeFinding, module: str) -> Sequence[str]:
+    """Return the names that the reported line imports from a module."""
+    return [
+        alias.name
+        for node in finding.module.walk(ast.ImportFrom)
+        if node.module == module and node.lineno == finding.location.line
+        for alias in node.names
+    ]
+
+
+def _with_names(finding: TypeFinding, module: str) -> Sequence[str]:
+    """Return the modules that have all names imported from one that does not exist."""
+    having = [{*modules_with(finding.package, name, module)} for name in _imported(finding, module)]
+    return sorted(frozenset.intersection(*map(frozenset, having))) if having else []

@@ -6,11 +6,16 @@ import ast
 import collections.abc
 import sys
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Report, TypeRule, closest_name
-from scaffold.api.types import TypeFinding, module_names
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, TypeRule, closest_name
+from scaffold.api.distributions import removed_interface
+from scaffold.api.types import TypeFinding, module_names, modules_with
 
-_IMPORTED = frozenset({*sys.stdlib_module_names, "launch", "launch_ros", "rclpy", "yaml"})
+_IMPORTED = frozenset(
+    {*sys.stdlib_module_names, "ament_index_python", "launch", "launch_ros", "rclpy", "yaml"}
+)
 """What modules of ROS import for themselves, which their annotations alone do not show."""
+_FEW = 3
+"""Modules that a message may name."""
 
 
 class NameNotInModule(TypeRule):
@@ -49,7 +54,8 @@ class NameNotInModule(TypeRule):
             "what a module imports for itself",
             {
                 "talker.py": "from rclpy.executors import time\n"
-                "from launch_ros.substitutions.find_package import get_package_share_directory\n\n"
+                "from launch_ros.substitutions.find_package import get_package_share_directory\n"
+                "from rclpy.utilities import ament_index_python\n\n"
                 "print(time.time(), get_package_share_directory('rclpy'))\n"
             },
         ),
@@ -65,8 +71,61 @@ class NameNotInModule(TypeRule):
         ),
         Example(
             "a misspelled name",
-            {"talker.py": "from rclpy.node import Nod\n"},
+            {"talker.py": "from rclpy.node import Nod\nfrom std_msgs.msg import Sting\n"},
             Report("1:24", "'rclpy.node' has no 'Nod': ImportError; did you mean 'Node'?"),
+            Report("2:26", "'std_msgs.msg' has no 'Sting': ImportError; did you mean 'String'?"),
+        ),
+        Example(
+            "a name of another module",
+            {
+                "talk.launch.py": "from launch.actions import Node, TimerAction\n"
+                "from launch.substitutions import FindPackageShare\n",
+                "talker.py": "from std_msgs import Bool\nfrom std_msgs.msg import Twist\n",
+            },
+            Report(
+                "talk.launch.py:1:28",
+                "'launch.actions' has no 'Node': ImportError; did you mean "
+                "'launch_ros.actions.Node'?",
+            ),
+            Report(
+                "talk.launch.py:2:34",
+                "'launch.substitutions' has no 'FindPackageShare': ImportError; did "
+                "you mean 'launch_ros.substitutions.FindPackageShare'?",
+            ),
+            Report(
+                "talker.py:1:22",
+                "'std_msgs' has no 'Bool': ImportError; did you mean 'std_msgs.msg.Bool'?",
+            ),
+            Report(
+                "talker.py:2:26",
+                "'std_msgs.msg' has no 'Twist': ImportError; did you mean "
+                "'geometry_msgs.msg.Twist'?",
+            ),
+        ),
+        Example(
+            "a message of the workspace",
+            {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
+            Report("1:31", "'my_msgs.msg' has no 'Bet': ImportError; did you mean 'Beat'?"),
+            neighbours={
+                "my_msgs": {
+                    "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
+                    "CMakeLists.txt": "project(my_msgs)\n"
+                    "rosidl_generate_interfaces(${PROJECT_NAME} drums/msg/Beat.msg)\n",
+                    "drums/msg/Beat.msg": "int32 count\n",
+                }
+            },
+        ),
+        Example(
+            "a message that is gone",
+            {"talker.py": "from geometry_msgs.msg import Pose2D\n"},
+            Report(
+                "1:31",
+                "'geometry_msgs.msg' has no 'Pose2D': ImportError; it was removed "
+                "in Lyrical: use geometry_msgs/msg/Pose, or a message of your own "
+                "with x, y and theta: which is right depends on who reads it "
+                "(common_interfaces 283)",
+            ),
+            distro="lyrical",
         ),
     )
 
@@ -83,9 +142,7 @@ class NameNotInModule(TypeRule):
         if module == "collections" and name in collections.abc.__all__:
             fix = self._fix(finding)
             return self.report(finding, f"{message}; it is in 'collections.abc'", fix)
-        closest = closest_name(finding.package, name, module_names(finding.package, module), 0.6)
-        hint = f"; did you mean {closest!r}?" if closest else ""
-        return self.report(finding, f"{message}{hint}")
+        return self.report(finding, f"{message}{_instead(finding.package, module, name)}")
 
     def _fix(self, finding: TypeFinding) -> Fix | None:
         for node in finding.module.walk(ast.ImportFrom):
@@ -98,3 +155,16 @@ class NameNotInModule(TypeRule):
                 edit = Edit(finding.path, start, start + len("collections"), "collections.abc")
                 return Fix("import from 'collections.abc'", (edit,))
         return None
+
+
+def _instead(package: Package, module: str, name: str) -> str:
+    """Return what to import instead: the same name from elsewhere, or one that is spelled alike."""
+    change = removed_interface(f"{module}.{name}".replace(".", "/"))
+    if change is not None:
+        return f"; it {change.state}: {change.advice} ({change.source})"
+    modules = modules_with(package, name, module)
+    if 0 < len(modules) <= _FEW:
+        likely = [repr(f"{item}.{name}") for item in modules]
+        return f"; did you mean {' or '.join(likely)}?"
+    closest = closest_name(package, name, module_names(package, module), 0.6)
+    return f"; did you mean {closest!r}?" if closest else ""

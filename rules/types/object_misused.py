@@ -75,6 +75,22 @@ class ObjectMisused(TypeRule):
             Report("6:12", "a geometry_msgs.msg.Point has no elements: TypeError"),
         ),
         Example(
+            "a publisher, a profile",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                "from rclpy.qos import qos_profile_sensor_data\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Talker(Node):\n"
+                "    def start(self):\n"
+                "        self.talker = self.create_publisher(\n"
+                "            String, 'talk', qos_profile_sensor_data())\n\n"
+                "    def say(self, text):\n"
+                "        self.talker(String(data=text))\n"
+            },
+            Report("9:29", "an rclpy.qos.QoSProfile cannot be called: TypeError"),
+            Report("12:9", "an rclpy.publisher.Publisher cannot be called: TypeError"),
+        ),
+        Example(
             "as many names as values",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
@@ -129,6 +145,18 @@ class ObjectMisused(TypeRule):
                 "        super().__init__('talker')\n"
                 "        self.heard = self.create_subscription(String, 'a', print, 10)\n"
                 "        self.create_subscription = self.create_publisher(String, 'b', 10)\n"
+            },
+        ),
+        Example(
+            "an attribute for which Python lists several types",
+            {
+                "serve.py": "from socketserver import TCPServer\n\n"
+                "from rclpy.node import Node\n\n\n"
+                "def url(address):\n    host, port = address\n"
+                "    return f'http://{host}:{port}'\n\n\n"
+                "def serve(server: TCPServer):\n"
+                "    Node(url(server.server_address))\n\n\n"
+                "serve(TCPServer(('', 1), None))\n"
             },
         ),
     )

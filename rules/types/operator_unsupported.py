@@ -14,14 +14,13 @@ _NODE = (
     "    def tick(self):\n"
     "        return self.get_clock().now() - self.start > {}\n"
 )
-_NUMBERS = {
-    "rclpy.time.Time": "compare .nanoseconds, or use Duration(seconds=...)",
-    "rclpy.duration.Duration": "compare .nanoseconds, or use Duration(seconds=...)",
+_INSTEAD = {
     "builtin_interfaces.msg.Time": "convert it with rclpy.time.Time.from_msg(...)",
     "builtin_interfaces.msg.Duration": "convert it with rclpy.duration.Duration.from_msg(...)",
     "rcl_interfaces.msg.ParameterValue": "use get_parameter(...).value",
     "rclpy.parameter.Parameter": "append .value",
 }
+_TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 
 
 class OperatorUnsupported(TypeRule):
@@ -44,8 +43,21 @@ class OperatorUnsupported(TypeRule):
             {"ticker.py": _NODE.format("1.0")},
             Report(
                 "11:16",
-                "'>' does not work on a rclpy.duration.Duration and a float: "
-                "TypeError; compare .nanoseconds, or use Duration(seconds=...)",
+                "'>' does not work on an rclpy.duration.Duration and a float: "
+                "TypeError; use Duration(seconds=...), or compare .nanoseconds",
+            ),
+        ),
+        Example(
+            "a time and a number",
+            {
+                "ticker.py": _NODE.format("Duration(seconds=1.0)").replace(
+                    "get_clock().now()\n\n", "get_clock().now() + 5.0\n\n"
+                )
+            },
+            Report(
+                "8:22",
+                "'+' does not work on an rclpy.time.Time and a float: TypeError; "
+                "use Duration(seconds=...)",
             ),
         ),
     )
@@ -66,7 +78,15 @@ class OperatorUnsupported(TypeRule):
             return None
         operator = matched["operator"]
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
-        hints = [_NUMBERS.get(full_name(class_), "") for class_ in classes if class_]
+        hints = [_hint(full_name(class_), operator) for class_ in classes if class_]
         hint = next(filter(None, hints), "")
         message = f"{operator!r} does not work on {pair}: TypeError"
         return self.report(finding, f"{message}; {hint}" if hint else message)
+
+
+def _hint(class_: str, operator: str) -> str:
+    """Return what to write instead of an operator and an object of a class."""
+    if class_ not in _TIMES:
+        return _INSTEAD.get(class_, "")
+    compares = operator in {"<", "<=", ">", ">="}
+    return f"use Duration(seconds=...){', or compare .nanoseconds' if compares else ''}"

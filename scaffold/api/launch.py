@@ -57,6 +57,7 @@ from scaffold.model.launch.remappings import (
     has_name,
     is_reversed,
     misses_namespace,
+    misses_privacy,
     names_of,
     remapped_nodes,
 )
@@ -118,6 +119,7 @@ __all__ = [
     "may_be_set_elsewhere",
     "meant_package",
     "misses_namespace",
+    "misses_privacy",
     "missing_in",
     "names_alike",
     "names_of",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from scaffold.model.discovery.declaring import declaring, way_back
 from scaffold.model.manifest import requirements
 from scaffold.model.manifest.conditions import (
     ConditionError,
@@ -23,6 +24,7 @@ __all__ = [
     "Manifest",
     "constants",
     "declared",
+    "declaring",
     "holds",
     "is_never_true",
     "is_placeholder",
@@ -33,4 +35,5 @@ __all__ = [
     "requirements",
     "similar_license",
     "spdx_of",
+    "way_back",
 ]

@@ -7,10 +7,9 @@ from scaffold.model.messages.inference import (
     PARTS,
     MessageClass,
     MessageTypes,
-    interfaces_named,
     message_paths,
 )
-from scaffold.model.messages.stamps import unstamped
+from scaffold.model.messages.stamps import childless, unstamped
 
 __all__ = [
     "PARTS",
@@ -18,7 +17,7 @@ __all__ = [
     "MessageTypes",
     "TypeMismatches",
     "ValueTypes",
-    "interfaces_named",
+    "childless",
     "message_paths",
     "rclpy_time",
     "unstamped",

@@ -17,7 +17,7 @@ from scaffold.model.programs.blocking import (
     waits_alone,
     waits_in,
 )
-from scaffold.model.programs.entry_points import Execution, files_of, run_of, starts_of
+from scaffold.model.programs.entry_points import Execution, paths_of, run_of, starts_of
 from scaffold.model.programs.executables import nodes_of, programs_of
 from scaffold.model.programs.executors import Shutdowns, used_of_executor
 from scaffold.model.programs.initialization import calls_others, late_init, may_init
@@ -51,7 +51,6 @@ __all__ = [
     "calls_others",
     "client_at",
     "client_of",
-    "files_of",
     "in_callbacks",
     "in_constructors",
     "in_tasks",
@@ -64,6 +63,7 @@ __all__ = [
     "names_other_executor",
     "nodes_of",
     "one_sided",
+    "paths_of",
     "phases_of",
     "programs_of",
     "publish_calls",

@@ -7,6 +7,7 @@ from scaffold.model.python.facts import (
     exports_of,
     imports_by_path,
     paths_importing,
+    rospack_lookups,
 )
 from scaffold.model.python.guards import (
     caught_around,
@@ -26,7 +27,7 @@ from scaffold.model.python.returns import (
     value_set_before,
 )
 from scaffold.model.python.scopes import FunctionNode
-from scaffold.model.python.signatures import argument_error, misfit_of_context
+from scaffold.model.python.signatures import misfit_of_context
 from scaffold.model.python.values import UNKNOWN, Glob, PathValue, Unknown, is_known, kind_of
 
 __all__ = [
@@ -38,7 +39,6 @@ __all__ = [
     "PathValue",
     "PythonModule",
     "Unknown",
-    "argument_error",
     "caught_around",
     "conditions_on",
     "exports_of",
@@ -55,5 +55,6 @@ __all__ = [
     "misfit_of_context",
     "paths_importing",
     "returned",
+    "rospack_lookups",
     "value_set_before",
 ]

@@ -12,7 +12,6 @@ from scaffold.model.rclpy.api import (
     is_method,
     known_names,
 )
-from scaffold.model.rclpy.api_signatures import Excess, excess_arguments
 from scaffold.model.rclpy.attributes import (
     defined_by,
     given_from_outside,
@@ -23,7 +22,6 @@ from scaffold.model.rclpy.attributes import (
     used_by_classes,
 )
 from scaffold.model.rclpy.callbacks import numbers_taken
-from scaffold.model.rclpy.called_functions import called_function
 from scaffold.model.rclpy.changed_calls import changed_calls
 from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for, is_tried
 from scaffold.model.rclpy.entities import (
@@ -64,11 +62,11 @@ from scaffold.model.rclpy.parameters.objects import (
     parameters_set,
     types_compared,
 )
-from scaffold.model.rclpy.parameters.values import objects_used, use_as_value
+from scaffold.model.rclpy.parameters.values import objects_used
 from scaffold.model.rclpy.qos import conflict_of
 from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.model.rclpy.time_units import unit_problems
-from scaffold.model.rclpy.times import clocks_of
+from scaffold.model.rclpy.times import NUMBER, clocks_of
 from scaffold.model.rclpy.transforms import (
     Lookup,
     buffer_made,
@@ -84,6 +82,7 @@ __all__ = [
     "GOAL_HANDLE",
     "LOG_METHODS",
     "NODE",
+    "NUMBER",
     "PARAMETER",
     "PLACES",
     "RESULT",
@@ -95,7 +94,6 @@ __all__ = [
     "Client",
     "Endpoint",
     "Entity",
-    "Excess",
     "Lookup",
     "NodeClass",
     "NodeDefinition",
@@ -112,14 +110,12 @@ __all__ = [
     "buffer_made",
     "buffers_in",
     "callback_arguments",
-    "called_function",
     "changed_calls",
     "changed_uses",
     "class_of",
     "clocks_of",
     "conflict_of",
     "defined_by",
-    "excess_arguments",
     "given_from_outside",
     "has",
     "is_asked_for",
@@ -153,7 +149,6 @@ __all__ = [
     "topic_problem",
     "types_compared",
     "unit_problems",
-    "use_as_value",
     "used_by_classes",
     "wrong_value",
 ]

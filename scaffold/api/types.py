@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from scaffold.types.finding import TypeFinding
-from scaffold.types.marks import MARKED, full_name
+from scaffold.types.marks import MARKED, full_name, short_name
 from scaffold.types.members import (
     has_call,
+    is_kind_of,
     keywords,
     members,
     module_names,
+    modules_with,
     overload_problem,
     own_members,
     parameters,
@@ -23,6 +25,7 @@ from scaffold.types.wording import (
     is_function,
     name_of,
     with_article,
+    with_elements,
 )
 
 __all__ = [
@@ -36,13 +39,17 @@ __all__ = [
     "is_certain",
     "is_certain_misfit",
     "is_function",
+    "is_kind_of",
     "keywords",
     "later_modules",
     "members",
     "module_names",
+    "modules_with",
     "name_of",
     "overload_problem",
     "own_members",
     "parameters",
+    "short_name",
     "with_article",
+    "with_elements",
 ]

@@ -6,6 +6,7 @@ from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 
 from scaffold.record import NamedTuple
+from scaffold.types.passed import Passed
 
 
 class Extended(NamedTuple):
@@ -14,6 +15,8 @@ class Extended(NamedTuple):
     data: bytes
     added: Sequence[int]
     """The numbers of these lines, in order."""
+    passed: Sequence[Passed] = ()
+    """What it gives functions of other modules."""
 
     def original_line(self, line: int) -> int:
         """Return the number that a line has in the user's file; 0 for one that is added."""

@@ -1,18 +1,20 @@
-"""What functions are given by the calls in their file, for a type checker that looks at no calls.
+"""What functions are given by calls, for a type checker that looks at no calls.
 
 ``self.say('hello')`` tells what ``say(self, text)`` gets. A line before the call keeps the argument
 under a global name, and a line at the start of the function takes it from there: the type checker
-infers both by itself. An argument is kept in a list, so that ``'hello'`` counts as any str.
+infers both by itself. An argument is kept in a list, so that ``'hello'`` counts as any str. What
+the author says about the type of the parameter is left out then: no call has to keep to it.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
 from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.callbacks import arguments_of, function_body
+from scaffold.types.passed import Passed, own_names, places
 from scaffold.types.statements import statement_around
 
 _GIVEN = "_ros2_given"
@@ -27,14 +29,20 @@ _FUNCTION = re.compile(
     re.MULTILINE,
 )
 _NAME = re.compile(r"\w+")
+_PARAMETER = re.compile(r"(\*{0,2}\w*|/)[ ]*(:[^=\"'\n#]*?)?[ ]*(?:=\s*(.*))?", re.DOTALL)
+"""Matches a parameter; not one with quotes in its annotation, as those of callbacks have."""
 _CONSTANT = re.compile(r"-?\d[\w.]*|'[^'\\\n]*'|\"[^\"\\\n]*\"|True|False|None")
 _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield)\b|:=|#|\bself\s*(?:$|[,)\]])")
 """Matches what is something else on another line, and an object whose class may be a subclass."""
 
 
 class _Function(NamedTuple):
+    name: str
+    """For other modules: ``to_pose``, ``Arm.move``, or ``Arm`` for its constructor."""
     called: str
     """What its calls begin with: ``self.name(`` or ``name(``."""
+    place: int
+    """Where its parameters begin."""
     parameters: str
     is_method: bool
     start: int
@@ -44,42 +52,107 @@ class _Function(NamedTuple):
     """Where it is called: in its class, or in the whole file."""
 
 
-def with_arguments(data: bytes) -> Extended:
-    """Return a file with what its functions are given."""
+def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = ()) -> Extended:
+    """Return a file with what its functions are given.
+
+    Args:
+        data: What is in the file.
+        module: Its dotted name, for what it passes to other modules of its package.
+        received: What those pass to it.
+    """
     try:
         text = data.decode()
     except UnicodeDecodeError:
         return Extended(data, ())
-    if "\r" in text or "\t" in text or "def " not in text:
+    if "\r" in text or "\t" in text:
         return Extended(data, ())
     lines: dict[int, list[str]] = {}
+    annotations: list[tuple[int, int]] = []
+    calls: dict[str, list[Passed]] = {}
+    for call in received:
+        calls.setdefault(call.function.removeprefix(f"{module}."), []).append(call)
     for function in _functions(text):
-        _follow(text, function, lines)
-    return with_lines(text, lines) if lines else Extended(data, ())
+        annotations += _follow(text, function, calls.get(function.name, ()), lines)
+    passed = [*_passed(text, data, module, lines)]
+    if not lines:
+        return Extended(data, ())
+    return with_lines(_without(text, annotations), lines)._replace(passed=passed)
 
 
-def _follow(text: str, function: _Function, lines: dict[int, list[str]]) -> None:
-    """Add the lines before the calls of a function, and the one at its start."""
+def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
+    """Add the lines before calls of functions of other modules; yield what they keep."""
+    for call in places(text, own_names(data, module)):
+        words, end = _arguments(text, call.arguments)
+        place = statement_around(text, call.start, end) if words else -1
+        if place < 0 or any(value.startswith("*") for value in words.values()):
+            continue
+        prefix = f"{_GIVEN}_{module.replace('.', '_')}_{call.start}"
+        kept = {
+            key: f"{prefix}_{key}"
+            for key, value in words.items()
+            if value and not _CONSTANT.fullmatch(value) and not _OTHER_SCOPE.search(value)
+        }
+        if kept:
+            _keep(text, place, {name: words[key] for key, name in kept.items()}, lines)
+        yield Passed(call.function, module, {**words, **kept})
+
+
+def _keep(text: str, place: int, values: Mapping[str, str], lines: dict[int, list[str]]) -> None:
+    """Add a line that keeps values under global names, before a statement."""
+    indent = text[place : place + len(text[place:]) - len(text[place:].lstrip(" "))]
+    kept = "; ".join(f"{name} = [{value}]" for name, value in values.items())
+    lines.setdefault(place, []).append(f"{indent}global {', '.join(values)}; {kept}")
+
+
+def _without(text: str, stretches: Iterable[tuple[int, int]]) -> str:
+    """Return a text with spaces in place of some stretches."""
+    parts: list[str] = []
+    at = 0
+    for start, end in sorted(stretches):
+        parts += text[at:start], " " * (end - start)
+        at = end
+    return "".join([*parts, text[at:]])
+
+
+def _follow(
+    text: str, function: _Function, received: Sequence[Passed], lines: dict[int, list[str]]
+) -> Iterator[tuple[int, int]]:
+    """Add the lines before the calls of a function, and the one at its start.
+
+    Yields:
+        Where the annotations are of the parameters that are taken from there.
+    """
     sources: dict[str, list[str]] = {}
-    for number, (place, given) in enumerate(_calls(text, function)):
+    calls = [*_calls(text, function)]
+    if not (calls or received):
+        return
+    parameters = _Parameters(function)
+    for number, (place, words) in enumerate(calls):
         kept: dict[str, str] = {}
-        for parameter, value in given.items():
+        for parameter, value in parameters.given(words).items():
             source = f"[{value}]"
             if not _CONSTANT.fullmatch(value):
                 kept[f"{_GIVEN}_{function.start}_{number}_{parameter}"] = value
                 source = [*kept][-1]
             sources.setdefault(parameter, []).append(source)
         if kept:
-            indent = text[place : place + len(text[place:]) - len(text[place:].lstrip(" "))]
-            values = "; ".join(f"{name} = [{value}]" for name, value in kept.items())
-            lines.setdefault(place, []).append(f"{indent}global {', '.join(kept)}; {values}")
-    taken = [
-        f"{name} = ({f' if {_EITHER} else '.join(dict.fromkeys(values))})[0]"
+            _keep(text, place, kept, lines)
+    imports: list[str] = []
+    for call in received:
+        for parameter, value in parameters.given(call.given).items():
+            is_constant = _CONSTANT.fullmatch(value) is not None
+            sources.setdefault(parameter, []).append(f"[{value}]" if is_constant else value)
+            imports += [] if is_constant else [f"from {call.module} import {value}"]
+    taken = {
+        name: f"{name} = ({f' if {_EITHER} else '.join(dict.fromkeys(values))})[0]"
         for name, values in sources.items()
         if len(values) <= _MOST_CALLS
-    ]
+    }
     if taken:
-        lines.setdefault(function.start, []).insert(0, function.inner + "; ".join(taken))
+        taking = "; ".join([*imports, *taken.values()])
+        lines.setdefault(function.start, []).insert(0, function.inner + taking)
+        annotations = parameters.annotations
+        yield from (annotations[name] for name in taken if name in annotations)
 
 
 def _functions(text: str) -> Iterator[_Function]:
@@ -90,21 +163,24 @@ def _functions(text: str) -> Iterator[_Function]:
         while classes[at] <= match.start():
             at += 1
         decorator = _decorator(text, match.start())
-        if decorator not in {"", "staticmethod"}:
+        if decorator not in {"", "staticmethod"} or "#" in match["parameters"]:
             continue
         called, segment = match["name"], (classes[at - 1] if at else 0, classes[at])
         is_method = text.startswith("self", match.start("parameters"))
-        if called == "__init__" and is_method and at:
-            class_ = _NAME.match(text, segment[0] + len("class "))
+        class_ = _NAME.match(text, segment[0] + len("class ")) if at else None
+        name = "" if match["indent"] else called
+        if called == "__init__" and is_method and class_:
             is_only_one = text.count("def __init__(", *segment) == 1
-            called, segment = class_[0] if class_ and is_only_one else "", (0, len(text))
+            called, segment = class_[0] if is_only_one else "", (0, len(text))
+            name = called
         elif decorator or (is_method and match["indent"]):
+            name = f"{class_[0]}.{called}" if class_ else ""
             called = f"self.{called}"
         else:
             segment = (0, len(text))
         if called:
             yield _Function(
-                *(f"{called}(", match["parameters"], is_method),
+                *(name, f"{called}(", match.start("parameters"), match["parameters"], is_method),
                 *(match.end(), match["inner"], segment),
             )
 
@@ -132,8 +208,7 @@ def _decorator(text: str, start: int) -> str:
 
 
 def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, str]]]:
-    """Yield the calls of a function: where their statements begin, and what they give."""
-    parameters: _Parameters | None = None
+    """Yield the calls of a function: where their statements begin, and their arguments."""
     body: tuple[int, int] | None = None
     at = text.find(function.called, *function.segment)
     while at >= 0:
@@ -142,18 +217,37 @@ def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, s
             continue
         if text.endswith(("def ", "class "), 0, start):
             continue
-        words, end = arguments_of(text, start + len(function.called))
-        place = statement_around(text, start, end) if any(words.values()) else -1
+        words, end = _arguments(text, start + len(function.called))
+        place = statement_around(text, start, end) if words else -1
         if place < 0:
             continue
-        if parameters is None or body is None:
+        if body is None:
             if not _is_unique(text, function):
                 return
-            parameters = _Parameters(function)
             head = function.start - 1
             body = head, head + len(function_body(text, head, head))
-        if not body[0] <= start < body[1] and (given := parameters.given(words)):
-            yield place, given
+        if not body[0] <= start < body[1]:
+            yield place, words
+
+
+def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
+    """Return the arguments of a call, and where it ends; ``self`` as an object of its class."""
+    words, end = arguments_of(text, start)
+    if any("#" in word for word in words.values()):
+        return {}, end  # the commas of a comment are none
+    if "self" not in words.values():
+        return words, end
+    return {key: _object(text, start) if it == "self" else it for key, it in words.items()}, end
+
+
+def _object(text: str, at: int) -> str:
+    """Return an object of the class around a place; ``self`` if the file makes no such object."""
+    start = text.rfind("\nclass ", 0, at) + 1
+    class_ = _NAME.match(text, start + len("class ")) if text.startswith("class ", start) else None
+    if class_ is None or re.search(r"\n[^\s#)]", text[start:at]):
+        return "self"
+    is_made = re.search(rf"(?<!class )(?<![\w.]){class_[0]}\(", text)
+    return f"{class_[0]}.__new__({class_[0]})" if is_made else "self"
 
 
 class _Parameters:
@@ -165,21 +259,29 @@ class _Parameters:
 
     def __init__(self, function: _Function) -> None:
         self._defaults: dict[str, str] = {}
-        """Of those without an annotation; empty where there is none."""
+        """Empty where there is none."""
+        self.annotations: dict[str, tuple[int, int]] = {}
+        """Where the annotations are, by the name of the parameter."""
         self._positional: list[str] = []
         is_by_keyword = False
+        at = 0
         for key, word in arguments_of(function.parameters, 0)[0].items():
-            name, default = (word, "") if key.isdigit() else (key, word)
+            match = _PARAMETER.fullmatch(word if key.isdigit() else f"{key}={word}")
+            name = match[1] if match else (_NAME.match(word) or [""])[0]
             is_by_keyword = is_by_keyword or name.startswith("*")
             if not is_by_keyword and name != "/":
                 self._positional.append(name)
-            if name.isidentifier():
-                self._defaults[name] = default
+            start = function.place + function.parameters.find(word, at)
+            at = start + len(word) - function.place
+            if match and name.isidentifier():
+                self._defaults[name] = match[3] or ""
+                if match[2]:
+                    self.annotations[name] = start + match.start(2), start + match.end(2)
         if function.is_method:
             del self._positional[:1]
 
     def given(self, words: Mapping[str, str]) -> Mapping[str, str]:
-        """Return what a call gives the parameters without annotation; nothing if not sure."""
+        """Return what a call gives the parameters, by name; nothing if that is not sure."""
         result: dict[str, str] = {}
         for key, value in words.items():
             if value.startswith("*"):
@@ -190,14 +292,15 @@ class _Parameters:
                 result[self._positional[int(key)]] = value
             elif value:
                 return {}
-        kept = {
-            name: value
-            for name, value in result.items()
-            if name in self._defaults and not _OTHER_SCOPE.search(value)
-        }
         defaults = {
             name: default
             for name, default in self._defaults.items()
             if name not in result and _CONSTANT.fullmatch(default)
         }
-        return kept | defaults if kept else {}
+        kept = {
+            name: value
+            for name, value in result.items()
+            if name in self._defaults and not _OTHER_SCOPE.search(value)
+        }
+        is_worth = kept or (not result and {*defaults.values()} != {"None"})
+        return kept | defaults if is_worth else {}

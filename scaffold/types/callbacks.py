@@ -16,8 +16,12 @@ _WORDS = (
     b"ActionServer(",
     b"add_done_callback(",
     b"registerCallback(",
+    b"_set_parameters_callback(",
 )
-_CALL = re.compile(r"\b(create_subscription|create_service|ActionServer|add_done_callback)\(")
+_CALL = re.compile(
+    r"\b(create_subscription|create_service|ActionServer|add_done_callback"
+    r"|add_(?:on|post|pre)_set_parameters_callback)\("
+)
 _FILTER = re.compile(
     r"((?:self\.)?\b[^\W\d]\w{0,80})[ ]{0,9}=[ ]{0,9}(?:message_filters\.)?"
     r"(Subscriber|TimeSynchronizer|ApproximateTimeSynchronizer)\("
@@ -40,16 +44,20 @@ _REBOUND = (
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _FUTURE = "_Ros2Future"
 _ACCEPTED = "_Ros2ClientGoalHandle"
+_PARAMETER_OBJECT = "_Ros2Parameter"
 _IMPORTS = {
     _ACCEPTED: f"\nfrom rclpy.action.client import ClientGoalHandle as {_ACCEPTED}\n",
     _GOAL_HANDLE: f"\nfrom rclpy.action.server import ServerGoalHandle as {_GOAL_HANDLE}\n",
     _FUTURE: f"\nfrom rclpy.task import Future as {_FUTURE}\n",
+    _PARAMETER_OBJECT: f"\nfrom rclpy.parameter import Parameter as {_PARAMETER_OBJECT}\n",
 }
 """What is imported at the end of a file, by the name that is used."""
 # linear: up to 2 kB are searched
 _FUTURE_NAME = re.compile(r"(?:self\.)?\b\w+$")
 # linear: as above
 _SENT_HERE = re.compile(r"\.send_goal_async\([^()]*(?:\([^()]*\)[^()]*)*\)$")
+_SIGN = re.compile(r"[()\[\]{},'\"]|\\.", re.DOTALL)
+"""Matches what may end an argument or a string; with a backslash, what follows as well."""
 _LONGEST = 2_000
 """Characters of a call that are looked at."""
 _CALLBACKS = {
@@ -143,6 +151,11 @@ def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     for call in _CALL.finditer(segment):
         function = call[1]
         arguments = arguments_of(segment, call.end())[0]
+        if function.endswith("_set_parameters_callback"):
+            callback = _CALLBACK.fullmatch(arguments.get("0", arguments.get("callback", "")))
+            if callback is not None:
+                yield callback[1], (f"list[{_PARAMETER_OBJECT}]",)
+            continue
         if function == "add_done_callback":
             callback = _CALLBACK.fullmatch(arguments.get("0", ""))
             if callback is not None:
@@ -207,15 +220,12 @@ def arguments_of(text: str, start: int) -> tuple[dict[str, str], int]:
     There are none if the end is not found; a call without arguments has an empty one.
     """
     parts: list[str] = []
-    depth, at, quote = 0, start, ""
+    depth, quote = 0, ""
     begin = start
-    while at < min(len(text), start + _LONGEST):
-        character = text[at]
+    for match in _SIGN.finditer(text, start, min(len(text), start + _LONGEST)):
+        character = match[0]
         if quote:
-            if character == "\\":
-                at += 1
-            elif character == quote:
-                quote = ""
+            quote = "" if character == quote else quote
         elif character in "'\"":
             quote = character
         elif character in "([{":
@@ -223,11 +233,10 @@ def arguments_of(text: str, start: int) -> tuple[dict[str, str], int]:
         elif character in ")]}" and depth:
             depth -= 1
         elif character in ",)" and not depth:
-            parts.append(text[begin:at].strip())
-            begin = at + 1
+            parts.append(text[begin : match.start()].strip())
+            begin = match.end()
             if character == ")":
-                return _by_name(parts), at + 1
-        at += 1
+                return _by_name(parts), begin
     return {}, start
 
 

@@ -11,12 +11,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from scaffold import distributions
 from scaffold.model.package import Package
+from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
 from scaffold.types.added_lines import Extended
 from scaffold.types.arguments import with_arguments
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
+from scaffold.types.passed import callers
 from scaffold.types.results import with_result_types
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE
@@ -32,7 +34,7 @@ _DIFFERENT = frozenset(
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _NAMELESS = re.compile(
-    r"Object of type `(?:str|int|float|bool)` has no attribute `\w+`"
+    r"Object of type `(?:str|int|float|bool|bytes)` has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
     r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
 )
@@ -41,27 +43,40 @@ _NAMELESS = re.compile(
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
 
+_COPY = "_ros2_"
+"""What the name of the copy of a file begins with."""
+
+
 class _File:
     """A file to check: answered from the cache or by the type checker.
 
     Args:
         source: The file.
-        reached: It and all that it imports, by place.
+        callers: The other modules that call its functions.
+        reached: It and they and all that these import, by place.
         key: What it has in the cache.
-        found: What the cache has.
+        diagnostics: What the cache has.
+        is_relevant: Whether it is checked also if its callers give it nothing.
     """
 
     def __init__(
         self,
         source: Source,
+        callers: Sequence[Source],
         reached: Mapping[str, Source],
         key: str,
         diagnostics: list[TyDiagnostic] | None,
+        *,
+        is_relevant: bool,
     ) -> None:
         self.source = source
+        self.callers = callers
         self.reached = reached
         self.key = key
         self.diagnostics = diagnostics
+        self.is_relevant = is_relevant
+        self.place = source.place
+        """Where the type checker finds it with what its callers give it."""
 
 
 class TypeCheck:
@@ -81,12 +96,12 @@ class TypeCheck:
         """Why types are not checked; empty if they are."""
         self._scratch = ""
         self._run: ty.Run | None = None
-        self._written: Mapping[str, Extended] = {}
+        self._written: dict[str, Extended] = {}
         """What it reads, by place."""
         self._files: dict[int, list[_File]] = {}
         """Until what is reported about them is collected; by the number of the package."""
         self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
-        self._reached: dict[int, dict[str, frozenset[str]]] = {}
+        self._reached: dict[int, dict[str, Reads]] = {}
         self._suppressing: set[int] = set()
         self._packages = list(packages)  # so that no other gets its number
         try:
@@ -118,18 +133,27 @@ class TypeCheck:
             source = sources.get(package, path)
             if source is None:
                 continue
-            reached = sources.reached(source)
+            reads = Reads()
+            with recorded(reads):
+                found = [sources.get(package, other) for other in callers(package, path)]
+            calling = [item for item in found if item is not None]
+            reached = {**sources.reached(source)}
+            roots = frozenset[str]().union(*(item.roots for item in reached.values()))
+            is_relevant = _is_relevant(source, roots, stubbed)
+            for caller in calling:
+                reached.update(sources.reached(caller))
             if _SUPPRESSION.search(source.data):
                 self._suppressing.add(id(package))
             else:
-                self._reached.setdefault(id(package), {})[path] = frozenset(
+                reads.files.update(
                     item.package.full_path(item.path) for item in reached.values() if item.path
                 )
-            roots = frozenset[str]().union(*(item.roots for item in reached.values()))
-            if not _is_relevant(source, roots, stubbed) or _is_shadowed(source, stubbed):
+                self._reached.setdefault(id(package), {})[path] = reads
+            if not (is_relevant or calling) or _is_shadowed(source, stubbed):
                 continue
             key = self._cache.key(source, reached)
-            file = _File(source, reached, key, self._cache.get(key))
+            known = self._cache.get(key)
+            file = _File(source, calling, reached, key, known, is_relevant=is_relevant)
             self._files.setdefault(id(package), []).append(file)
             if file.diagnostics is None:
                 asked.append(file)
@@ -138,14 +162,45 @@ class TypeCheck:
             self._run = self._started("project", asked, _annotated)
 
     def _started(
-        self, name: str, asked: Sequence[_File], content: Callable[[Source], Extended]
+        self, name: str, asked: Sequence[_File], content: Callable[[Source], bytes]
     ) -> ty.Run:
         """Start the type checker on some files, with all that they import next to them."""
         mirrored = {place: item for file in asked for place, item in file.reached.items()}
         project = self._directory(name)
-        self._written = {place: content(source) for place, source in mirrored.items()}
+        texts = {place: content(source) for place, source in mirrored.items()}
+        self._written = {
+            place: with_arguments(text, mirrored[place].dotted)
+            if mirrored[place].path
+            else Extended(text, ())  # a stub
+            for place, text in texts.items()
+        }
+        for file in asked:
+            file.place = self._place(file, texts[file.source.place])
         _write(project, {place: written.data for place, written in self._written.items()})
-        return ty.Run(project, self._home, [file.source.place for file in asked])
+        places = [
+            file.place for file in asked if file.is_relevant or file.place != file.source.place
+        ]
+        return ty.Run(project, self._home, places or [asked[0].place])
+
+    def _place(self, file: _File, text: bytes) -> str:
+        """Return where a file is to be checked; write what its callers give it into a copy.
+
+        What others see of it must not depend on who else calls it.
+        """
+        source = file.source
+        received = [
+            call
+            for caller in file.callers
+            for call in self._written[caller.place].passed
+            if call.function.startswith(f"{source.dotted}.")
+        ]
+        extended = with_arguments(text, source.dotted, received) if received else None
+        if extended is None or extended.data == self._written[source.place].data:
+            return source.place
+        folder, _, name = source.place.rpartition("/")
+        place = f"{folder}/{_COPY}{name}"
+        self._written[place] = extended
+        return place
 
     def _results(self) -> Mapping[str, list[TyDiagnostic]]:
         """Return what is reported about lines of the user, by the place of the file."""
@@ -163,8 +218,8 @@ class TypeCheck:
             self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
         return os.path.join(self._scratch, name)
 
-    def reached_by(self, package: Package) -> Mapping[str, frozenset[str]]:
-        """Return what the reports about each file depend on, by ``Package.full_path``.
+    def reached_by(self, package: Package) -> Mapping[str, Reads]:
+        """Return what the reports about each file depend on.
 
         Files with a comment that names a code of types are left out: whether it suppresses
         anything is to be found out in each run.
@@ -197,7 +252,7 @@ class TypeCheck:
         try:
             reported = self._results()
             for file in asked:
-                diagnostics = reported.get(file.source.place, ())
+                diagnostics = reported.get(file.place, ())
                 stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
                 stubbed |= _roots(file.reached, are_stubs=True)
                 sources = file.reached.values()
@@ -225,7 +280,7 @@ class TypeCheck:
         self._run = self._started("unannotated", files, _unannotated)
         reported = self._results()
         for file in files:
-            again = {item[:3] for item in reported.get(file.source.place, ())}
+            again = {item[:3] for item in reported.get(file.place, ())}
             file.diagnostics = [
                 item
                 for item in file.diagnostics or ()
@@ -304,19 +359,16 @@ def _of_user(diagnostics: Sequence[TyDiagnostic], written: Extended) -> Iterator
             yield item._replace(line=line, end_line=end)
 
 
-def _annotated(source: Source) -> Extended:
-    """Return a file with the types of its callbacks, of plain results and of what calls give."""
-    if not source.path:  # a stub
-        return Extended(source.data, ())
-    return with_arguments(with_result_types(source.with_callback_types))
+def _annotated(source: Source) -> bytes:
+    """Return a file with the types of its callbacks and of plain results."""
+    return with_result_types(source.with_callback_types) if source.path else source.data
 
 
-def _unannotated(source: Source) -> Extended:
+def _unannotated(source: Source) -> bytes:
     """Return a file with no other annotations; nothing of one that does not parse."""
     if not source.path:
-        return Extended(source.data, ())
-    data = without_annotations(source.with_callback_types) or b""
-    return with_arguments(with_result_types(data))
+        return source.data
+    return with_result_types(without_annotations(source.with_callback_types) or b"")
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

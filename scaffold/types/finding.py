@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import TypeVar
 
 from scaffold.model.package import Package
 from scaffold.model.python.distribution_branches import stretches_not_run
 from scaffold.model.python.distribution_conditions import open_parts
-from scaffold.model.python.guards import Condition, all_conditions, values_asked
+from scaffold.model.python.guards import Condition, all_conditions, has_fallback, values_asked
 from scaffold.model.python.handlers import last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
+from scaffold.types.passed import first_call
 from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)
@@ -37,6 +38,8 @@ _ANYTHING = frozenset({"Exception", "BaseException"})
 _EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
 _OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
 """Kinds about an object, not about a call of it."""
+_OF_ARGUMENTS = frozenset({"unknown-argument", "too-many-positional-arguments"})
+"""Kinds about a call that always fails."""
 _SHORT = 2
 """Statements of a ``try`` that only asks whether something works."""
 
@@ -79,7 +82,7 @@ class TypeFinding:
             for node in self.module.walk(kind):
                 if getattr(node, "lineno", 0) != self.location.line:
                     continue
-                if self.module.location(node) == self.location:
+                if self.module.exact_location(node) == self.location:
                     return node
         return None
 
@@ -96,15 +99,25 @@ class TypeFinding:
             *(ast.Set, ast.IfExp, ast.BoolOp, ast.ListComp, ast.Starred, ast.Await),
         )
 
-    def passed_in(self) -> tuple[str, int] | None:
-        """Return the parameter that the report is about, and the line of the call that gives it."""
+    def passed_in(self) -> tuple[str, str] | None:
+        """Return the parameter that the report is about, and where the call is that gives it."""
+        node = self._root
+        if node is None:
+            return None
+        lines = [value.lineno for value in origins.arguments_for(self.module, node)]
+        if lines:
+            return node.id, f"line {min(lines)}"
+        called = origins.called_as(self.module, node)
+        place = first_call(self.package, self.path, called) if called else None
+        return (node.id, f"line {place[1]} of {place[0]}") if place else None
+
+    @cached_property
+    def _root(self) -> ast.Name | None:
+        """The name that the expression at the place starts with."""
         node = self.expression()
         while isinstance(node, ast.Attribute | ast.Subscript):
             node = node.value
-        if not isinstance(node, ast.Name):
-            return None
-        lines = [value.lineno for value in origins.arguments_for(self.module, node)]
-        return (node.id, min(lines)) if lines else None
+        return node if isinstance(node, ast.Name) else None
 
     @cached_property
     def innermost(self) -> ast.AST | None:
@@ -113,7 +126,7 @@ class TypeFinding:
         start, end = (at.line, at.column), (at.end_line, at.end_column)
         best: ast.AST | None = None
         for node in self._around():
-            place = self.module.location(node)
+            place = self.module.exact_location(node)
             if (place.line, place.column) <= start and end <= (place.end_line, place.end_column):
                 best = node
         return best
@@ -141,7 +154,8 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
-        if any(self._asks_what_there_is(item) for item in all_conditions(self.module, node)):
+        conditions = [*all_conditions(self.module, node)]
+        if any(map(self._asks_what_there_is, conditions)) or self._asks_arguments(conditions):
             return False
         child = node
         for parent in self.module.parents(node):
@@ -158,6 +172,11 @@ class TypeFinding:
         """Tell whether what is called or used may be another object than the reported one."""
         if self.kind == "missing-attribute":
             return False  # only reported if no object of them has it
+        assigned = next(
+            (it for it in self.module.parents(node) if isinstance(it, ast.Assign)), None
+        )
+        if assigned is not None and "to unpack" in self.message:
+            return origins.is_attribute(self.module, assigned.value)
         call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), None)
         called: list[ast.AST] = [it.func for it in (node, call) if isinstance(it, ast.Call)]
         if any(isinstance(func, ast.Subscript) for func in called):
@@ -203,6 +222,20 @@ class TypeFinding:
         names = {node.id for node in nodes if isinstance(node, ast.Name)}
         return not names.isdisjoint(self._imported)
 
+    def _asks_arguments(self, conditions: Sequence[Condition]) -> bool:
+        """Tell whether the place is run for some values of another argument of its function."""
+        root = self._root
+        others = origins.other_parameters(self.module, root) if root else frozenset()
+        if not others or self.passed_in() is None:
+            return False
+        tests = [
+            test
+            for item in conditions
+            for test in (_cases(item.test) if item.is_of_leaving else [item.test])
+        ]
+        names = {node.id for test in tests for node in ast.walk(test) if isinstance(node, ast.Name)}
+        return not names.isdisjoint(others)
+
     @cached_property
     def _imported(self) -> frozenset[str]:
         """The names that imports bind in the file, where an import may fail."""
@@ -222,9 +255,25 @@ class TypeFinding:
             names = last_names(handler.type) if handler.type is not None else _ANYTHING
             if names & _PROBED:
                 return True
-            if place == "body" and names & _ANYTHING and len(node.body) <= _SHORT:
+            if place == "body" and names & _ANYTHING and self._is_short(node, child):
                 return True
         return False
+
+    def _is_short(self, node: ast.Try, child: ast.AST) -> bool:
+        """Tell whether a ``try`` only asks whether something works.
+
+        One around a call that can never work, and without anything to do instead, does not.
+        """
+        if self.kind in _OF_ARGUMENTS:
+            return has_fallback(self.module, child, is_rare=False)
+        return len(node.body) <= _SHORT
+
+
+def _cases(condition: ast.expr) -> Iterator[ast.Compare]:
+    """Yield the comparisons in a condition that single out some values."""
+    for node in ast.walk(condition):
+        if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Eq | ast.In):
+            yield node
 
 
 def _expects(expression: ast.expr) -> bool:

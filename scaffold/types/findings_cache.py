@@ -13,7 +13,7 @@ from scaffold.types.ty import TyDiagnostic
 
 KIND = "types"
 MOST = 20_000
-_MAGIC = b"scaffold-types-5\n"
+_MAGIC = b"scaffold-types-7\n"
 """Changes with what is kept of the reports; see ``types.check``."""
 
 

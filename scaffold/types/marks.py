@@ -69,6 +69,19 @@ def _alias(indent: int, name: str, marked: str) -> str:
 
 
 def full_name(marked: str) -> str:
-    """Return the dotted name of a marked one, without private modules: ``std_msgs.msg.String``."""
+    """Return the dotted name of a marked one, as code has it.
+
+    That is without private modules, ``std_msgs.msg.String``, and with the parts of services and
+    actions as what they are attributes of: ``std_srvs.srv.Trigger.Request``.
+    """
+    _, *where = marked.split(MARK)
+    return ".".join([*(part for part in where if not part.startswith("_")), short_name(marked)])
+
+
+def short_name(marked: str) -> str:
+    """Return a marked name as code has it that has imported it: ``String``, ``Trigger.Request``."""
     name, *where = marked.split(MARK)
-    return ".".join([*(part for part in where if not part.startswith("_")), name])
+    return _PART.sub(r".\1", name) if where[1:2] in (["srv"], ["action"]) else name
+
+
+_PART = re.compile("_(Request|Response|Goal|Result|Feedback)$")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from scaffold import distributions
@@ -12,6 +13,7 @@ from scaffold.model.package import Package
 from scaffold.types import stubs
 from scaffold.types.marks import MARK
 
+_KINDS = frozenset({"msg", "srv", "action"})
 _DEEPEST = 12
 """Classes above a class."""
 
@@ -47,19 +49,29 @@ def has_call(package: Package, marked: str) -> bool:
     return "__call__" in _all_names(package, marked)
 
 
+def is_kind_of(package: Package, marked: str, wanted: str) -> bool:
+    """Tell whether a class is another one, or derives from it."""
+    return marked == wanted or any(
+        wanted in _resolved(tree, module, base)
+        for node, module, tree in _with_bases(package, marked)
+        for base in node.bases
+    )
+
+
 def _all_names(package: Package, marked: str) -> set[str]:
-    result: set[str] = set()
+    return {name for node, _, _ in _with_bases(package, marked) for name in _names(node.body)}
+
+
+def _with_bases(package: Package, marked: str) -> Iterator[tuple[ast.ClassDef, str, ast.Module]]:
+    """Yield a class and those that it derives from, each with its module and the tree of that."""
     pending = [marked]
     for _ in range(_DEEPEST):
-        if not pending:
-            break
-        class_ = _class(package, pending.pop())
+        class_ = _class(package, pending.pop()) if pending else None
         if class_ is not None:
             node, module, tree = class_
-            result.update(_names(node.body))
+            yield class_
             for base in node.bases:
                 pending += _resolved(tree, module, base)
-    return result
 
 
 def module_names(package: Package, module: str) -> frozenset[str]:
@@ -70,6 +82,29 @@ def module_names(package: Package, module: str) -> frozenset[str]:
     below = [path[len(start) :] for path in _stubs_of(package, module) if path.startswith(start)]
     names.update(path.removesuffix(".pyi").partition("/")[0] for path in below)
     return frozenset(name for name in names if not name.startswith("_"))
+
+
+def modules_with(package: Package, name: str, instead_of: str) -> Sequence[str]:
+    """Return the modules that have a name which another one lacks, as far as they are likely.
+
+    These are the modules below it; ``std_srvs.srv`` for ``std_msgs.srv``; and
+    ``launch_ros.actions`` for ``launch.actions``.
+    """
+    root, _, last = instead_of.partition(".")
+    alike = re.compile(rf"\w+\.{last}" if last in _KINDS else rf"{root.split('_')[0]}\w*\.{last}")
+    stubs_at_hand = {**_bundled(distributions.target()), **_stubs_of(package, instead_of)}
+    named = re.compile(rf"\b{name}\b")
+    likely = {
+        module
+        for path, text in stubs_at_hand.items()
+        if (module := _module(path)).startswith(f"{instead_of}.") or alike.fullmatch(module)
+        if "._" not in module and named.search(text)
+    }
+    return sorted(item for item in likely if name in module_names(package, item))
+
+
+def _module(path: str) -> str:
+    return path.removesuffix(".pyi").removesuffix("/__init__").replace("/", ".")
 
 
 def parameters(package: Package, callee: str) -> Sequence[str]:

@@ -31,6 +31,14 @@ def is_of_several(module: PythonModule, node: ast.AST) -> bool:
     return False
 
 
+def is_attribute(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a value is read from an object: libraries list all types that it may have."""
+    values = [node, *(arguments_for(module, node) if isinstance(node, ast.Name) else ())]
+    return any(
+        isinstance(value, ast.Attribute) and module.text(value.value) != "self" for value in values
+    )
+
+
 def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[ast.AST]:
     """Yield an expression and what it is read from: ``a.b``, and ``a``, also in other functions."""
     for _ in range(_DEEPEST if depth < _MOST_FUNCTIONS else 0):
@@ -53,10 +61,8 @@ def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[as
 
 def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
     """Return what calls in the file pass to the parameter that a name is; nothing for others."""
-    lookup = module.index.lookup(name.id, name)
-    parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
-    function = lookup[0] if lookup is not None else None
-    if not isinstance(parameter, ast.arg) or not isinstance(function, _FUNCTIONS):
+    parameter, function = _parameter(module, name)
+    if parameter is None or function is None:
         return ()
     class_ = module.parent(function)
     is_bound = isinstance(class_, ast.ClassDef)
@@ -73,6 +79,37 @@ def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:
         if call.func in names
     )
     return [value for value in given if value is not None]
+
+
+def called_as(module: PythonModule, name: ast.Name) -> str:
+    """Return what is called with the parameter that a name is: ``to_pose``, ``Arm.move``."""
+    function = _parameter(module, name)[1]
+    class_ = module.parent(function) if function is not None else None
+    if function is None or not isinstance(class_, ast.ClassDef):
+        return function.name if function is not None else ""
+    return class_.name if function.name == "__init__" else f"{class_.name}.{function.name}"
+
+
+def other_parameters(module: PythonModule, name: ast.Name) -> frozenset[str]:
+    """Return the parameters next to the one that a name is; nothing for other names."""
+    parameter, function = _parameter(module, name)
+    if parameter is None or function is None or parameter.arg == "self":
+        return frozenset()
+    given = function.args
+    names = {item.arg for item in (*given.posonlyargs, *given.args, *given.kwonlyargs)}
+    return frozenset(names - {parameter.arg, "self"})
+
+
+def _parameter(
+    module: PythonModule, name: ast.Name
+) -> tuple[ast.arg | None, ast.FunctionDef | ast.AsyncFunctionDef | None]:
+    """Return the parameter that a name is, and its function."""
+    lookup = module.index.lookup(name.id, name)
+    parameter = lookup[1][0].node if lookup is not None and lookup[1] else None
+    function = lookup[0] if lookup is not None else None
+    if not isinstance(parameter, ast.arg) or not isinstance(function, _FUNCTIONS):
+        return None, None
+    return parameter, function
 
 
 def _is_static(decorator: ast.expr) -> bool:

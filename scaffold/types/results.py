@@ -1,7 +1,7 @@
 """What functions without annotations return, written into the files that a type checker reads.
 
 It infers nothing by itself: what ``return self.x, self.y`` and ``return Pose()`` give is plain,
-and is added to the line of the ``def`` alone.
+and is added to the line of the ``def`` alone. So is what some methods of ROS give.
 """
 
 from __future__ import annotations
@@ -23,6 +23,24 @@ _NAMED = re.compile(r"\bdef (\w+)\(")
 _OTHER_SCOPES = re.compile(r"^[ \t]*(?:(?:async )?def|class)\b|\byield\b", re.MULTILINE)
 _RETURN = re.compile(r"(?:^[ \t]*|[:;][ \t]*)return\b[ \t]*", re.MULTILINE)
 _CLASS = re.compile(r"(?:[^\W\d]\w*\.){0,4}[A-Z]\w*")
+_KNOWN = (
+    (
+        re.compile(r"(?:self\.)?\w{0,40}buffer\w{0,40}\.lookup_transform", re.IGNORECASE),
+        "_Ros2TransformStamped",
+        "from geometry_msgs.msg import TransformStamped as _Ros2TransformStamped",
+    ),
+    (
+        re.compile(r"self\.get_clock\(\)\.now"),
+        "_Ros2Time",
+        "from rclpy.time import Time as _Ros2Time",
+    ),
+    (
+        re.compile(r"self\.get_clock\(\)\.now\(\)\.to_msg"),
+        "_Ros2Stamp",
+        "from builtin_interfaces.msg import Time as _Ros2Stamp",
+    ),
+)
+"""Methods whose result is known by what they are called, its name, and how that is imported."""
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _FEWEST = 2
 
@@ -53,6 +71,8 @@ def _annotated(text: str) -> str:
             parts += text[at:end], f' -> "{type_}"'
             at = end
     text = "".join([*parts, text[at:]])
+    imports = [line for _, name, line in _KNOWN if f'"{name}"' in text]
+    text += "".join(f"\n{line}\n" for line in imports)
     return text + _IMPORT if _ANY in text else text
 
 
@@ -116,6 +136,9 @@ def _type(value: str, parameters: str, body: str) -> str:
     if isinstance(node, ast.Name):
         node = _parsed(_made(node.id, parameters, body))
     class_ = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
+    for called, name, _ in _KNOWN:
+        if called.fullmatch(class_):
+            return name
     return class_ if _CLASS.fullmatch(class_) else ""
 
 

@@ -52,9 +52,15 @@ class Source:
         self.place = place
         self.data = data
         self.digest = digest(data)
-        self.imports = frozenset(_imports(data, module))
+        self.imports = frozenset(name for name, _ in imported_names(data, module))
         """Dotted names: modules, and what may be modules or names in them."""
         self.roots = frozenset(name.partition(".")[0] for name in self.imports)
+
+    @property
+    def dotted(self) -> str:
+        """What others import it as; empty if nobody can."""
+        parts = self.place.removesuffix(".py").split("/")
+        return ".".join(parts[1:]) if parts[0] == LIBRARY else ""
 
     @cached_property
     def with_callback_types(self) -> bytes:
@@ -62,28 +68,39 @@ class Source:
         return with_callback_types(self.data)
 
 
-def _imports(data: bytes, module: str) -> Iterator[str]:
-    """Yield all that may be imported, as absolute dotted names."""
+def imported_names(data: bytes, module: str) -> Iterator[tuple[str, str]]:
+    """Yield all that may be imported, as absolute dotted names, and what each is called here.
+
+    Args:
+        data: What is in a file.
+        module: The package that its relative imports start from; empty if there is none.
+    """
     if b"import" not in data:
         return
     text = _LATER.sub(b"\n", data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" "))
     for match in _IMPORT.finditer(text):
         if match["modules"] is not None:
             for part in match["modules"].split(b","):
-                word = _WORD.search(part)
-                if word:
-                    yield word[0].decode("utf-8", "replace")
+                name, called = _called(part)
+                if name:
+                    yield name, called
             continue
         base = (match["base"] or match["dots"]).decode("utf-8", "replace")
         names = match["names"] if match["base"] else match["siblings"]
         absolute = _absolute(base, module)
         if absolute is None:
             continue
-        yield absolute
+        yield absolute, ""
         for part in re.sub(rb"#[^\n]*", b"", names).strip(b"( )").split(b","):
-            word = _WORD.search(part)
-            if word:
-                yield f"{absolute}.{word[0].decode('utf-8', 'replace')}"
+            name, called = _called(part)
+            if name:
+                yield f"{absolute}.{name}", called
+
+
+def _called(part: bytes) -> tuple[str, str]:
+    """Return an imported name and its alias: ``pose`` and ``p`` for ``pose as p``."""
+    words = [word.decode("utf-8", "replace") for word in _WORD.findall(part)]
+    return (words[0], words[-1]) if words else ("", "")
 
 
 def _absolute(base: str, module: str) -> str | None:
@@ -232,9 +249,9 @@ class _PackageSources:
         if len(parts) < 2 or parts[1] not in SECTIONS:  # noqa: PLR2004  package and kind
             return []
         if self._stubs is None:
-            kinds = tuple(f"{kind}/" for kind in SECTIONS)
+            endings = tuple(f".{kind}" for kind in SECTIONS)
             self._stubs = []
-            if any(path.startswith(kinds) for path in self._files):
+            if any(path.endswith(endings) for path in self._files):
                 files = interface_stub_files(self._package)
                 self._stubs = [
                     Source(

@@ -11,6 +11,7 @@ import selectors
 import signal
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from scaffold import distributions
 from scaffold.errors import ScaffoldError
@@ -94,7 +95,7 @@ class Run:
         self._count = len(files)
         self._crashes = 0
         self._crashed: list[str] = []
-        _require_version()
+        _require_version(identity())
         os.makedirs(os.path.join(project, LIBRARY), exist_ok=True)
         with open(os.path.join(project, CONFIGURATION), "w", encoding="utf-8") as file:
             file.write(_configuration())
@@ -297,8 +298,9 @@ def executable() -> str:
     return _FOUND["ty"]
 
 
-def _require_version() -> None:
-    """Make sure that the program is the one whose messages are known.
+@lru_cache(maxsize=1)
+def _require_version(_identity: str) -> None:
+    """Make sure that the program is the one whose messages are known, once for each program.
 
     Raises:
         UnavailableError: it is another one.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from scaffold.types.marks import MARK, MARKED, full_name
+from scaffold.types.marks import MARK, MARKED, full_name, short_name
 
 # linear: a type in a message is cut off by the type checker
 _TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")
@@ -12,6 +12,7 @@ _IDENTIFIER = re.compile(rf"[^\W\d][\w{MARK}]*")
 _BUILTINS = frozenset(
     {"int", "float", "str", "bool", "bytes", "bytearray", "complex", "list", "tuple", "dict"}
     | {"set", "frozenset", "Literal", "LiteralString", "None", "True", "False", "type", "class"}
+    | {"array"}
 )
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
@@ -35,7 +36,8 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         given: The type of the value, which the type checker has rejected.
     """
     if expected.startswith("type["):
-        return _PLAIN.fullmatch(given) is not None
+        parts = _alternatives(_TEXT.sub("str", given))
+        return all(_PLAIN.fullmatch(part.strip()) for part in parts)
     return is_certain(expected.replace("|", ",")) and (is_certain(given) or is_function(given))
 
 
@@ -72,8 +74,8 @@ def in_words(type_: str) -> str:
     if literal is not None:
         return with_article(_KINDS.get(literal[1], "int"))
     if class_itself(type_):
-        return f"the class {full_name(class_itself(type_)).rpartition('.')[2]!r}"
-    function = re.match(r"(?:bound method|def) ([\w.·]+)", type_)
+        return f"the class {short_name(class_itself(type_))!r}"
+    function = re.match(r"(?:bound method|def) (?:Self@)?([\w.·]+)", type_)
     if function is not None:
         return f"the function {function[1].rpartition('.')[2]!r}"
     if type_.startswith("<class '"):
@@ -83,11 +85,35 @@ def in_words(type_: str) -> str:
 
 def name_of(type_: str) -> str:
     """Return the name of a type without its arguments: ``list``, ``rclpy.time.Time``."""
-    parts = [part.strip().rstrip("*") for part in _without_arguments(type_).split("|")]
-    names = [full_name(part) if MARK in part else part for part in parts]
-    return " or ".join(dict.fromkeys(names))
+    parts = [part.strip().rstrip("*") for part in _alternatives(_without_arguments(type_))]
+    names = ["function" if "->" in part else _readable(part) for part in parts]
+    *others, last = dict.fromkeys(names)
+    return f"{', '.join(others)} or {last}" if others else last
+
+
+def _alternatives(type_: str) -> list[str]:
+    """Return the parts of a union; a function in it, ``(() -> int)``, is one of them."""
+    before = ""
+    bare = type_
+    while before != bare:  # a function may take functions
+        before, bare = bare, re.sub(r"\([^()]*\)", lambda match: "_" * len(match[0]), bare)
+    ends = [place for place, letter in enumerate(bare) if letter == "|"]
+    starts = [0, *(end + 1 for end in ends)]
+    return [type_[start:end] for start, end in zip(starts, [*ends, None], strict=True)]
+
+
+def _readable(name: str) -> str:
+    return full_name(name) if MARK in name else name
+
+
+def with_elements(type_: str) -> str:
+    """Return what a list or the like has in it: ``a list of std_msgs.msg.String``."""
+    name, bracket, elements = type_.partition("[")
+    within = f" of {name_of(elements.removesuffix(']'))}" if bracket else ""
+    return f"{with_article(name_of(name))}{within}"
 
 
 def with_article(noun: str) -> str:
-    """Return a noun with ``a`` or ``an``."""
-    return f"an {noun}" if noun[:1].lower() in "aeio" else f"a {noun}"
+    """Return a noun with ``a`` or ``an``; rclpy and rcl begin with the sound of an R by itself."""
+    is_vowel = noun[:1].lower() in "aeio" or noun.startswith("rcl")
+    return f"an {noun}" if is_vowel else f"a {noun}"

@@ -27,15 +27,20 @@ Talker(rate())
 
 def added(source: str) -> list[str]:
     """Return the lines that are added to a file, which is the same without them."""
+    return changed(source, source)
+
+
+def changed(source: str, expected: str) -> list[str]:
+    """Return the lines that are added to a file, which is as expected without them."""
     extended = with_arguments(source.encode())
     text = extended.data.decode()
     ast.parse(text)
     lines = text.split("\n")
     kept = [line for at, line in enumerate(lines, 1) if at not in extended.added]
-    assert kept == source.split("\n")
+    assert kept == expected.split("\n")
     for at, line in enumerate(lines, 1):
         original = extended.original_line(at)
-        assert original == 0 or source.split("\n")[original - 1] == line
+        assert original == 0 or expected.split("\n")[original - 1] == line
     return [lines[at - 1].strip() for at in extended.added]
 
 
@@ -88,12 +93,13 @@ def test_calls_that_differ_give_one_of_both() -> None:
         "while self.say('x'):\n    pass",
         "self.say(*name)",
         "self.say('x', 1, 2)",
-        "self.say(self)",
+        "self.say([self])",
         "self.say(text := 'x')",
         "print('{self.say(name)}')",
         "other.say('x')",
         "rows = {'a':\n    self.say('x')\n}",
         "rows = name + \\\n    self.say('x')",
+        "self.say(\n    'x',  # loud, and\n    2,\n)",
     ],
 )
 def test_calls_that_are_left_alone(call: str) -> None:
@@ -104,18 +110,34 @@ def test_calls_that_are_left_alone(call: str) -> None:
     "source",
     [
         "def f(a):\n    f(1)\n",
-        "def f(a: str):\n    pass\n\n\nf(1)\n",
+        "def f(a: 'str'):\n    pass\n\n\nf(1)\n",
         "@cached\ndef f(a):\n    pass\n\n\nf(1)\n",
         "def f(a=None):\n    pass\n\n\nf()\n",
         "def f(a):\n    pass\n\n\ndef f(a, b):\n    pass\n\n\nf(1)\n",
         "class A:\n    def f(self, a): ...\n\n\nclass B(C):\n    def g(self):\n        self.f(1)\n",
         "def f(a): return a\n\n\nf(1)\n",
+        "def f(\n    a,  # first, b\n    c: int,\n):\n    pass\n\n\nf(1, 2)\n",
         "def f(a):\n\treturn a\n\n\nf(1)\n",
         "class A:\n    f = staticmethod(print)\n\n\nf(1)\n",
     ],
 )
 def test_functions_that_are_left_alone(source: str) -> None:
     assert added(source) == []
+
+
+@pytest.mark.parametrize(
+    "annotation",
+    [": str", ": dict[str, int]", " : Callable[[A, A], a]", ": float = 1.0", ":int=2"],
+)
+def test_what_the_author_says_about_a_parameter_is_left_out(annotation: str) -> None:
+    source = "def f(a{}, *, b=0):\n    pass\n\n\nf('x', b=1)\n"
+    two = "def f(no_a: A, a: A):\n    pass\n\n\nf(1, 2)\n"
+    assert len(changed(two, two.replace(": A", "   "))) == 1
+    type_, equals, default = annotation.partition("=")
+    spaces = " " * len(type_.rstrip())
+    bare = type_.replace(type_.rstrip(), spaces) + equals + default
+    taken = changed(source.format(annotation), source.format(bare))
+    assert taken == ["a = (['x'])[0]; b = ([1])[0]"]
 
 
 def test_constructors_and_static_methods() -> None:

@@ -178,7 +178,7 @@ def test_a_move_reports_what_breaks_what_changes_and_what_is_deprecated(
 ) -> None:
     found, everything = migrate(capsys)
     assert found["breaks"] == sorted(
-        ["CM005", "CM110", "LF080", "SP012", "TY001", "MS001", "MS002", *["IM050"] * 10]
+        ["CM005", "CM110", "LF080", "SP012", "TY001", "TY002", "MS002", *["IM050"] * 10]
     )
     assert found["changes"] == ["IM052", "IM052"]
     assert found["deprecated"] == ["IM051", "IM051", "IM051", "SP005", "SP005"]
@@ -321,7 +321,7 @@ def test_a_move_back_reports_what_breaks_and_not_what_gets_better(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     node = workspace / "twenty" / "twenty" / "node.py"
-    silent = "pose = Pose2D()  # noqa: MS001, IM050"
+    silent = "pose = Pose2D()  # noqa: TY002, IM050"
     node.write_text(NODE.replace("pose = Pose2D()", silent))
     flags = ("--from", "lyrical", "--to", "jazzy")
     assert main(["migrate", *flags]) == 0

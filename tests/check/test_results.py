@@ -25,6 +25,9 @@ def annotated(body: str) -> str:
         ("    return Pose(\n        x=f(1),\n    )\n", "Pose"),
         ("    if given: return None\n    return Pose()\n", "Pose"),
         ("    return self.x, f(1, 2)\n", "tuple[_Ros2Any, _Ros2Any]"),
+        ("    return self.tf_buffer.lookup_transform(a, b, c)\n", "_Ros2TransformStamped"),
+        ("    now = self.get_clock().now()\n    return now\n", "_Ros2Time"),
+        ("    return self.get_clock().now().to_msg()\n", "_Ros2Stamp"),
         (
             "    return (self.x,\n            'a, b', [1, 2])\n",
             f"tuple[{'_Ros2Any, ' * 2}_Ros2Any]",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -22,6 +23,8 @@ from tests.check.examples import assert_reported, assert_suppressible
 TraceFunction = Callable[[FrameType, str, Any], Any]
 
 RULES = registry.load(content.roots("rules"))
+FILES = [path for root in content.roots("rules") for path in sorted(Path(root).glob("*/*.py"))]
+"""Rules, and what those of an area share."""
 CASES = [
     pytest.param(rule, example, id=f"{rule.code}-{example.title}")
     for rule in RULES
@@ -72,23 +75,24 @@ def test_code_begins_with_the_letters_of_its_area(rule: type[Rule]) -> None:
     assert rule.code.startswith(AREAS[area])
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
-def test_imports_little(rule: type[Rule]) -> None:
-    """A rule file imports what is cheap and stable; the rest would cost every run."""
-    tree = ast.parse(Path(_file_of(rule)).read_text(encoding="utf-8"))
-    roots = {
-        name.split(".")[0]
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_imports_little(file: Path) -> None:
+    """A rule imports what is cheap and stable; the rest would cost every run."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    imported = {
+        alias.name
         for node in ast.walk(tree)
-        for name in (
-            [alias.name for alias in node.names]
-            if isinstance(node, ast.Import)
-            else [node.module or ""]
-            if isinstance(node, ast.ImportFrom)
-            else []
-        )
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    }
+    imported |= {
+        node.module or ""
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and not node.level
     }
     allowed = {"__future__", "ast", "collections", "difflib", "os", "posixpath", "re", "typing"}
-    assert roots <= {*allowed, "fnmatch", "itertools", "scaffold", "tokenize", "io", "sys"}
+    allowed |= {"fnmatch", "itertools", "scaffold", "tokenize", "io", "sys"}
+    assert {name.split(".")[0] for name in imported} <= allowed
 
 
 def test_examples_can_be_suppressed() -> None:
@@ -100,23 +104,26 @@ def test_examples_can_be_suppressed() -> None:
 def test_every_message_is_shown_by_an_example(area: str) -> None:
     """Each statement of a rule that writes a message is executed by one of its examples."""
     rules = [rule for rule in RULES if rule.__module__.split(".")[-2] == area]
-    unshown: list[str] = []
-    for rule in rules:
-        executed = _lines_executed(rule)
-        lines = _message_lines(Path(_file_of(rule)))
-        unshown += [f"{rule.code}: {text}" for line, text in lines if line not in executed]
-    assert rules
+    directory = Path(_file_of(rules[0])).parent
+    executed = {place for rule in rules for place in _lines_executed(rule, directory)}
+    unshown = [
+        f"{path.stem}: {text}"
+        for path in sorted(directory.glob("*.py"))
+        for line, text in _message_lines(path)
+        if (str(path), line) not in executed
+    ]
     assert unshown == []
 
 
-def _lines_executed(rule: type[Rule]) -> set[int]:
-    """Return the lines of a rule's file that its examples execute."""
-    path, executed = _file_of(rule), set[int]()
+def _lines_executed(rule: type[Rule], directory: Path) -> set[tuple[str, int]]:
+    """Return the lines of the files of an area that the examples of a rule execute."""
+    start, executed = f"{directory}{os.sep}", set[tuple[str, int]]()
 
     def trace(frame: FrameType, _event: str, _argument: object) -> TraceFunction | None:
-        if frame.f_code.co_filename != path:
+        path = frame.f_code.co_filename
+        if not path.startswith(start):
             return None
-        executed.add(frame.f_lineno)
+        executed.add((path, frame.f_lineno))
         return trace
 
     before = sys.gettrace()

@@ -248,8 +248,8 @@ class Follower(Node):
 """
     make_package(source, "follower", {"follower/node.py": node})
     path = "follower/follower/node.py"
-    found = check("follower", "--select", "TY,ND040,ND110")
-    assert found == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:ND040"]
+    found = check("follower", "--select", "TY,ND110")
+    assert found == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:TY004"]
 
 
 def test_annotations_of_the_user_are_not_believed(check: Check, source: Path) -> None:

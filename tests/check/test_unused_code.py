@@ -104,3 +104,60 @@ def test_what_the_configuration_says_counts(
     write(package / "scratch.py", UNDEFINED)
     write(package / "ros2-scaffold.toml", "[check.severity]\nF821 = 'info'\n")
     assert severities(capsys, "F821") == {"scratch.py": "info"}
+
+
+def test_a_function_of_a_launch_file_that_nothing_calls(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    helper = "def load(path):\n    return undefined.read(path)\n\n\n"
+    description = "def generate_launch_description():\n    return {}\n"
+    write(package / "launch" / "a.launch.py", helper + description.format("None"))
+    write(package / "launch" / "b.launch.py", helper + description.format("load('a')"))
+    write(package / "launch" / "c.launch.py", description.format("undefined"))
+    assert severities(capsys, "F821") == {
+        "launch/a.launch.py": "warning",
+        "launch/b.launch.py": "error",
+        "launch/c.launch.py": "error",
+    }
+
+
+def test_what_comes_after_the_spin(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    node = "import rclpy\n\n\ndef main():\n    rclpy.init()\n{}\n    rclpy.spin(node)\n{}\n"
+    write(package / "talker" / "late.py", node.format("    node = 1", "    made.destroy()"))
+    write(package / "talker" / "early.py", node.format("    node = made", "    node.destroy()"))
+    assert severities(capsys, "F821") == {"talker/late.py": "warning", "talker/early.py": "error"}
+
+
+def test_an_example_in_the_documentation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in ("doc/talk.py", "talker/talk.py"):
+        write(package / path, MISTAKE)
+    assert severities(capsys, "MS002") == {"doc/talk.py": "warning", "talker/talk.py": "error"}
+
+
+def test_a_test_in_python_that_cmake_does_not_run(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "setup.py").unlink()
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+    write(package / "CMakeLists.txt", lists.format(""))
+    write(package / "tests" / "idea.py", UNDEFINED)
+    assert severities(capsys, "F821") == {"tests/idea.py": "warning"}
+    write(package / "CMakeLists.txt", lists.format("ament_add_pytest_test(idea tests)\n"))
+    assert severities(capsys, "F821") == {"tests/idea.py": "error"}
+
+
+def test_an_annotation_that_is_not_evaluated(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    function = "def talk(text: {}) -> None:\n    said: {} = text\n    print(said)\n"
+    later = "from __future__ import annotations\n\n\n"
+    write(package / "talker" / "local.py", function.format("str", "Undefined"))
+    write(package / "talker" / "later.py", later + function.format("Undefined", "str"))
+    write(package / "talker" / "now.py", function.format("Undefined", "str"))
+    assert severities(capsys, "F821") == {
+        "talker/local.py": "warning",
+        "talker/later.py": "warning",
+        "talker/now.py": "error",
+    }

@@ -8,8 +8,10 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
-from scaffold.model.rclpy.api import NODE, has
+from scaffold.model.rclpy.api import NODE, has, known_names
 from scaffold.source import ViewError
+
+_LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -53,6 +55,8 @@ def defined_by(node: NodeClass) -> set[str]:
     """Return what a class and its bases define, in methods and on ``self``."""
     result: set[str] = set()
     owner: NodeClass | None = node
+    if node.is_lifecycle:
+        result.update(name.removesuffix("()") for name in known_names()[_LIFECYCLE])
     while owner is not None:
         result |= set(owner.facts.module.index.bindings(owner.node))
         for attribute in owner.facts.module.below(owner.node, ast.Attribute):
@@ -72,7 +76,7 @@ def is_read_in_full(node: NodeClass) -> bool:
         bindings = owner.facts.module.index.bindings(owner.node)
         if len(owner.node.bases) != 1 or owner.node.keywords or owner.node.decorator_list:
             return False
-        if owner.is_lifecycle or "__getattr__" in bindings or "__getattribute__" in bindings:
+        if "__getattr__" in bindings or "__getattribute__" in bindings:
             return False
         if owner.facts.module.mentions("setattr(", "__dict__", "vars(self"):
             return False
@@ -99,14 +103,23 @@ def is_used_elsewhere(package: Package, file: RclpyFile, attribute: str) -> bool
 
     A class that sets an attribute of the same name on ``self`` uses its own.
     """
-    for module in package.modules(mentioning=(attribute,)):
-        nodes = module.index.attributes(attribute) if module.path != file.module.path else ()
-        is_own = any(not isinstance(node.ctx, ast.Load) for node in nodes) and all(
-            isinstance(node.value, ast.Name) and node.value.id == "self" for node in nodes
-        )
-        if nodes and not is_own:
-            return True
+    for path in package.python_files:
+        with suppress(ViewError):
+            if path != file.module.path and _uses_of_another(package, path, attribute):
+                return True
     return False
+
+
+@fact
+def _uses_of_another(package: Package, path: str, attribute: str) -> bool:
+    """Tell whether a file uses an attribute, and none of its classes sets it on ``self``."""
+    if attribute.encode() not in package.data(path):  # most files need not be parsed
+        return False
+    nodes = package.module(path).index.attributes(attribute)
+    is_own = any(not isinstance(node.ctx, ast.Load) for node in nodes) and all(
+        isinstance(node.value, ast.Name) and node.value.id == "self" for node in nodes
+    )
+    return bool(nodes) and not is_own
 
 
 @fact

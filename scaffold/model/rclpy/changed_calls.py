@@ -11,7 +11,6 @@ from scaffold.model.python.distribution_branches import is_run
 from scaffold.model.python.guards import caught_around, has_fallback
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.api import class_of
-from scaffold.model.rclpy.api_signatures import OBJECTS
 from scaffold.model.rclpy.changed_names import ChangedUse, is_asked_for
 from scaffold.model.rclpy.file import RclpyFile
 
@@ -33,7 +32,7 @@ def changed_calls(module: PythonModule) -> Iterator[ChangedUse]:
         called = _called(file, call)
         for change in changes:
             name = next((name for name in change.names if name in called), "")
-            if name and _is_meant(file, call, change, name) and _runs_on_both(module, call, name):
+            if name and _is_meant(file, call, change) and _runs_on_both(module, call, name):
                 at = module.location(call.func)
                 yield ChangedUse(change, at, change.names[0].rpartition(".")[2], "")
 
@@ -53,15 +52,15 @@ def _called(file: RclpyFile, call: ast.Call) -> set[str]:
     return names
 
 
-def _is_meant(file: RclpyFile, call: ast.Call, change: Change, name: str) -> bool:
+def _is_meant(file: RclpyFile, call: ast.Call, change: Change) -> bool:
     """Tell whether a call has the arguments that the change is about, and is not ready for it."""
     if any(word.arg is None for word in call.keywords) or _is_ready(file.module, call, change):
         return False
-    if change.without and _argument(call, name, change.without) is not None:
+    if change.without and _argument(call, change.without) is not None:
         return False
     if not change.having:
         return True
-    value = _argument(call, name, change.having)
+    value = _argument(call, change.having, change.position)
     return value is not None and _is_meant_value(file, value, change)
 
 
@@ -86,20 +85,15 @@ def _is_caught(module: PythonModule, call: ast.Call, error: str) -> bool:
     return has_fallback(module, call, is_rare=True)
 
 
-def _argument(call: ast.Call, name: str, keyword: str) -> ast.expr | None:
+def _argument(call: ast.Call, keyword: str, place: int | None = None) -> ast.expr | None:
     """Return what a call gives for an argument, by its name or at its position."""
     for word in call.keywords:
         if word.arg == keyword:
             return word.value
-    class_, _, function = name.rpartition(".")
-    signature = OBJECTS.get(function, {}).get(class_)
-    if signature is None or keyword not in signature.positional:
+    if place is None or len(call.args) <= place:
         return None
-    number = [*signature.positional].index(keyword)
-    before = call.args[: number + 1]
-    if len(before) <= number or any(isinstance(item, ast.Starred) for item in before):
-        return None
-    return call.args[number]
+    before = call.args[: place + 1]
+    return None if any(isinstance(item, ast.Starred) for item in before) else call.args[place]
 
 
 def _is_of_node(file: RclpyFile, value: ast.expr) -> bool:

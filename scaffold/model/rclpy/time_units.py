@@ -37,6 +37,7 @@ def unit_problems(file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
             yield from _multiplied(file, node)
     for call in file.module.walk(ast.Call):
         yield from _made_of_seconds(file, call)
+        yield from _written_in_seconds(file, call)
 
 
 def _compared(file: RclpyFile, time: ast.expr, limit: ast.expr) -> Iterator[tuple[ast.expr, str]]:
@@ -130,3 +131,26 @@ def _made_of_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr
     name = file.module.text(call.func).rpartition(".")[2]
     message = f"the fraction in 'nanosec' is left out: use {name}.from_msg()"
     yield call, message
+
+
+def _written_in_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``writer.write(topic, data, int(time.time()))``: a bag counts nanoseconds."""
+    match call:
+        case ast.Call(func=ast.Attribute(attr="write", value=writer), args=[_, _, stamp]):
+            made = file.evaluator.single_value(writer)
+        case _:
+            return
+    names = file.module.qualified_names(made.func) if isinstance(made, ast.Call) else ()
+    if "rosbag2_py.SequentialWriter" not in names:
+        return
+    value = stamp
+    while isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.args:
+        value = value.args[0]  # int(...), round(...)
+    scale = _scale(file, value)
+    is_of_python = (
+        isinstance(value, ast.Call) and file.module.qualified_name(value.func) == "time.time"
+    )
+    is_part = isinstance(value, ast.Attribute) and value.attr in {"sec", "nanosec"}
+    if is_of_python or is_part or (scale is not None and scale < _NEAR):
+        message = "the time of a message in a bag is all its nanoseconds; write "
+        yield stamp, message + "self.get_clock().now().nanoseconds"

@@ -19,13 +19,16 @@ _DEFAULTS: Mapping[str, tuple[int, str]] = {
     "rclpy.clock.ROSClock": (9, "ROS_TIME"),
 }
 """Where the clock type is passed by place, if it can be, and the type without it."""
+NUMBER = "number"
+"""What counts as a clock type where a number is in place of a time."""
+_SECONDS = frozenset({"time.time", "time.monotonic", "time.perf_counter", "time.time_ns"})
 _DEEPEST = 5
 
 
 def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.expr, str | None]:
     """Return the clock types that a time may have, by the expressions that it may come from.
 
-    ``None`` for an expression whose clock type is not known.
+    ``None`` for an expression whose clock type is not known, ``NUMBER`` for a number.
     """
     result: dict[ast.expr, str | None] = {}
     for origin in file.evaluator.origins(node):
@@ -34,11 +37,20 @@ def clocks_of(file: RclpyFile, node: ast.expr, depth: int = 0) -> Mapping[ast.ex
 
 
 def _clock_of(file: RclpyFile, node: ast.expr, depth: int) -> str | None:
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-        is_span = class_of(file, node.right) == "rclpy.duration.Duration"
-        return _only(clocks_of(file, node.left, depth + 1)) if is_span else None
-    if not isinstance(node, ast.Call):
-        return None
+    match node:
+        case ast.Constant(value=value):
+            return NUMBER if type(value) in {int, float} else None
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
+            is_span = class_of(file, right) == "rclpy.duration.Duration"
+            return _only(clocks_of(file, left, depth + 1)) if is_span else None
+        case ast.Call():
+            return _clock_of_call(file, node, depth)
+    return None
+
+
+def _clock_of_call(file: RclpyFile, node: ast.Call, depth: int) -> str | None:
+    if file.module.qualified_name(node.func) in _SECONDS:
+        return NUMBER
     made = _made(file, node)
     if made is not None:
         return made

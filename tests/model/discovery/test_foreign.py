@@ -129,10 +129,10 @@ def test_other_packages_still_see_them(workspace: Path, capsys: pytest.CaptureFi
         },
     )
     submodule(workspace)
-    main(["check", "--select", "MS"])
+    main(["check", "--select", "TY"])
     assert "other_msgs" in capsys.readouterr().out
     (workspace / "other/msgs/package.xml").unlink()
-    main(["check", "--select", "MS"])
+    main(["check", "--select", "TY"])
     assert "other_msgs" not in capsys.readouterr().out
 
 

@@ -43,8 +43,8 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
         return "the class SetParametersResult; instantiate it with successful=True"
     elif full != RESULT and re.fullmatch(_MESSAGE, full) and full[0] != ".":
         what = f"a {full.rpartition('.')[2]}"
-    elif isinstance(value, ast.Call) and _gives_nothing(file, value):
-        what = f"the result of {file.module.text(value.func)}(), which is None"
+    elif isinstance(value, ast.Call) and (constants := _plain_results(file, value)):
+        what = f"the result of {file.module.text(value.func)}(), which is {constants}"
     return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
 
 
@@ -65,13 +65,16 @@ def _wrong_list(file: RclpyFile, value: ast.expr | None) -> str:
     return "a SetParametersResult, not the list of parameters: TypeError" if full == RESULT else ""
 
 
-def _gives_nothing(file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether a function of the file ends without a value, always."""
+def _plain_results(file: RclpyFile, call: ast.Call) -> str:
+    """Return what a function of the file returns if that are constants alone; else nothing."""
     function = file.callback(call.func).function
     if not isinstance(function, ast.FunctionDef) or function.decorator_list:
-        return False
-    if not may_end(function) or is_generator(function):
-        return False
+        return ""
     class_ = file.module.enclosing_class(function)
-    is_replaced = class_ is not None and len(file.related_classes(class_)) > 1
-    return not is_replaced and not any(item.value is not None for item in returned(function))
+    if is_generator(function) or (class_ and len(file.related_classes(class_)) > 1):
+        return ""
+    values = [item.value for item in returned(function)]
+    if not all(value is None or isinstance(value, ast.Constant) for value in values):
+        return ""
+    texts = ["None" if value is None else ast.unparse(value) for value in values]
+    return " or ".join(dict.fromkeys([*texts, *(["None"] if may_end(function) else [])]))

@@ -33,12 +33,12 @@ _MOST_USES = 200
 def objects_used(file: RclpyFile) -> Iterator[tuple[Entity, ast.AST]]:
     """Yield the calls that pass a Parameter instead of its value, and the first such place."""
     for item in _objects(file):
-        use = use_as_value(file, item.call)
+        use = _use_as_value(file, item.call)
         if use is not None:
             yield item, use
 
 
-def use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
+def _use_as_value(file: RclpyFile, call: ast.Call) -> ast.AST | None:
     """Return a place where the object that a call gives is calculated with."""
     if _stands_for_value(file, call):
         return call

@@ -1,0 +1,356 @@
+"""MS034: values are in the units of the fields that they are assigned to."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
+from scaffold.api.messages import MessageTypes
+
+_NODE = (
+    "import math\n\nfrom sensor_msgs.msg import FluidPressure, Imu, JointState, Range\n\n\n"
+    "def read(board):\n"
+    "    pressure_hpa = board.pressure()\n"
+    "    air = FluidPressure(fluid_pressure={})\n"
+    "    imu = Imu()\n"
+    "    imu.angular_velocity.z = {}\n"
+    "    joints = JointState(name=['pan', 'tilt'])\n"
+    "    joints.position = {}\n"
+    "    return air, imu, joints, Range(range={})\n"
+)
+_RIGHT = (
+    "pressure_hpa * 100.0",
+    "math.radians(board.gyro_dps)",
+    "[math.radians(angle) for angle in board.angles_deg]",
+    "board.read_mm() / 1000.0",
+)
+_HINTS: Mapping[str, Mapping[str, str]] = {
+    "radians": {"degrees": "use math.radians()"},
+    "degrees": {"radians": "use math.degrees()"},
+    "radians per second": {
+        "degrees per second": "use math.radians()",
+        "degrees": "use math.radians()",
+        "revolutions per minute": "multiply by 2 * math.pi / 60",
+    },
+    "meters": {
+        "millimeters": "divide by 1000",
+        "centimeters": "divide by 100",
+        "kilometers": "multiply by 1000",
+    },
+    "meters per second": {
+        "kilometers per hour": "divide by 3.6",
+        "millimeters per second": "divide by 1000",
+        "centimeters per second": "divide by 100",
+        "knots": "multiply by 0.514444",
+    },
+    "m/s²": {"g": "multiply by 9.80665", "milli-g": "multiply by 0.00980665"},
+    "pascals": {
+        "hectopascals": "multiply by 100",
+        "kilopascals": "multiply by 1000",
+        "bar": "multiply by 100000",
+    },
+    "degrees Celsius": {
+        "kelvins": "subtract 273.15",
+        "degrees Fahrenheit": "subtract 32 and divide by 1.8",
+    },
+    "shares from 0 to 1": {"percent": "divide by 100"},
+    "volts": {"millivolts": "divide by 1000"},
+    "teslas": {"microteslas": "multiply by 1e-6", "gauss": "multiply by 1e-4"},
+}
+"""What to do with values of other units, by the unit of a field."""
+_SUFFIXES: Mapping[str, str] = {
+    **dict.fromkeys(("deg", "degs", "degree", "degrees"), "degrees"),
+    **dict.fromkeys(("rad", "rads", "radian", "radians"), "radians"),
+    **dict.fromkeys(("dps", "degps"), "degrees per second"),
+    "rpm": "revolutions per minute",
+    **dict.fromkeys(("mm", "millimeters", "millimetres"), "millimeters"),
+    **dict.fromkeys(("cm", "centimeters", "centimetres"), "centimeters"),
+    **dict.fromkeys(("km", "kilometers", "kilometres"), "kilometers"),
+    **dict.fromkeys(("kmh", "kph"), "kilometers per hour"),
+    **dict.fromkeys(("knot", "knots"), "knots"),
+    **dict.fromkeys(("hpa", "mbar", "millibar"), "hectopascals"),
+    "kpa": "kilopascals",
+    "bar": "bar",
+    **dict.fromkeys(("kelvin", "kelvins"), "kelvins"),
+    "fahrenheit": "degrees Fahrenheit",
+    **dict.fromkeys(("percent", "pct"), "percent"),
+    **dict.fromkeys(("mv", "millivolts"), "millivolts"),
+    "ut": "microteslas",
+    "gauss": "gauss",
+    "g": "g",
+    "mg": "milli-g",
+}
+"""Units by the last word of a name."""
+_FIELDS: Mapping[tuple[str, str], str] = {
+    ("sensor_msgs/msg/JointState", "position"): "radians",
+    ("sensor_msgs/msg/JointState", "velocity"): "radians per second",
+    ("trajectory_msgs/msg/JointTrajectoryPoint", "positions"): "radians",
+    ("trajectory_msgs/msg/JointTrajectoryPoint", "velocities"): "radians per second",
+    **{
+        ("sensor_msgs/msg/LaserScan", f"angle_{name}"): "radians"
+        for name in ("min", "max", "increment")
+    },
+    **{
+        ("sensor_msgs/msg/LaserScan", name): "meters"
+        for name in ("range_min", "range_max", "ranges")
+    },
+    **{("sensor_msgs/msg/Range", name): "meters" for name in ("min_range", "max_range", "range")},
+    ("sensor_msgs/msg/Range", "field_of_view"): "radians",
+    ("sensor_msgs/msg/NavSatFix", "latitude"): "degrees",
+    ("sensor_msgs/msg/NavSatFix", "longitude"): "degrees",
+    ("sensor_msgs/msg/NavSatFix", "altitude"): "meters",
+    ("sensor_msgs/msg/FluidPressure", "fluid_pressure"): "pascals",
+    ("sensor_msgs/msg/RelativeHumidity", "relative_humidity"): "shares from 0 to 1",
+    ("sensor_msgs/msg/Temperature", "temperature"): "degrees Celsius",
+    ("sensor_msgs/msg/BatteryState", "temperature"): "degrees Celsius",
+    ("sensor_msgs/msg/BatteryState", "percentage"): "shares from 0 to 1",
+    ("sensor_msgs/msg/BatteryState", "voltage"): "volts",
+}
+"""What the comments of the definitions say."""
+_VECTORS: Mapping[tuple[str, str], str] = {
+    ("sensor_msgs/msg/Imu", "angular_velocity"): "radians per second",
+    ("sensor_msgs/msg/Imu", "linear_acceleration"): "m/s²",
+    ("sensor_msgs/msg/MagneticField", "magnetic_field"): "teslas",
+    ("geometry_msgs/msg/Twist", "linear"): "meters per second",
+    ("geometry_msgs/msg/Twist", "angular"): "radians per second",
+    ("geometry_msgs/msg/Accel", "linear"): "m/s²",
+    ("geometry_msgs/msg/Pose", "position"): "meters",
+    ("geometry_msgs/msg/Transform", "translation"): "meters",
+}
+"""Those of which x, y and z are assigned."""
+_CONVERSIONS: Mapping[str, str] = {
+    **dict.fromkeys(("degrees", "rad2deg"), "degrees"),
+    **dict.fromkeys(("radians", "deg2rad"), "radians"),
+}
+_OF_RADIANS = frozenset(
+    f"{module}.{name}" for module in ("math", "numpy") for name in ("sin", "cos", "tan")
+)
+_SAME = frozenset({"float", "abs", "round", "list", "array", "asarray", "float32", "float64"})
+_OF_ITSELF = frozenset({"tolist", "copy", "astype", "item", "flatten"})
+_AXES = frozenset({"x", "y", "z"})
+_DEEPEST = 6
+_PER = re.compile(r"_(?:per|p)_?(?:s|sec|second)$|_s$")
+
+
+class UnitDiffers(MessageRule):
+    """A message field, or a sine, gets a value in another unit than its definition names.
+
+    **Why.** Nothing complains: the number is sent as it is. A robot turns 57 times as far, or
+    stops a kilometer before the wall.
+
+    **Fix.** Convert the value where the message is filled. Lengths are in meters, angles in
+    radians, times in seconds.
+
+    **Source.** REP-103, "Standard Units of Measure"; the comments of the definitions in
+    common_interfaces.
+    """
+
+    code = "MS034"
+    name = "unit-differs"
+    other_severities = {Severity.WARNING: "only the name of the value says its unit"}
+    examples = (
+        Example("converted", {"board.py": _NODE.format(*_RIGHT)}),
+        Example(
+            "hectopascals, degrees, millimeters by their names; degrees",
+            {
+                "board.py": _NODE.format(
+                    "pressure_hpa",
+                    "board.gyro_dps",
+                    "[math.degrees(angle) for angle in board.angles]",
+                    "board.read_mm()",
+                )
+            },
+            Report(
+                "8:40",
+                "fluid_pressure is in pascals, this is in hectopascals; multiply by 100",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "10:30",
+                "angular_velocity.z is in radians per second, this is in degrees "
+                "per second; use math.radians()",
+                severity=Severity.WARNING,
+            ),
+            Report("12:24", "position is in radians, this is in degrees; use math.radians()"),
+            Report(
+                "13:42",
+                "range is in meters, this is in millimeters; divide by 1000",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "another unit in the name, or of no field",
+            {
+                "board.py": _NODE.format(
+                    "board.bar_graph", "board.speed_deg_to_rad(3)", "board.pan_ticks", "board.cm()"
+                ).replace("board.pressure()", "board.pressure() * 100.0")
+            },
+        ),
+        Example(
+            "degrees for a cosine, and several values at once",
+            {
+                "turn.py": "import math\n\nfrom geometry_msgs.msg import Twist\n\n\n"
+                "def turned(heading_deg, speed_kmh):\n"
+                "    forward, sideways = speed_kmh\n"
+                "    twist = Twist()\n"
+                "    twist.linear.x = forward * math.cos(heading_deg)\n"
+                "    twist.linear.y = sideways\n"
+                "    twist.linear.y = sideways * math.sin(math.radians(heading_deg))\n"
+                "    return twist\n"
+            },
+            Report(
+                "9:41",
+                "the argument of math.cos() is in radians, this is in degrees; use math.radians()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "10:22",
+                "linear.y is in meters per second, this is in kilometers per hour; divide by 3.6",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a name that got the converted value",
+            {
+                "board.py": "import math\n\nfrom sensor_msgs.msg import LaserScan\n\n\n"
+                "def scan(start_deg, end_deg):\n"
+                "    start_deg = math.radians(start_deg)\n"
+                "    return LaserScan(angle_min=start_deg, angle_max=math.radians(end_deg))\n"
+            },
+        ),
+    )
+
+    def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        for item in types.assigned:
+            key = (item.owner.name, item.field.name)
+            wanted = _FIELDS.get(key, "")
+            if not wanted and item.field.name in _AXES:
+                wanted = _VECTORS.get(_vector(types, item.holder), "")
+            if wanted:
+                shown = item.field.name
+                if item.field.name in _AXES:
+                    shown = f"{_vector(types, item.holder)[1]}.{shown}"
+                yield from self._check(types, item.value, wanted, shown)
+        for call in types.module.walk(ast.Call):
+            name = types.module.qualified_name(call.func) or ""
+            if name in _OF_RADIANS and len(call.args) == 1:
+                yield from self._check(types, call.args[0], "radians", f"the argument of {name}()")
+
+    def _check(
+        self, types: MessageTypes, value: ast.expr, wanted: str, shown: str
+    ) -> Iterator[Diagnostic]:
+        for node in _elements(value):
+            unit, is_by_name = _unit(types, node)
+            hint = _HINTS[wanted].get(unit, "")
+            if hint:
+                message = f"{shown} is in {wanted}, this is in {unit}; {hint}"
+                severity = Severity.WARNING if is_by_name else None
+                yield self.report(types.module.location(node), message, severity=severity)
+
+
+def _elements(value: ast.expr) -> Iterator[ast.expr]:
+    """Yield the values that are assigned: those of a list one by one."""
+    match value:
+        case ast.List(elts=elements) | ast.Tuple(elts=elements):
+            yield from elements
+        case ast.ListComp(elt=element):
+            yield element
+        case _:
+            yield value
+
+
+def _vector(types: MessageTypes, holder: ast.expr) -> tuple[str, str]:
+    """Return the message and the field that a vector is in, whose x, y or z is assigned."""
+    above = types.module.parent(holder)
+    match holder, above:
+        case ast.Attribute(value=outer, attr=field), _:
+            owner = types.type_of(outer)
+        case ast.Call(), ast.keyword(arg=str() as field):
+            made = types.module.parent(above)
+            owner = types.class_of(made.func) if isinstance(made, ast.Call) else None
+        case ast.Call(), ast.Assign(targets=[ast.Attribute(value=outer, attr=field)]):
+            owner = types.type_of(outer)
+        case _:
+            return "", ""
+    return (owner.name, field) if owner else ("", "")
+
+
+def _unit(types: MessageTypes, node: ast.expr, depth: int = 0) -> tuple[str, bool]:
+    """Return the unit of a value and whether its name alone says so; empty if it is not known."""
+    for _ in range(_DEEPEST):
+        inner = _inside(node)
+        if inner is None:
+            break
+        node = inner
+    match node:
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[_]):
+            return _CONVERSIONS.get(name, ""), False
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[]):
+            return _unit_named(name), True
+        case ast.Subscript(slice=ast.Constant(value=str() as name)):
+            return _unit_named(name), True
+        case ast.Name() | ast.Attribute() if depth < _DEEPEST:
+            return _unit_of_name(types, node, depth)
+    return "", False
+
+
+def _inside(node: ast.expr) -> ast.expr | None:
+    """Return what an expression takes its value from, in the same unit."""
+    match node:
+        case ast.UnaryOp(operand=inner) | ast.Starred(value=inner):
+            return inner
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=[inner, *_]) if (
+            name in _SAME
+        ):
+            return inner
+        case ast.Call(func=ast.Attribute(attr=name, value=inner)) if name in _OF_ITSELF:
+            return inner
+        case ast.Subscript(value=inner, slice=index):
+            is_key = isinstance(index, ast.Constant) and isinstance(index.value, str)
+            return None if is_key else inner
+    return None
+
+
+def _unit_of_name(
+    types: MessageTypes, node: ast.Name | ast.Attribute, depth: int
+) -> tuple[str, bool]:
+    """Return the unit of a name: that of the only value it gets, or the one in it."""
+    values = _values(types, node)
+    units = {_unit(types, value, depth + 1) for value in values}
+    known = {unit for unit, is_by_name in units if unit and not is_by_name}
+    if known:
+        return (known.pop(), False) if len(units) == 1 else ("", False)
+    name = node.id if isinstance(node, ast.Name) else node.attr
+    named = _unit_named(name)
+    is_computed = any(isinstance(value, ast.BinOp) for value in values)
+    if named:
+        return ("" if is_computed and len(values) > 1 else named), True
+    return units.pop() if len(units) == 1 else ("", False)
+
+
+def _values(types: MessageTypes, node: ast.Name | ast.Attribute) -> list[ast.expr]:
+    """Return what a name or an attribute of the object is assigned."""
+    if isinstance(node, ast.Attribute):
+        return [*(types.facts.evaluator.attribute_values(node) or ())]
+    lookup = types.module.index.lookup(node.id, node)
+    values: list[ast.expr] = []
+    for binding in lookup[1] if lookup else ():
+        unpacked = types.module.parent(types.module.parent(binding.node) or binding.node)
+        if binding.value is not None:
+            values.append(binding.value)
+        elif isinstance(unpacked, ast.Assign) and isinstance(unpacked.targets[0], ast.Tuple):
+            values.append(unpacked.value)
+    return values
+
+
+def _unit_named(name: str) -> str:
+    """Return the unit in a name: its last word."""
+    lower = re.sub(r"([a-z])([A-Z])", r"\1_\2", name).lower()
+    is_rate = _PER.search(lower) is not None
+    words = [word for word in re.split(r"[_\d]+", _PER.sub("", lower)) if word]
+    if len(words) <= 1 or not {"from", "per", "to", "in"}.isdisjoint(words):
+        return ""
+    unit = _SUFFIXES.get(words[-1], "")
+    return f"{unit} per second" if is_rate and unit else unit

@@ -1,0 +1,59 @@
+"""ND134: no comparison stands alone as a statement."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api.python import PythonModule
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import Float64\n\n\n"
+    "class Limiter(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('limiter')\n"
+    "        self.limit = 1.0\n"
+    "        self.create_subscription(Float64, 'limit', self.on_limit, 10)\n\n"
+    "    def on_limit(self, msg):\n"
+    "        {}\n"
+)
+
+
+class ComparisonWithoutEffect(PythonRule):
+    """A comparison stands alone as a statement: ``==`` where ``=`` is meant.
+
+    **Why.** Nothing is assigned, and Python does not complain: the value stays as it was.
+
+    **Fix.** ``self.limit = msg.data``.
+
+    **Source.** Python language reference, "Expression statements".
+    """
+
+    code = "ND134"
+    name = "comparison-without-effect"
+    examples = (
+        Example("assigned", {"limiter.py": _NODE.format("self.limit = msg.data")}),
+        Example("asked", {"limiter.py": _NODE.format("return self.limit == msg.data")}),
+        Example(
+            "compared",
+            {"limiter.py": _NODE.format("self.limit == msg.data")},
+            Report(
+                "12:9", "self.limit is compared, and the result is dropped; write self.limit = ..."
+            ),
+        ),
+        Example(
+            "compared in a test, which TS043 reports",
+            {"test_limit.py": "def test_limit():\n    limit = 1\n    limit == 1\n"},
+        ),
+    )
+
+    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+        if module.in_tests:
+            return
+        for statement in module.walk(ast.Expr):
+            match statement.value:
+                case ast.Compare(left=ast.Name() | ast.Attribute() as left, ops=[ast.Eq()]):
+                    text = module.text(left)
+                    message = f"{text} is compared, and the result is dropped; write {text} = ..."
+                    yield self.report(module.location(statement), message)

@@ -1,0 +1,101 @@
+"""ND135: indices are whole numbers."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
+from scaffold.api.python import PythonModule, is_handled
+from scaffold.api.rclpy import RclpyFile, rclpy_file
+
+_NODE = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import LaserScan\n\n\n"
+    "class Front(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('front')\n"
+    "        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)\n\n"
+    "    def on_scan(self, scan):\n"
+    "        middle = len(scan.ranges) {} 2\n"
+    "        front = scan.ranges[middle - 5:middle + 5]\n"
+    "        for number in range(len(front) {} 2):\n"
+    "            self.near = front[number] < 1.0\n"
+)
+
+
+class FloatAsIndex(PythonRule):
+    """The result of a division bounds a slice or a range.
+
+    **Why.** ``/`` always gives a float: ``TypeError: slice indices must be integers``, or
+    ``'float' object cannot be interpreted as an integer``.
+
+    **Fix.** ``//``, or ``int(...)``.
+
+    **Source.** Python documentation, "Numeric Types".
+    """
+
+    code = "ND135"
+    name = "float-as-index"
+    examples = (
+        Example("whole numbers", {"front.py": _NODE.format("//", "//")}),
+        Example(
+            "divisions",
+            {"front.py": _NODE.format("/", "/")},
+            Report("12:29", "a float cannot bound a slice: TypeError; divide with //"),
+            Report("12:40", "a float cannot bound a slice: TypeError; divide with //"),
+            Report("13:29", "range() takes no float: TypeError; divide with //"),
+        ),
+        Example(
+            "made whole later",
+            {
+                "front.py": _NODE.format("/", "//").replace(
+                    "        front =", "        middle = int(middle)\n        front ="
+                )
+            },
+        ),
+        Example(
+            "a range of numpy, and a path as a key",
+            {
+                "other.py": "import numpy as np\n\n\n"
+                "def numbers(count, folder, files):\n"
+                "    return np.arange(count / 2), files[folder / 'a.yaml']\n"
+            },
+        ),
+    )
+
+    def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
+        file = rclpy_file(package, module.path)
+        for node in module.walk(ast.Slice):
+            if _is_of_labels(module, node):
+                continue
+            for bound in (node.lower, node.upper, node.step):
+                if bound is not None and _is_quotient(file, bound):
+                    message = "a float cannot bound a slice: TypeError; divide with //"
+                    if not is_handled(module, node, "TypeError"):
+                        yield self.report(module.location(bound), message)
+        for call in module.walk(ast.Call):
+            if isinstance(call.func, ast.Name) and module.qualified_name(call.func) == "range":
+                for given in call.args:
+                    if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
+                        message = "range() takes no float: TypeError; divide with //"
+                        yield self.report(module.location(given), message)
+
+
+def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
+    """Tell whether a slice is one of pandas, between labels of any kind."""
+    subscript = next((x for x in module.parents(node) if isinstance(x, ast.Subscript)), None)
+    return subscript is not None and ast.unparse(subscript.value).endswith(".loc")
+
+
+def _is_quotient(file: RclpyFile, node: ast.expr) -> bool:
+    """Tell whether a value certainly is the result of a division, or computed with one."""
+    match node:
+        case ast.BinOp(op=ast.Div(), left=left, right=right):
+            texts = (x.value for x in (left, right) if isinstance(x, ast.Constant))
+            return not any(isinstance(text, str) for text in texts)
+        case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult(), left=left, right=right):
+            return _is_quotient(file, left) or _is_quotient(file, right)
+        case ast.Name():
+            value = file.evaluator.single_value(node)
+            return value is not node and _is_quotient(file, value)
+    return False

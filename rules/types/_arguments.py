@@ -1,0 +1,132 @@
+"""Arguments of calls that the type checker reports: what they are for, and who else judges them."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from scaffold.api import Package
+from scaffold.api.rclpy import rclpy_file
+from scaffold.api.types import (
+    TypeFinding,
+    class_in,
+    class_itself,
+    full_name,
+    has_call,
+    in_words,
+    is_kind_of,
+    name_of,
+    overload_problem,
+    parameters,
+    short_name,
+    with_article,
+    with_elements,
+)
+
+TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
+"""Where functions of tf2 with several signatures take a timeout."""
+
+
+def has_too_many(finding: TypeFinding, callee: str) -> bool:
+    """Tell whether the call has more arguments without names than its function takes."""
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
+
+
+def is_one_of_publishers(finding: TypeFinding) -> bool:
+    """Tell whether the object called may be made for another type, as a condition says."""
+    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    if call is None or not isinstance(call.func, ast.Attribute):
+        return False
+    receiver = call.func.value
+    if not isinstance(receiver, ast.Attribute):
+        return False
+    file = rclpy_file(finding.package, finding.path)
+    values = file.evaluator.attribute_values(receiver) or ()
+    made = [value for value in values if isinstance(value, ast.Call) and value.args]
+    return len({ast.dump(value.args[0]) for value in made}) > 1
+
+
+def is_int_as_well(finding: TypeFinding) -> bool:
+    """Tell whether a number comes by a parameter that is annotated with ``int`` and ``float``."""
+    place = finding.innermost
+    node = place.value if isinstance(place, ast.keyword) else place
+    if not isinstance(node, ast.Name):
+        return False
+    function = finding.module.enclosing_function(node)
+    if not isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
+        return False
+    arguments = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
+    notes = [item.annotation for item in arguments if item.arg == node.id and item.annotation]
+    names = {part.id for note in notes for part in ast.walk(note) if isinstance(part, ast.Name)}
+    return "int" in names
+
+
+def is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
+    """Tell whether an object of ROS that cannot be called is given for a function."""
+    class_ = class_in(given)
+    return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
+
+
+def unlike(expected: str, given: str) -> str:
+    """Return two types in words; of lists alike, what is in them."""
+    needed, got = with_article(name_of(expected)), in_words(given)
+    if needed == got:
+        needed, got = with_elements(expected), with_elements(given)
+    return f"{needed}, not {got}"
+
+
+def timeout(call: ast.Call, name: str) -> ast.expr | None:
+    """Return the timeout that one of these functions gets."""
+    for keyword in call.keywords:
+        if keyword.arg == "timeout":
+            return keyword.value
+    place = TIMEOUTS[name]
+    return call.args[place] if len(call.args) > place else None
+
+
+def instead(package: Package, expected: str, given: str) -> str:
+    """Return what to write instead, where that is clear."""
+    wanted, class_ = class_in(expected.partition(" | ")[0]), class_itself(given)
+    if wanted and class_:
+        is_whole = short_name(wanted).startswith(f"{short_name(class_)}.")  # a service, an action
+        needed = wanted if is_whole else class_
+        is_right = is_kind_of(package, needed, wanted)
+        return f"; write {short_name(needed)}()" if is_right else ""
+    name = full_name(wanted) if wanted else ""
+    is_number = re.match(r"(?:int|float)\b|Literal\[-?[0-9]", given) is not None
+    if name == "rclpy.duration.Duration" and is_number:
+        return "; write Duration(seconds=...)"
+    if name == "rclpy.time.Time" and class_in(given).startswith("Time"):
+        return "; write rclpy.time.Time.from_msg(...)"
+    if name == "builtin_interfaces.msg.Time" and class_in(given).startswith("Time"):
+        return "; write .to_msg()"
+    return ""
+
+
+def is_unpacked(finding: TypeFinding) -> bool:
+    """Tell whether the argument is ``**values``: each of them may fit a parameter of its own."""
+    return any(
+        keyword.arg is None
+        and finding.location in {finding.module.location(item) for item in (keyword, keyword.value)}
+        for call in finding.module.walk(ast.Call)
+        for keyword in call.keywords
+    )
+
+
+def parameter_name(finding: TypeFinding, callee: str) -> str:
+    """Return the name of the parameter that the place is an argument of."""
+    for call in finding.module.walk(ast.Call):
+        if not call.lineno <= finding.location.line <= (call.end_lineno or call.lineno):
+            continue
+        for keyword in call.keywords:
+            places = (keyword, keyword.value)
+            if any(finding.module.location(item) == finding.location for item in places):
+                return keyword.arg or ""
+        for number, argument in enumerate(call.args):
+            if isinstance(argument, ast.Starred):
+                break
+            if finding.module.location(argument) == finding.location:
+                names = parameters(finding.package, callee)
+                return names[number] if number < len(names) else ""
+    return ""

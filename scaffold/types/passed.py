@@ -1,0 +1,161 @@
+"""What a file passes to functions and classes of other modules of its package."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from scaffold.files.limits import most_bytes
+from scaffold.model.facts import fact
+from scaffold.model.interfaces.syntax import SECTIONS
+from scaffold.model.package import Package
+from scaffold.record import NamedTuple
+from scaffold.types.sources import imported_names
+
+_OPENED = re.compile(r"(\.\w+)?\(")
+_METHOD = re.compile(r"\.(\w+)\(")
+_KEPT = re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
+"""Matches what is before a call whose result is assigned."""
+_SET = re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
+"""Matches what is after a name that is given a value."""
+_BOUND = re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
+
+
+class Place(NamedTuple):
+    """A call of a function of another module, in a text."""
+
+    function: str
+    """``talker.poses.to_pose``, ``talker.arm.Arm`` or ``talker.arm.Arm.move``."""
+    start: int
+    arguments: int
+    """Where its arguments begin."""
+
+
+class Passed(NamedTuple):
+    """What a call gives a function of another module."""
+
+    function: str
+    """See ``Place``."""
+    module: str
+    """Where the call is."""
+    given: Mapping[str, str]
+    """By keyword or number: a constant, or the global name of a list with the value in it."""
+
+
+def own_names(data: bytes, module: str) -> Mapping[str, str]:
+    """Return what a file imports from other modules of its package, by the name that it has there.
+
+    Args:
+        data: What is in the file.
+        module: Its own dotted name.
+    """
+    root = module.partition(".")[0]
+    words = (b"from .", f"from {root}".encode(), f"import {root}".encode())
+    if not root or not any(word in data for word in words):
+        return {}
+    return {
+        called: name
+        for name, called in imported_names(data, module.rpartition(".")[0])
+        if called and name.startswith(f"{root}.") and name.split(".")[1] not in SECTIONS
+    }
+
+
+def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
+    """Yield the calls of functions, classes and methods of other modules.
+
+    Args:
+        text: A file.
+        names: What it imports from there; see ``own_names``.
+    """
+    made: dict[str, set[str]] = {}
+    for local, name in names.items():
+        for start in _mentions(text, local):
+            opened = _OPENED.match(text, start + len(local))
+            if opened is None:
+                continue
+            function = name + (opened[1] or "")
+            yield Place(function, start, opened.end())
+            kept = _KEPT.fullmatch(text, text.rfind("\n", 0, start) + 1, start)
+            if kept is not None and function.rpartition(".")[2][:1].isupper():
+                made.setdefault(kept[1], set()).add(function)
+    for local, classes in made.items():
+        if len(classes) == 1:
+            yield from _of_object(text, local, *classes)
+
+
+def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
+    """Yield the calls of methods of a variable or attribute, unless it may be another object."""
+    found: list[Place] = []
+    times_set = 0
+    for start in _mentions(text, name):
+        end = start + len(name)
+        called = _METHOD.match(text, end)
+        if called is not None:
+            found.append(Place(f"{class_}.{called[1]}", start, called.end()))
+        elif _SET.match(text, end):
+            times_set += 1
+        elif _BOUND.search(text, text.rfind("\n", 0, start) + 1, start):
+            return
+    if times_set == 1:
+        yield from found
+
+
+def _mentions(text: str, name: str) -> Iterator[int]:
+    """Yield where a name is, alone and not as a part or an attribute of others."""
+    at = text.find(name)
+    while at >= 0:
+        before, after = text[at - 1 : at] if at else "", text[at + len(name) : at + len(name) + 1]
+        if not (before.isalnum() or before in {"_", "."} or after.isalnum() or after == "_"):
+            yield at
+        at = text.find(name, at + 1)
+
+
+def module_of(package: Package, path: str) -> str:
+    """Return the dotted name of a module of a package; empty for what is no module of it."""
+    parts = path.removeprefix("src/").removesuffix(".py").split("/")
+    names = {package.name, package.name.removesuffix("_py")}
+    is_module = len(parts) > 1 and parts[0] in names and all(map(str.isidentifier, parts))
+    return ".".join(parts) if is_module else ""
+
+
+def first_call(package: Package, path: str, function: str) -> tuple[str, int] | None:
+    """Return the file and the line of a call of a function of a module in another module."""
+    called = f"{module_of(package, path)}.{function}"
+    for other in callers(package, path):
+        data = package.data(other)
+        text = data.decode()
+        for place in places(text, own_names(data, module_of(package, other))):
+            if place.function == called:
+                return other, text.count("\n", 0, place.start) + 1
+    return None
+
+
+@fact
+def callers(package: Package, path: str) -> tuple[str, ...]:
+    """Return the other modules of a package that call functions of a module."""
+    module = module_of(package, path)
+    return tuple(
+        other
+        for other, called in _all_called(package).items()
+        if other != path and any(name.startswith(f"{module}.") for name in called)
+    )
+
+
+@fact
+def _all_called(package: Package) -> Mapping[str, frozenset[str]]:
+    """Return what each module of a package calls of others; only those that call anything."""
+    found = {path: _called(package, path) for path in package.python_files}
+    return {path: names for path, names in found.items() if names}
+
+
+@fact
+def _called(package: Package, path: str) -> frozenset[str]:
+    module = module_of(package, path)
+    if not module:
+        return frozenset()
+    try:
+        data = package.bytes_of(path, most_bytes(path))
+        text = data.decode()
+    except (OSError, UnicodeDecodeError):
+        return frozenset()
+    return frozenset(place.function for place in places(text, own_names(data, module)))

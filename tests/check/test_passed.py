@@ -1,0 +1,150 @@
+"""What one module of a package passes to another is known there."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from scaffold.types.arguments import with_arguments
+from scaffold.types.passed import Passed, own_names, places
+from tests.check.test_type_check import Check, check, make_package, source
+
+__all__ = ["check", "source"]
+
+TALK = """from rclpy.node import Node
+from std_msgs.msg import String
+
+{}
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.pub = self.create_publisher(String, 'chatter', 10)
+        {}
+
+
+if __name__ == '__main__':
+    Talker()
+"""
+UTIL = """def name_of(node):
+    return 'node ' + node.{0}()
+
+
+class Arm:
+    def __init__(self, node, name='arm'):
+        self.node = node
+        self.name = name
+        self.clock = self.node.{1}()
+
+    def move(self, message):
+        print(message.{2})
+"""
+RIGHT = ("get_name", "get_clock", "data")
+
+
+@pytest.mark.parametrize(
+    ("import_", "statement", "wrong", "found"),
+    [
+        ("from .util import name_of", "name_of(self)", 0, 2),
+        ("from .util import name_of as n", "self.n = n(self)", 0, 2),
+        ("from talker.util import (\n    Arm,\n    name_of,\n)", "print(name_of(self))", 0, 2),
+        ("from . import util", "util.name_of(self)", 0, 2),
+        ("from talker import util as u", "u.name_of(node=self)", 0, 2),
+        ("import talker.util", "talker.util.name_of(self)", 0, 2),
+        ("from .util import Arm", "self.arm = Arm(self)", 1, 9),
+        ("from .util import Arm", "self.arm = Arm(self)\n        self.arm.move(String())", 2, 12),
+        ("from . import util", "arm = util.Arm(self)\n        arm.move(String())", 2, 12),
+    ],
+)
+def test_what_is_passed_is_known_in_the_other_module(
+    check: Check, source: Path, import_: str, statement: str, wrong: int, found: int
+) -> None:
+    files = {"talker/talk.py": TALK.format(import_, statement)}
+    files["talker/util.py"] = UTIL.format(*RIGHT)
+    package = make_package(source, "talker", files)
+    assert check("talker") == []
+    names = [*RIGHT]
+    names[wrong] = "wrong"
+    (package / "talker/util.py").write_text(UTIL.format(*names))
+    assert check("talker") == [f"talker/talker/util.py:{found}:TY003"]
+
+
+@pytest.mark.parametrize(
+    ("import_", "statement"),
+    [
+        ("from .util import name_of", "name_of(*[self])"),
+        ("from .util import name_of", "name_of(self)\n        name_of(3)"),
+        ("from .util import name_of", "later = lambda: name_of(self)"),
+        ("from util import name_of", "name_of(self)"),
+        ("from .util import Arm", "self.name_of(self)"),
+    ],
+)
+def test_what_is_not_known(check: Check, source: Path, import_: str, statement: str) -> None:
+    files = {"talker/talk.py": TALK.format(import_, statement)}
+    files["talker/util.py"] = UTIL.format("wrong", "get_clock", "data")
+    make_package(source, "talker", files)
+    assert [item for item in check("talker") if "util" in item] == []
+
+
+def test_a_value_for_one_case_says_nothing_about_the_others(check: Check, source: Path) -> None:
+    util = (
+        "def read(message, kind):\n    if kind == 'text':\n        return message.data\n"
+        "    return message.pose\n\n\n"
+        "def show(message, prefix):\n    if prefix is None:\n        return ''\n"
+        "    return message.words\n"
+    )
+    call = "read(String(), 'text')\n        show(String(), 'x')"
+    files = {"talker/talk.py": TALK.format("from .util import read, show", call)}
+    make_package(source, "talker", {**files, "talker/util.py": util})
+    assert check("talker") == ["talker/talker/util.py:10:TY003"]
+
+
+def test_an_edit_where_a_function_is_called_changes_the_verdict(check: Check, source: Path) -> None:
+    files = {
+        "talker/talk.py": TALK.format("from .util import name_of", "name_of(self)"),
+        "talker/util.py": UTIL.format(*RIGHT),
+        "talker/more.py": "import rclpy\n",
+        "talker/other.py": "import rclpy\n",
+    }
+    package = make_package(source, "talker", files)
+    assert check("talker") == []
+    wrong = "from std_msgs.msg import String\n\nfrom .util import name_of\n\nname_of(String())\n"
+    (package / "talker/talk.py").write_text(wrong)
+    assert check("talker") == ["talker/talker/util.py:2:TY003"]
+    (package / "talker/talk.py").write_text("import rclpy\n")
+    assert check("talker") == []
+    (package / "talker/more.py").write_text(wrong)  # called nothing before
+    assert check("talker") == ["talker/talker/util.py:2:TY003"]
+    (package / "talker/other.py").write_text("import rclpy  # edited\n")
+    assert check("talker") == ["talker/talker/util.py:2:TY003"]
+    (package / "talker/more.py").write_text(f"{wrong}name_of(rclpy.create_node('a'))\n")
+    assert check("talker") == []
+
+
+def test_the_lines_that_are_added() -> None:
+    names = own_names(b"from .arm import Arm, move\nfrom .msg import Beat\n", "robot.main")
+    assert names == {"Arm": "robot.arm.Arm", "move": "robot.arm.move"}
+    text = "arm = Arm(1)\narm.turn(angle)\nmove('a', b)\nBeat(1)\nremove(1)\n"
+    assert [(item.function, item.start) for item in places(text, names)] == [
+        ("robot.arm.Arm", 6),
+        ("robot.arm.move", 29),
+        ("robot.arm.Arm.turn", 13),
+    ]
+    text = f"from .arm import Arm, move\n{text}"
+    passed = with_arguments(text.encode(), "robot.main").passed
+    kept = "_ros2_given_robot_main_56_1", "_ros2_given_robot_main_40_0"
+    assert [*passed] == [
+        Passed("robot.arm.Arm", "robot.main", {"0": "1"}),
+        Passed("robot.arm.move", "robot.main", {"0": "'a'", "1": kept[0]}),
+        Passed("robot.arm.Arm.turn", "robot.main", {"0": kept[1]}),
+    ]
+    arm = "def move(name: str, by):\n    pass\n"
+    text = with_arguments(arm.encode(), "robot.arm", passed).data.decode()
+    ast.parse(text)
+    assert text.split("\n")[:2] == [
+        "def move(name     , by):",
+        f"    from robot.main import {kept[0]}; name = (['a'])[0]; by = ({kept[0]})[0]",
+    ]
