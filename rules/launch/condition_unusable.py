@@ -41,7 +41,7 @@ class ConditionUnusable(LaunchRule):
 
     code = "LF051"
     name = "condition-unusable"
-    other_severities = {Severity.WARNING: "a text that somebody may set"}
+    other_severities = {Severity.WARNING: "the text is one that somebody may set"}
     examples = (
         Example("a launch argument", {"launch/a.launch.py": _LAUNCH.format("true", "use")}),
         Example(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.distributions import target
 from scaffold.api.launch import Reference, exists, meant_package, package_uses
-from scaffold.api.manifest import declared
+from scaffold.api.manifest import declared, declaring
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -59,6 +59,26 @@ class PackageUndeclared(Rule):
                 "package.xml": _MANIFEST.format(
                     "  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>rviz2</exec_depend>\n"
                 )
+            },
+        ),
+        Example(
+            "a package that depends on this one",
+            {
+                "package.xml": _MANIFEST.format("  <exec_depend>launch_ros</exec_depend>\n"),
+                "launch/a.launch.py": _LAUNCH.replace("rviz2", "listener"),
+            },
+            Report(
+                "launch/a.launch.py:8:22",
+                "starts a node of 'listener', which no dependency in package.xml "
+                "provides; declaring it would close a cycle, talker needs listener "
+                "needs talker: move what both need into a third package",
+                severity=Severity.WARNING,
+            ),
+            neighbours={
+                "listener": {
+                    "package.xml": '<package format="3">\n  <name>listener</name>\n'
+                    "  <exec_depend>talker</exec_depend>\n</package>\n"
+                }
             },
         ),
         Example(
@@ -172,14 +192,12 @@ class PackageUndeclared(Rule):
                 )
                 yield self.report(use.location, message, severity=severity)
                 continue
-            message = (
-                f"{_does(use)} {use.name!r}, which no dependency in package.xml provides; "
-                f"add <{tag}>{use.name}</{tag}>"
-            )
+            needed = declaring(package, tag, use.name)
             yield self.report(
                 use.location,
-                message,
-                Fix(f"declare {use.name}", (manifest.insert(tag, use.name),)),
+                f"{_does(use)} {use.name!r}, which no dependency in package.xml provides; "
+                f"{needed.advice}",
+                needed.fix,
                 severity=severity,
                 cause=f"dependency {use.name}",
             )

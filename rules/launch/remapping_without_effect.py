@@ -10,6 +10,7 @@ from scaffold.api.launch import (
     has_name,
     is_reversed,
     misses_namespace,
+    misses_privacy,
     names_of,
     remapped_nodes,
 )
@@ -66,6 +67,15 @@ class RemappingWithoutEffect(Rule):
         Example("a topic", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "/chatter")}),
         Example(
             "a private topic", {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "talker/input")}
+        ),
+        Example(
+            "a private topic without ~/",
+            {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "input")},
+            Report(
+                "launch/a.launch.py:8:27",
+                "'talk' has '~/input', which is below the name of the node: nothing "
+                "is remapped; write '~/input'",
+            ),
         ),
         Example(
             "no such topic",
@@ -174,6 +184,12 @@ def _problem(
         return (
             f"in its namespace, {node.program!r} has {full_name!r}: nothing is remapped; "
             f"write {source.removeprefix('/')!r}"
+        )
+    private = misses_privacy(names, source)
+    if private:
+        return (
+            f"{node.program!r} has {private!r}, which is below the name of the node: nothing is "
+            f"remapped; write {private!r}"
         )
     if is_reversed(names, source, target, node.name):
         return (

@@ -45,6 +45,18 @@ class SharePathMissing(Rule):
             "installed", {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")}
         ),
         Example(
+            "next to a launch file that is started from its source",
+            {
+                **_FILES,
+                "examples/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch.actions import IncludeLaunchDescription\n"
+                "from launch.substitutions import ThisLaunchFileDir\n\n\n"
+                "def generate_launch_description():\n    return LaunchDescription([\n"
+                "        IncludeLaunchDescription([ThisLaunchFileDir(), '/b.launch.py'])])\n",
+                "examples/b.launch.py": "",
+            },
+        ),
+        Example(
             "made on each machine, so git leaves it out",
             {
                 **_FILES,
@@ -132,4 +144,4 @@ class SharePathMissing(Rule):
             why = why_missing(package, path)
             if why is not None:
                 message = f"share/{path.package}/{path.path} does not exist: {why}"
-                yield self.report(path.location, message, cause=missing_in(path))
+                yield self.report(path.location, message, cause=missing_in(package, path))

@@ -72,7 +72,7 @@ class TextReadAsYaml(Rule):
     code = "LF014"
     name = "text-read-as-yaml"
     severity = Severity.WARNING
-    other_severities = {Severity.ERROR: "a description of a robot that YAML cannot read"}
+    other_severities = {Severity.ERROR: "it is the description of a robot, which YAML cannot read"}
     examples = (
         Example(
             "kept as text",
@@ -159,7 +159,8 @@ class TextReadAsYaml(Rule):
                     f"{name} is the output of a command, which launch reads as YAML, but "
                     f"{broken} has a ': ': wrap it in ParameterValue(..., value_type=str)"
                 )
-                yield self.report(at, message, severity=Severity.ERROR)
+                cause = f"command read as YAML in {path}"
+                yield self.report(at, message, severity=Severity.ERROR, cause=cause)
         for node in started_nodes(package):
             given = [x for x in node.parameters if x.is_configuration and not x.has_choices]
             owner = node.owner(package) if given else None
@@ -174,7 +175,8 @@ class TextReadAsYaml(Rule):
                         f"{item.name} is a string, and launch reads a value such as 42 or on as "
                         "YAML: wrap it in ParameterValue(..., value_type=str)"
                     )
-                    yield self.report(item, message)
+                    cause = f"text read as YAML in {item.location.path}"
+                    yield self.report(item, message, cause=cause)
 
 
 @fact

@@ -1,14 +1,14 @@
-"""LF040: actions of launch get values that they can use."""
+"""LF040: arguments of launch are of a kind that it can use."""
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+from scaffold.api.launch import LaunchFile
 
-_OUTPUTS = frozenset({"screen", "log", "both", "own_log", "full"})
+from ._values import flaws
+
 _LAUNCH = (
     "from launch import LaunchDescription\n"
     "from launch.actions import DeclareLaunchArgument\n"
@@ -25,17 +25,58 @@ _CHOICE = (
     "def generate_launch_description():\n"
     "    return IfElseSubstitution(LaunchConfiguration('a', default=''), 'b', 'c')\n"
 )
+_TEXTS = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument, LogInfo\n"
+    "from launch_ros.actions import Node\n\n\ndef generate_launch_description():\n"
+    "    name = DeclareLaunchArgument('name', default_value='a')\n"
+    "    return LaunchDescription([\n        name,\n        LogInfo(msg={}),\n"
+    "        Node(package='a', executable='b', name={}, additional_env={{'RATE': {}}}),\n    ])\n"
+)
+_PROCESS = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument, ExecuteProcess, TimerAction\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    node = Node(package='a', executable='b')\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('mode', default_value='{}', choices=['fast', 'slow']),\n"
+    "        ExecuteProcess(cmd={}),\n        TimerAction(period={}, actions=[node]),\n    ])\n"
+)
+_INCLUDE = (
+    "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"
+    "from launch.launch_description_sources import AnyLaunchDescriptionSource\n"
+    "from launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.substitutions import FindPackageShare\n\n\n"
+    "def generate_launch_description():\n"
+    "    path = PathJoinSubstitution([FindPackageShare('talker'), 'launch', 'b.launch.py'])\n"
+    "    return LaunchDescription([\n        IncludeLaunchDescription(\n"
+    "            AnyLaunchDescriptionSource(path),\n"
+    "            launch_arguments={},\n        ),\n    ])\n"
+)
+_NODE = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='a', executable='b', parameters=[{{'a': {}}}])\n    ])\n"
+)
 
 
 class ValueUnusable(LaunchRule):
-    """An action of launch gets a value of a kind that it cannot use.
+    """An argument in a launch file has a value of a kind that launch cannot use.
 
-    **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``.
+    **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``: ``'int' object is not
+    iterable``, ``'TimerAction' expected 'period' to be one of ... float``, ``Provided default_value
+    "fst" is not in provided choices``, ``Expected a non-empty sequence, with items of uniform
+    type``. A command that is one text is looked for as one program: ``No such file or directory:
+    'ls -l'``.
 
-    **Fix.** Texts for defaults and arguments, ``IfCondition(...)`` for conditions.
+    **Fix.** Texts in quotes, ``LaunchConfiguration('name')`` for the value of an argument,
+    ``IfCondition(...)`` for conditions, ``period=1.0``, ``cmd=['ls', '-l']``,
+    ``launch_arguments={'use_sim_time': 'true'}.items()``, values of one type in a parameter.
 
     **Source.** ``launch/actions``, ``launch_ros/actions/node.py``,
-    ``launch/utilities/normalize_to_list_of_substitutions_impl.py``.
+    ``launch/utilities/normalize_to_list_of_substitutions_impl.py``,
+    ``launch_ros/utilities/normalize_parameters.py``.
     """
 
     code = "LF040"
@@ -45,8 +86,8 @@ class ValueUnusable(LaunchRule):
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            Report("8:53", "a default must be a string, not a float: write '2.0'"),
-            Report("9:61", "an argument must be a string: write '3'"),
+            Report("8:53", "this is not a string: write '2.0'"),
+            Report("9:72", "this is not a string: write '3'"),
         ),
         Example(
             "other arguments of a node",
@@ -61,7 +102,6 @@ class ValueUnusable(LaunchRule):
             Report(
                 "10:21", "unknown output 'console'; choose from both, full, log, own_log, screen"
             ),
-            Report("10:46", "respawn_delay must be a number, not a str"),
             Report("10:66", "the environment must be a dictionary, not a list"),
             Report("11:24", "a condition must be an object such as IfCondition(...), not a value"),
             Report(
@@ -69,67 +109,138 @@ class ValueUnusable(LaunchRule):
                 "parameters must be files or dictionaries {'name': value}, not lists or pairs",
             ),
         ),
+        Example("texts", {"launch/a.launch.py": _TEXTS.format("['a', 'b']", "'n'", "'3'")}),
+        Example(
+            "a number, an action, a number in the environment",
+            {"launch/a.launch.py": _TEXTS.format("3", "name", "3")},
+            Report("10:21", "this is not a string: write '3'"),
+            Report(
+                "11:48",
+                "this is the action DeclareLaunchArgument, not a value: write "
+                "LaunchConfiguration('name')",
+            ),
+            Report("11:78", "this is not a string: write '3'"),
+        ),
+        Example(
+            "a number among texts",
+            {"launch/a.launch.py": _TEXTS.format("['a', 3]", "'n'", "'3'")},
+            Report("10:27", "this is not a string: write '3'"),
+        ),
+        Example(
+            "a command, a period and a choice",
+            {"launch/a.launch.py": _PROCESS.format("fast", "['ls', '-l']", "1.0")},
+        ),
+        Example(
+            "a default that is no choice, a command in one text, an int as a period",
+            {"launch/a.launch.py": _PROCESS.format("fst", "'ls -l'", "1")},
+            Report("9:68", "the default 'fst' is not among the choices"),
+            Report("10:28", "launch splits a string into letters: write a list of words"),
+            Report("11:28", "a period must be a float: write 1.0"),
+        ),
+        Example(
+            "two words of a command in one",
+            {"launch/a.launch.py": _PROCESS.format("fast", "['ls -l']", "1.0")},
+            Report(
+                "10:28",
+                "this is one word, so a program 'ls -l' is looked for: write a list of words",
+            ),
+        ),
+        Example(
+            "the name of a type",
+            {
+                "launch/a.launch.py": "from launch.substitutions import LaunchConfiguration\n"
+                "from launch_ros.parameter_descriptions import ParameterValue\n\n\n"
+                "def generate_launch_description():\n"
+                "    rate = LaunchConfiguration('rate', default='1')\n"
+                "    return [ParameterValue(rate, value_type=int),\n"
+                "            ParameterValue(rate, value_type='int')]\n"
+            },
+            Report("8:45", "value_type must be a type, not a string: write int"),
+        ),
+        Example(
+            "other kinds of respawn, periods and choices",
+            {
+                "launch/a.launch.py": _PROCESS.format("fast", "['ls'], respawn='true'", "True"),
+                "launch/b.launch.py": _PROCESS.format("fast", "['ls']", "'soon'").replace(
+                    "['fast', 'slow']", "'fast'"
+                ),
+                "launch/c.launch.py": _PROCESS.format("1", "['ls']", "'1.0'").replace(
+                    "['fast', 'slow']", "[1, 2]"
+                ),
+            },
+            Report(
+                "launch/a.launch.py:10:44",
+                "respawn must be a bool, not a string: write True or False",
+            ),
+            Report("launch/a.launch.py:11:28", "a period must be a number of seconds, such as 1.0"),
+            Report(
+                "launch/b.launch.py:9:69",
+                "choices must be a list of strings: every letter of this string is a choice",
+            ),
+            Report("launch/b.launch.py:11:28", "a period must be a number of seconds, not 'soon'"),
+            Report(
+                "launch/c.launch.py:9:66",
+                "choices must be strings: a value of the command line never equals a number",
+            ),
+        ),
+        Example(
+            "arguments of an include: pairs",
+            {"launch/a.launch.py": _INCLUDE.format("{'a': 'b'}.items()")},
+        ),
+        Example(
+            "arguments of an include: a number",
+            {"launch/a.launch.py": _INCLUDE.format("{'a': 3}.items()")},
+            Report("13:36", "'a' gets 3, which is not a string: write '3'"),
+        ),
+        Example(
+            "arguments of an include: a number in a list",
+            {"launch/a.launch.py": _INCLUDE.format("[('a', ['b', 1])]")},
+            Report("13:37", "'a' gets a list with a number, which launch cannot join"),
+        ),
+        Example(
+            "arguments of an include: a set",
+            {"launch/a.launch.py": _INCLUDE.format("{'a', 'b'}")},
+            Report(
+                "13:30", "this is a set: launch takes pairs, {...}.items() or [('name', 'value')]"
+            ),
+        ),
+        Example(
+            "arguments of an include: items, not called",
+            {"launch/a.launch.py": _INCLUDE.format("{'a': 'b'}.items")},
+            Report("13:30", "items is not called: write .items()"),
+        ),
+        Example(
+            "arguments of an include: a list of texts",
+            {"launch/a.launch.py": _INCLUDE.format("['a', 'b']")},
+            Report(
+                "13:30",
+                "these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
+            ),
+        ),
+        Example(
+            "arguments of an include: a number that is computed",
+            {"launch/a.launch.py": _INCLUDE.format("{'a': 1 + 2}.items()")},
+            Report("13:36", "'a' gets 3, which is not a string"),
+        ),
+        Example("a parameter: values of one type", {"launch/a.launch.py": _NODE.format("[1, 2]")}),
+        Example(
+            "a parameter: nothing",
+            {"launch/a.launch.py": _NODE.format("None")},
+            Report("7:61", "the parameter 'a' is None, which is not a value of a parameter"),
+        ),
+        Example(
+            "a parameter: an empty list",
+            {"launch/a.launch.py": _NODE.format("[]")},
+            Report("7:61", "the parameter 'a' is an empty list, whose type is unknown"),
+        ),
+        Example(
+            "a parameter: a mixed list",
+            {"launch/a.launch.py": _NODE.format("[1, 'a']")},
+            Report("7:61", "the parameter 'a' mixes types in a list"),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
-            for name, node in call.given.items():
-                problem = _problem(launch, call, name, node)
-                if problem:
-                    yield self.report(launch.location(node), problem)
-
-
-def _problem(launch: LaunchFile, call: LaunchCall, name: str, node: ast.expr) -> str:
-    value = launch.evaluator.evaluate(node)
-    kind = _kind(value)
-    problem = ""
-    if call.kind == "DeclareLaunchArgument" and name == "default_value":
-        is_wrong = type(value) in {int, float, bool}
-        problem = (
-            f"a default must be a string, not {kind}: write {str(value)!r}" if is_wrong else ""
-        )
-    elif name == "condition" and call.kind != "IfElseSubstitution":
-        problem = _condition_problem(launch, node, value)
-    elif call.kind not in NODES:
-        return ""
-    elif name in {"arguments", "ros_arguments"} and isinstance(node, ast.List | ast.Tuple):
-        numbers = [elt for elt in node.elts if _is_number(elt)]
-        problem = f"an argument must be a string: write {_text(numbers[0])!r}" if numbers else ""
-    elif name == "output" and isinstance(value, str) and value not in _OUTPUTS:
-        problem = f"unknown output {value!r}; choose from {', '.join(sorted(_OUTPUTS))}"
-    elif name == "respawn_delay" and isinstance(value, str):
-        problem = f"respawn_delay must be a number, not {kind}"
-    elif name in {"env", "additional_env"} and isinstance(value, list):
-        problem = "the environment must be a dictionary, not a list"
-    elif name == "parameters" and isinstance(node, ast.List):
-        problem = _parameter_problem(node)
-    return problem
-
-
-def _kind(value: object) -> str:
-    return f"a {type(value).__name__}"
-
-
-def _is_number(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and type(node.value) in {int, float, bool}
-
-
-def _text(node: ast.expr) -> str:
-    return str(node.value) if isinstance(node, ast.Constant) else ""
-
-
-def _condition_problem(launch: LaunchFile, node: ast.expr, value: object) -> str:
-    call = launch.call_of(node)
-    is_text = isinstance(value, str | bool) or (
-        call is not None and call.kind == "LaunchConfiguration"
-    )
-    if value is None or not is_text:
-        return ""
-    return "a condition must be an object such as IfCondition(...), not a value"
-
-
-def _parameter_problem(node: ast.List) -> str:
-    for elt in node.elts:
-        if isinstance(elt, ast.Tuple | ast.List):
-            return "parameters must be files or dictionaries {'name': value}, not lists or pairs"
-    return ""
+            for node, problem in flaws(launch, call):
+                yield self.report(launch.location(node), problem)

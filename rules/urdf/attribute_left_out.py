@@ -64,6 +64,10 @@ class AttributeLeftOut(Rule):
     examples = (
         Example("complete", {"robot.urdf": _ROBOT.format("value")}),
         Example(
+            "of a program for browsers, which npm builds",
+            {"web/package.json": "{}\n", "web/public/robot.urdf": "<robot>\n</robot>\n"},
+        ),
+        Example(
             "a joint of ros2_control, in a macro that others call",
             {
                 "robot.xacro": _XACRO.format(' default="false"'),

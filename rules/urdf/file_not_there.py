@@ -8,6 +8,7 @@ from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, c
 from scaffold.api.install import share_of
 from scaffold.api.launch import NamedPath, missing_in, why_missing
 from scaffold.api.robot import NamedFile, named_files, robot_paths
+from scaffold.api.workspace import is_untracked
 
 _SETUP = (
     "from glob import glob\n\nfrom setuptools import setup\n\n"
@@ -50,8 +51,9 @@ class FileNotThere(Rule):
     code = "UR001"
     name = "file-not-there"
     other_severities = {
-        Severity.WARNING: "for a mesh that is missing next to others: it may be kept elsewhere; in "
-        "a file that is not installed: it may be copied to where it is used"
+        Severity.WARNING: "a mesh is missing next to others, and may be kept elsewhere; the "
+        "file is not installed, and may be copied to where it is used; or a "
+        "condition in xacro decides"
     }
     examples = (
         Example(
@@ -143,6 +145,33 @@ class FileNotThere(Rule):
             ),
         ),
         Example(
+            "of a submodule of git, which a clone may not have",
+            {
+                **_FILES,
+                ".gitmodules": '[submodule "arm"]\n\tpath = urdf/arm\n\turl = ../arm.git\n',
+                "urdf/robot.xacro": _ROBOT.format("arm/arm.xacro", "file:///base.stl"),
+            },
+        ),
+        Example(
+            "for one of several arms",
+            {
+                **_FILES,
+                "urdf/robot.xacro": _ROBOT.format("$(find talker)/urdf/lift.xacro", "file:///a.stl")
+                .replace(
+                    "<xacro:inc",
+                    '<xacro:arg name="lift" default=""/>'
+                    '<xacro:if value="$(arg lift)">\n  <xacro:inc',
+                )
+                .replace('lift.xacro"/>', 'lift.xacro"/></xacro:if>'),
+            },
+            Report(
+                "urdf/robot.xacro:3:28",
+                "share/talker/urdf/lift.xacro does not exist: talker has no such file; closest: "
+                "urdf/wheel.xacro",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "nothing like it",
             {**_FILES, "urdf/robot.xacro": _ROBOT.format("parts/laser.xacro", "file:///base.stl")},
             Report(
@@ -160,8 +189,8 @@ class FileNotThere(Rule):
                 if why is not None:
                     message = f"share/{path.package}/{path.path} does not exist: {why}"
                     is_data = _may_be_kept_elsewhere(package, named)
-                    severity = Severity.WARNING if is_data else _severity(package, named.user)
-                    cause = missing_in(path)
+                    severity = Severity.WARNING if is_data else _severity(package, named)
+                    cause = missing_in(package, path)
                     yield self.report(named, message, severity=severity, cause=cause)
             elif not _is_there(package, named):
                 name = named.path.rpartition("/")[2]
@@ -169,15 +198,15 @@ class FileNotThere(Rule):
                 closest = closest_name(package, name, names, 0.7)
                 hint = f"; closest: {closest!r}" if closest else ""
                 message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
-                severity = _severity(package, named.user)
+                severity = _severity(package, named)
                 yield self.report(named, message, severity=severity, cause=f"missing {name}")
 
 
-def _severity(package: Package, user: str) -> Severity:
-    """Return the severity of what a file names, by whether the file itself is installed."""
+def _severity(package: Package, named: NamedFile) -> Severity:
+    """Return the severity of a missing file: is the one that names it used, in every case?"""
     share = share_of(package)
-    is_used = not share.complete or user in share.files.values()
-    return Severity.ERROR if is_used else Severity.WARNING
+    is_used = not share.complete or named.user in share.files.values()
+    return Severity.ERROR if is_used and named.is_certain else Severity.WARNING
 
 
 def _may_be_kept_elsewhere(package: Package, named: NamedFile) -> bool:
@@ -197,6 +226,8 @@ def _is_there(package: Package, named: NamedFile) -> bool:
     """Tell whether a file is next to its user, or made by the build from one that is."""
     if package.has(named.path) or named.path.startswith(".."):
         return True
+    if is_untracked(package, named.path):
+        return True  # made on each machine, or of a submodule
     if package.has(f"{named.path}.xacro") and _is_built_by_bazel(package, named.path):
         return True
     name = named.path.rpartition("/")[2]

@@ -73,7 +73,8 @@ class MacroCallUnfit(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             for misfit in robot.problems.misfits:
-                yield self.report(misfit, _message(package, misfit))
+                cause = f"calls of {misfit.macro}" if misfit.kind != "condition" else ""
+                yield self.report(misfit, _message(package, misfit), cause=cause)
 
 
 def _message(package: Package, misfit: Misfit) -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.launch import Reference, exists, meant_package
-from scaffold.api.manifest import declared
+from scaffold.api.manifest import declared, declaring
 from scaffold.api.robot import named_files
 
 _MANIFEST = (
@@ -32,7 +32,7 @@ class PackageNotThere(Rule):
 
     code = "UR002"
     name = "package-not-there"
-    other_severities = {Severity.WARNING: "a package that exists, but is not declared"}
+    other_severities = {Severity.WARNING: "the package exists, but is not declared"}
     examples = (
         Example(
             "declared; not known",
@@ -87,11 +87,12 @@ class PackageNotThere(Rule):
             elif named.package not in seen and exists(package, named.package):
                 seen.add(named.package)
                 tag = "exec_depend" if manifest.format > 1 else "run_depend"
+                needed = declaring(package, tag, named.package)
                 yield self.report(
                     named,
-                    f"needs {named.package!r}, which no dependency in package.xml provides; add "
-                    f"<{tag}>{named.package}</{tag}>",
-                    Fix(f"declare {named.package}", (manifest.insert(tag, named.package),)),
+                    f"needs {named.package!r}, which no dependency in package.xml provides; "
+                    f"{needed.advice}",
+                    needed.fix,
                     severity=Severity.WARNING,
                     cause=f"dependency {named.package}",
                 )

@@ -54,6 +54,16 @@ class ValueImpossible(Rule):
             Report("15:35", "colors are from 0 to 1, alpha as well: all above is 1; divide by 255"),
         ),
         Example(
+            "no moments of inertia",
+            {
+                "robot.urdf": _ROBOT.format("2", "0 0 1", "-1", "1")
+                .replace('ixx="1"', 'ixx="0"')
+                .replace('iyy="1"', 'iyy="0.0"')
+                .replace('izz="1"', 'izz="0"')
+            },
+            Report("5:21", "all moments of inertia are 0: Gazebo refuses the link"),
+        ),
+        Example(
             "impossible",
             {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
             Report("4:20", "a mass is not negative: Gazebo refuses the link"),
@@ -89,6 +99,13 @@ class ValueImpossible(Rule):
                         "these limits; exchange them"
                     )
                     yield self.report(part.at("lower"), message)
+            elif part.tag == "inertia" and _has_no_moment(part) and _is_moved(part):
+                message = "all moments of inertia are 0: Gazebo refuses the link"
+                yield self.report(part.at("ixx"), message)
+
+
+def _has_no_moment(inertia: Part) -> bool:
+    return all(_numbers(inertia, name) == [0] for name in ("ixx", "iyy", "izz"))
 
 
 def _is_moved(mass: Part) -> bool:

@@ -83,6 +83,11 @@ class Fact:
         files, facts = self.reads.all()
         return StoredFact(files, tuple(fact.id for fact in facts), self.encoded), facts
 
+    @property
+    def is_of_files(self) -> bool:
+        """Whether it was made in this run, of nothing but files."""
+        return self._known is None and not self.reads.all()[1]
+
     def make(self, provide: Callable[[], object]) -> None:
         """Ask its provider; what that looks at counts as the fact's own."""
         with reads.recorded(self.reads):
@@ -96,7 +101,7 @@ class StoredFact(NamedTuple):
     """A fact as a run remembers it."""
 
     files: frozenset[str]
-    """The Python files that it was made of, by ``Package.full_path``."""
+    """The files that it was made of, by ``Package.full_path``."""
     facts: tuple[FactId, ...]
     """The facts that it was made of."""
     encoded: Any

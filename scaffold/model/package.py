@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fnmatch import filter as filter_names
 from typing import TYPE_CHECKING, Any, TypeVar, cast
@@ -49,10 +49,12 @@ _INTERFACES = (".msg", ".srv", ".action", ".idl")
 
 
 class Identity(NamedTuple):
-    """What every other package of a workspace may depend on."""
+    """What all that is found in a package, or in others of its workspace, may depend on."""
 
     name: str
     may_define_interfaces: bool
+    build_type: str
+    is_for_ros1: bool
 
 
 class Package:
@@ -189,6 +191,12 @@ class Package:
     @property
     def manifest(self) -> Manifest:
         """package.xml."""
+        self._note(MANIFEST)
+        return self._manifest
+
+    @property
+    def _manifest(self) -> Manifest:
+        """The same for what is part of the identity: other changes of the file do not matter."""
 
         def parse() -> Manifest:
             from scaffold.model.manifest.manifest import Manifest
@@ -228,6 +236,7 @@ class Package:
     @property
     def setup_cfg(self) -> IniFile:
         """setup.cfg."""
+        self._note(SETUP_CFG)
 
         def parse() -> IniFile:
             from scaffold.formats.ini import IniFile
@@ -256,9 +265,9 @@ class Package:
         """Return the top-level packages that a Python file imports, a fact; raises ViewError."""
         return imports(self, path)
 
-    def occurrences(self, word: str) -> int:
-        """Return how often a word occurs in the Python files, a fact."""
-        return occurrences(self, word)
+    def is_mentioned_once(self, word: str, path: str) -> bool:
+        """Tell whether a word of a Python file occurs nowhere else in the package, a fact."""
+        return is_mentioned_once(self, word, path)
 
     def modules(
         self, paths: Iterable[str] | None = None, mentioning: Sequence[str] = ()
@@ -289,7 +298,7 @@ class Package:
 
         def find() -> str:
             try:
-                name = self.manifest.name
+                name = self._manifest.name
             except ViewError:
                 name = ""
             return name or self.directory.rstrip("/").rpartition("/")[2]
@@ -298,10 +307,14 @@ class Package:
 
     @property
     def identity(self) -> Identity:
-        """The name, and whether others may get definitions; kept when the views are dropped."""
+        """See `Identity`; it is kept when the views are dropped."""
         if self._identity is None:
             defines = any(path.endswith(_INTERFACES) for path in self.tree.files)
-            self._identity = Identity(self.name, defines)
+            try:
+                is_for_ros1 = self._manifest.catkin is not None
+            except ViewError:
+                is_for_ros1 = False
+            self._identity = Identity(self.name, defines, self.build_type, is_for_ros1)
         return self._identity
 
     @property
@@ -309,15 +322,15 @@ class Package:
         """The identity, if somebody asked for it before."""
         return self._identity
 
-    def identify(self, name: str, may_define_interfaces: bool) -> None:  # noqa: FBT001  a record's
+    def identify(self, identity: Identity) -> None:
         """Take over what another process or an earlier run found out."""
-        self._identity = Identity(name, may_define_interfaces)
+        self._identity = identity
 
     @property
     def build_type(self) -> str:
         """``ament_cmake``, ``ament_python`` ...: as declared, else as the files show."""
         try:
-            declared = self.manifest.build_type
+            declared = self._manifest.build_type
         except ViewError:
             declared = None
         if declared:
@@ -401,6 +414,11 @@ class Package:
         self._facts.clear()
         self._recalls.clear()
 
+    def end_assumptions(self) -> None:
+        """Drop what an earlier run knew of the facts, and those that are made of such facts."""
+        self._recalls.clear()
+        self._facts = {key: fact for key, fact in self._facts.items() if fact.is_of_files}
+
     def _recall(self, key: Key) -> Fact | None:
         for recall in self._recalls:
             fact = recall(key)
@@ -428,12 +446,22 @@ class Package:
         self._facts.clear()
         self.forget_views()
 
-    def forget_views(self) -> None:
-        """Drop the views and the list of files, but no facts: other packages may ask for those."""
+    def forget_views(self, kept: Collection[str] = ()) -> None:
+        """Drop the views and the list of files, but no facts: other packages may ask for those.
+
+        Args:
+            kept: The files, by ``full_path``, that stay parsed.
+        """
         if self._refused:  # which the facts know of
             self._facts.clear()
             self._refused.clear()
-        self._views.clear()
+            kept = ()
+        modules = {("module", path.removeprefix(self.full_path(""))) for path in kept}
+        self._views = {
+            key: view
+            for key, view in self._views.items()
+            if key in modules and not isinstance(view, ViewError)
+        }
         self._reads.clear()
         if self._workspace is None:
             self._neighbourhood = None
@@ -561,14 +589,13 @@ def mentions(package: Package, path: str, *words: str) -> bool:
 
 
 @fact
-def occurrences(package: Package, word: str) -> int:
-    """Count a word in the Python files of a package: in calls, imports, arguments, texts."""
-
-    def join() -> bytes:
-        parts: list[bytes] = []
-        for path in package.python_files:
-            with suppress(ViewError):
-                parts.append(package.data(path))
-        return b"\0".join(parts)
-
-    return package.remember("all Python files", join).count(word.encode())
+def is_mentioned_once(package: Package, word: str, path: str) -> bool:
+    """Tell whether a word of a Python file occurs nowhere else: in no call, import or text."""
+    searched = word.encode()
+    if package.data(path).count(searched) != 1:
+        return False  # without a look at other files, so that edits of those do not matter
+    for other in package.python_files:
+        with suppress(ViewError):
+            if other != path and searched in package.data(other):
+                return False
+    return True

@@ -1,19 +1,21 @@
-"""Which Python files a view of a package, or what a rule found, was made of.
+"""Which files a view of a package, or what a rule found, was made of.
 
-Only the content of these is followed file by file; after any other change in a package everything
-in it is checked again.
+The content of Python files, package.xml and setup.cfg is followed file by file; after any other
+change in a package everything in it is checked again.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scaffold.files.tree import MANIFEST, SETUP_CFG
+
 if TYPE_CHECKING:
     from scaffold.model.facts import Fact
 
 
 class Reads:
-    """The Python files that something was made of, directly or through views.
+    """The files that something was made of, directly or through views.
 
     A view may read more files when it is used; that counts for everything made of it, also if
     that was before.
@@ -42,6 +44,8 @@ class Reads:
         return files, frozenset(facts.values())
 
 
+_FOLLOWED = frozenset({MANIFEST, SETUP_CFG})
+"""Files that are read through views of the package alone, and that fixes often change."""
 _recorders: list[Reads] = []
 
 
@@ -85,4 +89,4 @@ def note_view(reads: Reads) -> None:
 
 def is_followed(path: str) -> bool:
     """Tell whether changes of the content of a file are followed."""
-    return path.endswith(".py")
+    return path.endswith(".py") or path.rpartition("/")[2] in _FOLLOWED

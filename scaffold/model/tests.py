@@ -207,9 +207,9 @@ def may_start(package: Package, name: str) -> bool:
     )
 
 
-def is_named_elsewhere(package: Package, name: str) -> bool:
-    """Tell whether a name occurs anywhere else: in a call, an import, an argument, a text."""
-    return package.occurrences(name) > 1
+def is_named_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
+    """Tell whether a name of a module occurs again: in a call, an import, an argument, a text."""
+    return not package.is_mentioned_once(name, module.path)
 
 
 def _data(package: Package, paths: Iterable[str]) -> Iterator[bytes]:

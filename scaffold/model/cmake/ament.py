@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
+import re
 from typing import TYPE_CHECKING
 
 from scaffold.model.cmake.distribution_branches import lines_not_run
@@ -236,8 +237,16 @@ def is_used_by_build(package: Package, path: str) -> bool:
         return True
     if _is_entry_point(package, path):
         return True
-    others = [command for command in package.cmake.commands if command.name != "install"]
-    return any(name in argument.value for command in others for argument in command.arguments)
+    return any(
+        argument.value.rpartition("/")[2].partition(".")[0] == name
+        for command in package.cmake.commands
+        if command.name != "install" and _TESTING.search(command.name) is None
+        for argument in command.arguments
+    )
+
+
+_TESTING = re.compile(r"_test$|^add_test$|^message$")
+"""Matches the names of commands that name a file without making anything of it."""
 
 
 def _is_entry_point(package: Package, path: str) -> bool:

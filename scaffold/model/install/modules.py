@@ -12,6 +12,7 @@ from scaffold.model.facts import fact
 from scaffold.model.package import mentions
 from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
+from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -73,7 +74,9 @@ def moved_to(package: Package, name: str) -> str:
 def may_be_made(package: Package, name: str) -> bool:
     """Tell whether a module may come from elsewhere: compiled, generated, a namespace."""
     base = name.replace(".", "/")
-    if package.has_directory(base) or package.glob(f"{base}.*"):
+    if package.has_directory(base) or package.glob(f"{base}.*") or is_untracked(package, base):
+        return True
+    if _is_put_into_package(package, name):
         return True
     cmake = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
     last = name.rpartition(".")[2]
@@ -85,6 +88,21 @@ def may_be_made(package: Package, name: str) -> bool:
         for path in ("setup.py", ".gitignore")
         if package.has(path)
     )
+
+
+def _is_put_into_package(package: Package, name: str) -> bool:
+    """Tell whether CMake installs the file of a module from elsewhere into a Python package."""
+    above, _, last = name.rpartition(".")
+    inside = re.compile(rf"(?:^|[/}}]){above.replace('.', '/')}/?$")
+    for install in package.cmake.installs if package.has("CMakeLists.txt") else ():
+        written = install.destination_argument
+        if written is None or not inside.search(install.destination or written.value):
+            continue
+        paths = [item.path for item in install.items if item.path is not None]
+        paths = [path if path.endswith(".py") else f"{path}/{last}.py" for path in paths]
+        if any(path.endswith(f"/{last}.py") and package.has(path) for path in paths):
+            return True
+    return False
 
 
 def modules_of(package: Package, root: str) -> list[str]:

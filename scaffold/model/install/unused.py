@@ -17,6 +17,8 @@ _COPY = re.compile(
     re.IGNORECASE,
 )
 """Matches the name of a module that somebody has kept beside the one that is used."""
+_RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
+"""Matches what a CMakeLists.txt calls when it runs or checks Python."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (".py", ".txt", ".cfg", ".toml", ".xml", ".yaml", ".yml", ".cmake", ".launch", ".sh")
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "conftest.py", "__init__.py", "__main__.py"})
@@ -35,8 +37,10 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     """Tell whether a Python file is in no directory that is installed, and nothing names it."""
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
-    if stem == name or name in _RUN_AS_THEY_ARE or is_in_tests(path) or ".launch." in name:
+    if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name:
         return False
+    if is_in_tests(path):
+        return not _runs_python_tests(package) and not _is_named(package, path, stem)
     if not any(package.has(item) for item in _BUILDING[:2]):
         return False
     parts = directory.split("/") if directory else []
@@ -46,6 +50,27 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     is_mentioned = any(_mentions(data, part) for part in parts for data in installing)
     is_taken_whole = not parts and any(b"*.py" in data for data in installing)
     return not (is_mentioned or is_taken_whole or _is_named(package, path, stem))
+
+
+def _runs_python_tests(package: Package) -> bool:
+    """Tell whether a package may have tests in Python, for colcon or for CMake."""
+    if package.build_type == "ament_python" or not package.has("CMakeLists.txt"):
+        return True
+    lists = (path for path in package.files if path.endswith(("CMakeLists.txt", ".cmake")))
+    return any(re.search(_RUNS_PYTHON, package.data(path)) for path in lists)
+
+
+def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
+    """Tell whether a line is in a function of a launch file whose name is nowhere else."""
+    if not path.endswith("launch.py"):
+        return False
+    for name, function in package.module(path).functions.items():
+        node = function.node
+        if node.lineno <= line <= (node.end_lineno or 0):
+            named = re.findall(rb"\b%b\b" % name.encode(), package.data(path))
+            is_used = len(named) > 1 or node.decorator_list or name == "generate_launch_description"
+            return not is_used
+    return False
 
 
 def _is_named(package: Package, path: str, stem: str) -> bool:

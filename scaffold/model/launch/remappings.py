@@ -143,6 +143,13 @@ def is_reversed(names: set[str], source: str, target: str | None, node: object) 
     return target in names
 
 
+def misses_privacy(names: set[str], source: str) -> str:
+    """Return the private name that a node has, if a remapping names it without its ``~/``."""
+    is_plain = "/" not in source and "~" not in source and ":" not in source
+    others = {name.rpartition("/")[2] for name in names if name != f"~/{source}"}
+    return f"~/{source}" if is_plain and f"~/{source}" in names and source not in others else ""
+
+
 def misses_namespace(names: set[str], source: str, namespace: object) -> str:
     """Return the name that a node has in its namespace, if a remapping names it without that."""
     name = source.removeprefix("/")

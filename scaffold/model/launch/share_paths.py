@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.python_file import LaunchFile, SharePath
 from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
 
@@ -42,12 +42,21 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
         for share_path in launch.share_paths:
             if launch.is_optional(share_path.node) or _is_given_to_unknown(launch, share_path.node):
                 continue
+            if _is_next_to_source(package, launch, share_path):
+                continue
             if not _is_written(launch, share_path.node):
                 yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
                 yield NamedPath(path.package, path.path, path.location)
+
+
+def _is_next_to_source(package: Package, launch: LaunchFile, path: SharePath) -> bool:
+    """Tell whether a launch file that is not installed names what is in its own directory."""
+    if "ThisLaunchFileDir" not in launch.module.text(path.node) or not package.has(path.path):
+        return False
+    return launch.module.path not in share_of(package).files.values()
 
 
 def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
@@ -99,9 +108,14 @@ def _is_demanded(launch: LaunchFile, call: ast.Call) -> bool:
     return any(isinstance(node, ast.Raise) for parent in parents[:1] for node in ast.walk(parent))
 
 
-def missing_in(named: NamedPath) -> str:
-    """Return the cause that the missing files of one directory share."""
-    return f"files of {named.package}/{named.path.rpartition('/')[0]}"
+def missing_in(package: Package, named: NamedPath) -> str:
+    """Return the cause that the missing files of one directory share, or of a missing directory."""
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    installed = share_of(owner).files if owner is not None else {}
+    *directories, _ = named.path.split("/")
+    above = ["/".join(directories[:depth]) for depth in range(1, len(directories) + 1)]
+    missing = (item for item in above if not any(x.startswith(f"{item}/") for x in installed))
+    return f"files of {named.package}/{next(missing, '/'.join(directories))}"
 
 
 def why_missing(package: Package, named: NamedPath) -> str | None:
@@ -112,6 +126,8 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
     share = share_of(owner)
     if share.has(named.path) or not share.complete:
         return None
+    if any(named.path.startswith(f"{nested}/") for nested in owner.tree.nested):
+        return None  # the files of a package inside of this one are its own
     return _reason(owner, named.path, share.files)
 
 
@@ -120,7 +136,7 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     where = [file for file in owner.files if _name(file) == _name(path)]
     installed = sorted(name for name, source in files.items() if source in where)
     if installed:
-        return f"it is installed as share/{owner.name}/{installed[0]}"
+        return _instead(owner, path, installed)
     if where:
         first = path if path in where else where[0]
         if _nothing_of(first, files):
@@ -135,6 +151,14 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     closest = get_close_matches(path, files, 1, 0.6)
     hint = f"; closest: {closest[0]}" if closest else ""
     return f"{owner.name} has no such file{hint}"
+
+
+def _instead(owner: Package, path: str, installed: list[str]) -> str:
+    """Return where files of the same name are: the only one, or the one that reads most like it."""
+    if len(installed) == 1:
+        return f"it is installed as share/{owner.name}/{installed[0]}"
+    closest = get_close_matches(path, installed, 1, 0)
+    return f"{owner.name} has no such file; closest: {closest[0]}"
 
 
 def _nothing_of(path: str, installed: dict[str, str]) -> bool:

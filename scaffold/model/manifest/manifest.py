@@ -261,6 +261,13 @@ class Manifest:
         """The elements inside ``<export>``."""
         return [child for export in self.all("export") for child in export.children]
 
+    def note_on_export(self, text: str) -> str:
+        """Return what a message about a missing element adds if it is inside ``<export>``."""
+        for child in self.exports:
+            if child.text == text and (child.tag in _PURPOSES or child.tag == "member_of_group"):
+                return f"; line {child.location.line} is inside <export>, where it has no effect"
+        return ""
+
     @cached_property
     def build_type_elements(self) -> list[Element]:
         """The ``<build_type>`` elements inside ``<export>``, whatever their conditions."""

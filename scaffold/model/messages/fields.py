@@ -357,9 +357,14 @@ class TypeMismatches:
         return None
 
     def _elements(self, type_: FieldType, node: ast.expr) -> str | None:
-        if not isinstance(node, ast.List | ast.Tuple):
+        parts: Sequence[ast.expr]
+        if isinstance(node, ast.ListComp):
+            parts = [node.elt] if isinstance(node.elt, ast.Tuple | ast.List | ast.Dict) else []
+        elif isinstance(node, ast.List | ast.Tuple):
+            parts = node.elts
+        else:
             return None
-        for part in node.elts:
+        for part in parts:
             # rosidl converts the ints of a list of floats.
             if type_.name in FLOATS and self._kinds.of(part) in {"int", "bool"}:
                 continue

@@ -25,7 +25,7 @@ from scaffold.model.rclpy.entities import (
 )
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.record import NamedTuple
-from scaffold.source import Location, ViewError
+from scaffold.source import ViewError
 
 PARTS = {
     "msg": {},
@@ -444,19 +444,3 @@ def _expects_error(node: ast.With | ast.Call) -> bool:
         isinstance(call, ast.Call) and not _RAISES.isdisjoint(_last_names(call.func))
         for call in calls
     )
-
-
-def interfaces_named(types: MessageTypes) -> Iterator[tuple[Location, str, str, str]]:
-    """Yield the interfaces that a file names: place, package, kind and name."""
-    module = types.module
-    for import_ in module.imports:
-        owner, _, kind = import_.module.partition(".")
-        if import_.level or import_.guarded or "." in kind:
-            continue
-        for imported in import_.names:
-            yield imported.location, owner, kind, imported.name
-    for node in module.walk(ast.Attribute):
-        parts = (module.qualified_name(node) or "").split(".")
-        match parts:
-            case [owner, kind, name] if kind in KINDS and not types.is_tolerated(node):
-                yield module.location(node), owner, kind, name

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 from scaffold.model.messages.inference import MessageClass, MessageTypes
 from scaffold.model.python.returns import returned
@@ -30,6 +31,7 @@ _BRIDGED = {
     "cv2_to_compressed_imgmsg": "sensor_msgs.msg.CompressedImage",
 }
 """The methods of ``CvBridge`` that make messages; the third argument is the header."""
+_WITH_CHILD = frozenset({"nav_msgs/msg/Odometry", _TRANSFORM})
 _SENDS = frozenset({"publish", "sendTransform"})
 
 
@@ -40,7 +42,7 @@ class Unstamped(NamedTuple):
     message: MessageClass
     sent: ast.Call
     missing: str
-    """The field of the header that is left: ``stamp`` or ``frame_id``."""
+    """The field that is left: ``stamp`` or ``frame_id`` of the header, or ``child_frame_id``."""
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
@@ -74,6 +76,48 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
         if missing:
             seen.add(made)
             yield Unstamped(made, message, sent, missing)
+
+
+def childless(types: MessageTypes) -> Iterator[Unstamped]:
+    """Yield the odometry and the transforms of a file that are sent without a child frame."""
+    seen: set[ast.Call] = set()
+    index = types.module.index
+    for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
+        sent = types.module.parent(method)
+        if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
+            continue
+        made = types.facts.evaluator.single_value(sent.args[0])
+        if not isinstance(made, ast.Call) or made in seen or not _is_sender(types, method):
+            continue
+        message = types.class_of(made.func)
+        if message is not None and message.name in _WITH_CHILD:
+            with suppress(_Doubt):
+                topic = _topic(types, method)
+                if not _names_child(types, made, sent.args[0], needs_twist="odom" not in topic):
+                    seen.add(made)
+                    yield Unstamped(made, message, sent, "child_frame_id")
+
+
+def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_twist: bool) -> bool:
+    """Tell whether the child frame of a message is set; doubt if anything else may set it.
+
+    Odometry without a twist may be a pose alone, and need none.
+    """
+    words = {word.arg for word in made.keywords}
+    if made.args or words & {"child_frame_id", None}:
+        return True
+    has_twist = not needs_twist or "twist" in words
+    for use in _uses(types, made, sent) if sent is not made else ():
+        match types.module.parent(use):
+            case ast.Attribute(attr="child_frame_id", ctx=ast.Store()):
+                return True
+            case ast.Attribute(attr=field):
+                has_twist = has_twist or field in {"twist", "transform"}
+            case ast.Call(func=ast.Attribute(attr=name)) if name in _SENDS:
+                pass
+            case _:
+                raise _Doubt
+    return not has_twist
 
 
 def _topic(types: MessageTypes, method: ast.Attribute) -> str:

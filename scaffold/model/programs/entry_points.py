@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
+from scaffold.model.python.facts import imports_of
 from scaffold.model.rclpy.file import rclpy_file
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -57,11 +59,16 @@ def run_of(package: Package, path: str, function: str | None) -> Execution:
 
 
 def files_of(package: Package, path: str) -> Sequence[RclpyFile]:
-    """Return a file and what it imports of its package, over any number of steps.
+    """Return a file and what it imports of its package; see `paths_of`."""
+    return [rclpy_file(package, other) for other in paths_of(package, path)]
+
+
+def paths_of(package: Package, path: str) -> Sequence[str]:
+    """Return the paths of a file and of what it imports of its package, over any number of steps.
 
     The ``__init__.py`` of the packages around them are imported along with them.
     """
-    return package.remember(("program_files", path), lambda: _files(package, path))
+    return package.remember(("program_paths", path), lambda: _paths(package, path))
 
 
 # -- where programs begin
@@ -148,26 +155,24 @@ def _calls_outside(file: RclpyFile) -> list[ast.Call]:
 # -- files of the package
 
 
-def _files(package: Package, path: str) -> list[RclpyFile]:
-    result: dict[str, RclpyFile] = {}
+def _paths(package: Package, path: str) -> list[str]:
+    result: list[str] = []
     pending = [path]
     while pending and len(result) < _MAX_FILES:
         current = pending.pop()
         if current in result or not package.has(current):
             continue
-        try:
-            result[current] = rclpy_file(package, current)
-        except ViewError:
-            continue
-        pending += _imported(package, current)
-    return list(result.values())
+        with suppress(ViewError):
+            pending += [*_imported(package, current)]
+            result.append(current)
+    return result
 
 
 def _imported(package: Package, path: str) -> Iterator[str]:
     """Yield the files that the imports of a file may mean."""
     directory = path.rpartition("/")[0]
     yield f"{directory}/__init__.py"
-    for item in package.module(path).imports:
+    for item in imports_of(package, path):
         bases = ["", "src", directory]
         if item.level:
             parts = directory.split("/") if directory else []

@@ -7,6 +7,8 @@ import builtins
 import sys
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
+
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.programs.entry_points import Execution
@@ -26,15 +28,17 @@ def late_init(file: RclpyFile, made: ast.Call) -> ast.Call | None:
     return call if is_certain and is_same and call.lineno > made.lineno else None
 
 
-def may_init(file: RclpyFile) -> bool:
-    """Tell whether a file may initialize rclpy, or makes a context of its own."""
-    index = file.module.index
+@fact
+def may_init(package: Package, path: str) -> bool:
+    """Tell whether a file may initialize rclpy, or makes a context of its own; raises ViewError."""
+    module = package.module(path)
+    index = module.index
     for name in ("init", "Context"):
         if index.attributes(name) or index.names(name):
             return True
     return any(
         name.name in {"init", "Context"} or (name.name == "*" and not _is_standard(item.root))
-        for item in file.module.imports
+        for item in module.imports
         for name in item.names
     )
 

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.imports import Import
     from scaffold.model.python.scopes import FunctionNode
+    from scaffold.source import Location
+
+_LOOKUPS = frozenset({"get_depends", "get_manifest", "get_path"})
+"""Methods of ``rospkg.RosPack``."""
 
 
 class Exports(NamedTuple):
@@ -76,3 +80,20 @@ def paths_importing(package: Package, *roots: str) -> Iterator[str]:
         with suppress(ViewError):
             if not package.imports(path).isdisjoint(roots):
                 yield path
+
+
+@fact
+def rospack_lookups(package: Package, path: str) -> tuple[Location, ...]:
+    """Return where a node of ROS 2 looks for packages in ``ROS_PACKAGE_PATH``.
+
+    rospkg can be installed next to ROS 2, but only ROS 1 sets that variable.
+    """
+    roots = package.imports(path)
+    if "rospkg" not in roots or "rclpy" not in roots:
+        return ()
+    module = package.module(path)
+    return tuple(
+        module.location(call)
+        for call in module.walk(ast.Call)
+        if isinstance(call.func, ast.Attribute) and call.func.attr in _LOOKUPS
+    )

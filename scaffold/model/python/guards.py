@@ -124,6 +124,22 @@ def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
     return set().union(*map(expected_errors, parent.items))
 
 
+def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
+    """Tell whether a name is in an annotation that Python does not evaluate, or for type checkers.
+
+    It never evaluates those of variables in functions.
+    """
+    child = node
+    for parent in module.parents(node):
+        is_local = isinstance(parent, ast.AnnAssign) and parent.annotation is child
+        if is_local and module.enclosing_function(parent) is not None:
+            return True
+        if _is_never_evaluated(module, child, parent):
+            return True
+        child = parent
+    return False
+
+
 def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) -> bool:
     """Tell whether a node is for type checkers, or an annotation in a file where those are text."""
     match parent:

@@ -173,6 +173,27 @@ class PythonModule:
         """Return the place of a node, with columns in characters."""
         return self.source.location(*self.span(node))
 
+    def exact_location(self, node: ast.AST) -> Location:
+        """Return the place of a node; inside an f-string its own, where the parser is right.
+
+        Before Python 3.12 it may be elsewhere, in a string of several lines for instance.
+        """
+        whole = self.location(node)
+        if not isinstance(node, ast.expr) or isinstance(node, ast.JoinedStr):
+            return whole
+        start = self._positions.offset(node.lineno, node.col_offset)
+        end = self._positions.offset(node.end_lineno or node.lineno, node.end_col_offset or 0)
+        exact = self.source.location(start, max(start, end))
+        return exact if exact == whole or self._reads_as(node, start, end) else whole
+
+    def _reads_as(self, node: ast.expr, start: int, end: int) -> bool:
+        """Tell whether a part of the text is an expression."""
+        try:
+            parsed = ast.parse(self.source.text[start:end].strip(), mode="eval")
+        except (SyntaxError, ValueError):
+            return False
+        return ast.dump(parsed.body) == ast.dump(node)
+
     def name_location(self, node: FunctionNode | ast.ClassDef) -> Location:
         """Return the place of the name after ``def`` or ``class``."""
         start, _ = self.span(node)

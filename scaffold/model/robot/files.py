@@ -36,12 +36,25 @@ class RobotFile(NamedTuple):
 
 
 def robot_paths(package: Package) -> list[str]:
-    """Return the files that are URDF or xacro by their name; tests are skipped."""
+    """Return the files that are URDF or xacro by their name.
+
+    Tests are skipped, and programs for browsers, which draw a robot by a parser of their own.
+    """
     return [
         path
         for path in package.files
-        if path.endswith(ENDINGS) and {"test", "tests"}.isdisjoint(path.split("/"))
+        if path.endswith(ENDINGS)
+        and {"test", "tests"}.isdisjoint(path.split("/"))
+        and not _is_of_browser(package, path)
     ]
+
+
+def _is_of_browser(package: Package, path: str) -> bool:
+    """Tell whether npm builds what is in a directory around a file."""
+    parts = path.split("/")[:-1]
+    return any(
+        package.has("/".join((*parts[:depth], "package.json"))) for depth in range(len(parts) + 1)
+    )
 
 
 def robot_file(package: Package, path: str) -> RobotFile | None:

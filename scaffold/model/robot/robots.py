@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 _NAMED = re.compile(r"(?:\$\(find ([\w-]+)\)|package://([\w-]+))((?:/[\w.+-]+)+)(.?)")
 _LAUNCH = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+_CONDITIONS = ("xacro:if", "xacro:unless")
 _OF_CONTROL = frozenset({"command_interface", "state_interface"})
 """What joints of ros2_control have, which may be written by a macro of their own."""
 
@@ -94,13 +95,13 @@ def is_launched(package: Package, path: str) -> bool:
 
 
 def is_argument_given(package: Package, name: str) -> bool:
-    """Tell whether a launch file of a package may give xacro an argument."""
-    return _mentioned_by_launch(package, name)
+    """Tell whether a launch file of a package, or its configuration, may give xacro an argument."""
+    return _mentioned_by_launch(package, name, (".yaml", ".yml"))
 
 
-def _mentioned_by_launch(package: Package, word: str) -> bool:
+def _mentioned_by_launch(package: Package, word: str, others: tuple[str, ...] = ()) -> bool:
     for path in package.files:
-        if path.endswith(_LAUNCH):
+        if path.endswith((*_LAUNCH, *others)):
             try:
                 if mentions(package, path, word):
                     return True
@@ -121,36 +122,52 @@ def _is_whole(expansion: Expansion) -> bool:
 
 def named_files(package: Package) -> Iterator[NamedFile]:
     """Yield the files that URDF and xacro files name and that have to be there."""
+    parts = list(urdf_parts(package))
+    certain = {id(part.element) for part in parts if part.is_certain}
+    certain |= {key for expansion in robots(package).whole for key in expansion.certain}
     for path in robot_paths(package):
         try:
             file = robot_file(package, path)
         except ViewError:
             continue
         for element in (file.root, *file.root.descendants()) if file is not None else ():
-            yield from _named_in(path, element)
-    for part in urdf_parts(package):
+            is_certain = id(element) in certain or not _is_conditional(element)
+            yield from _named_in(path, element, is_certain=is_certain)
+    for part in parts:
         written = part.element.get("filename") or ""
         if part.tag in {"mesh", "texture"} and "${" in written:
             value = part.attributes["filename"]
             value = re.sub(f"{SHARE_MARK}([^{SHARE_MARK}]*){SHARE_MARK}", r"$(find \1)", value)
             if is_known(value):
-                yield from _paths_in(value, part.file.path, part.at("filename"))
+                at = part.at("filename")
+                yield from _paths_in(value, part.file.path, at, is_certain=part.is_certain)
 
 
-def _named_in(path: str, element: Element) -> Iterator[NamedFile]:
+def _is_conditional(element: Element) -> bool:
+    """Tell whether an element is inside of a condition."""
+    above = element.parent
+    while above is not None and above.tag not in _CONDITIONS:
+        above = above.parent
+    return above is not None
+
+
+def _named_in(path: str, element: Element, *, is_certain: bool) -> Iterator[NamedFile]:
     if element.tag == "xacro:include":
         if (element.get("optional") or "false").lower() not in {"false", "0"}:
             return
         name = element.get("filename") or ""
         if name and not name.startswith("/") and {"$", "*", "?", "[", ":"}.isdisjoint(name):
-            yield NamedFile("", next_to(path, name), path, element.attributes["filename"].location)
+            at = element.attributes["filename"].location
+            yield NamedFile("", next_to(path, name), path, at, is_certain)
     for attribute in element.attributes.values():
-        yield from _paths_in(attribute.value, path, attribute.location)
+        yield from _paths_in(attribute.value, path, attribute.location, is_certain=is_certain)
     if "$(find" in element.own_text or "package://" in element.own_text:
-        yield from _paths_in(element.own_text, path, element.text_location)
+        at = element.text_location
+        yield from _paths_in(element.own_text, path, at, is_certain=is_certain)
 
 
-def _paths_in(text: str, user: str, location: Location) -> Iterator[NamedFile]:
+def _paths_in(text: str, user: str, location: Location, *, is_certain: bool) -> Iterator[NamedFile]:
     for match in _NAMED.finditer(text):
         if match[4] not in {"$", "*", "?", "["} and "/.." not in match[3]:
-            yield NamedFile(match[1] or match[2], match[3].strip("/"), user, location)
+            name = match[1] or match[2]
+            yield NamedFile(name, match[3].strip("/"), user, location, is_certain)

@@ -45,6 +45,8 @@ class Expansion:
         self.problems = Problems(file, package, is_open=is_open)
         self.files: set[tuple[str, str]] = set()
         """The files that are included, by package and path."""
+        self.certain: set[int] = set()
+        """The includes that are read with any arguments, by the identity of their elements."""
         self.patterns: list[str] = []
         """Regular expressions of the names of files that may be included."""
         self.macros: set[int] = set()
@@ -119,6 +121,8 @@ class Expansion:
     # -- what xacro handles
 
     def _include(self, element: Element, holder: Part, frame: Frame) -> None:
+        if frame.is_certain:
+            self.certain.add(id(element))
         filename = self._values.of(element, "filename", frame)
         target = self._included(str(filename), frame)
         if target is None:

@@ -83,6 +83,8 @@ class NamedFile(NamedTuple):
     user: str
     """The path of the file that names it."""
     location: Location
+    is_certain: bool
+    """Whether xacro comes to it with any arguments."""
 
 
 def is_for_others(part: Part | None) -> bool:

@@ -1,0 +1,255 @@
+"""What arguments of launch can be: a function for each kind that yields what is wrong with one."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping
+
+from scaffold.api.launch import (
+    ACTIONS,
+    NODES,
+    LaunchCall,
+    LaunchFile,
+    given_arguments,
+    parameters_given,
+)
+from scaffold.api.python import is_known
+
+Flaw = tuple[ast.expr, str]
+"""The place, and what is wrong there."""
+Judge = Callable[[LaunchFile, LaunchCall, ast.expr], Iterator[Flaw]]
+
+_OUTPUTS = frozenset({"screen", "log", "both", "own_log", "full"})
+_NUMBERS = frozenset({int, float, bool})
+_PAIRS = "launch takes pairs, {...}.items() or [('name', 'value')]"
+
+
+def flaws(launch: LaunchFile, call: LaunchCall) -> Iterator[Flaw]:
+    """Yield the arguments of a call, and the parts of them, that launch cannot use."""
+    judges = _ARGUMENTS.get(call.kind, {})
+    for name, node in call.given.items():
+        judge = _condition if name == "condition" else judges.get(name)
+        if judge is not None:
+            yield from judge(launch, call, node)
+
+
+def _texts(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    """Judge what launch joins to a text."""
+    for part in node.elts if isinstance(node, ast.List | ast.Tuple) else [node]:
+        yield from _text(launch, part)
+
+
+def _text(launch: LaunchFile, node: ast.expr, *, is_number_read: bool = False) -> Iterator[Flaw]:
+    view = launch.call_of(node)
+    if _is_number(node) and not is_number_read:
+        yield node, f"this is not a string: write {ast.unparse(node)!r}"
+    elif view is not None and view.kind in ACTIONS:
+        name = launch.text(view, "name") if view.kind == "DeclareLaunchArgument" else None
+        hint = f": write LaunchConfiguration({name!r})" if isinstance(name, str) else ""
+        yield node, f"this is the action {view.kind}, not a value{hint}"
+
+
+def _is_number(node: ast.AST) -> bool:
+    return isinstance(node, ast.Constant) and type(node.value) in _NUMBERS
+
+
+def _truth(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    """Judge what a condition reads, for which another rule judges numbers."""
+    yield from _text(launch, node, is_number_read=True)
+
+
+def _words(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    """Judge a list of words of a command line; another rule has what is no list."""
+    if isinstance(node, ast.List | ast.Tuple):
+        yield from _texts(launch, call, node)
+
+
+def _command(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    value = launch.evaluator.evaluate(node)
+    if isinstance(value, str) or isinstance(node, ast.JoinedStr):
+        yield node, "launch splits a string into letters: write a list of words"
+    if not isinstance(node, ast.List) or not node.elts:
+        return
+    yield from _words(launch, call, node)
+    first = node.elts[0]
+    if isinstance(first, ast.Constant) and isinstance(first.value, str):
+        text = first.value.strip()
+        is_path = "\\ " in text or text.startswith(("/", "'", '"'))
+        if " " in text and not is_path and "shell" not in call.given and not call.is_open:
+            problem = f"this is one word, so a program {text!r} is looked for: "
+            yield node, f"{problem}write a list of words"
+
+
+def _environment(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    if isinstance(launch.evaluator.evaluate(node), list):
+        yield node, "the environment must be a dictionary, not a list"
+    for value in node.values if isinstance(node, ast.Dict) else ():
+        yield from _text(launch, value)
+
+
+def _remappings(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    for pair in node.elts if isinstance(node, ast.List) else ():
+        if isinstance(pair, ast.Tuple):
+            yield from _texts(launch, call, pair)
+
+
+def _output(launch: LaunchFile, _: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    value = launch.evaluator.evaluate(node)
+    if isinstance(value, str) and value not in _OUTPUTS:
+        yield node, f"unknown output {value!r}; choose from {', '.join(sorted(_OUTPUTS))}"
+
+
+def _respawn(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node, "respawn must be a bool, not a string: write True or False"
+
+
+def _period(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    match node:
+        case ast.Constant(value=bool() | None):
+            yield node, "a period must be a number of seconds, such as 1.0"
+        case ast.Constant(value=int(number)):
+            yield node, f"a period must be a float: write {number}.0"
+        case ast.Constant(value=str(text)):
+            try:
+                float(text)
+            except ValueError:
+                yield node, f"a period must be a number of seconds, not {text!r}"
+
+
+def _type(_: LaunchFile, __: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node, f"value_type must be a type, not a string: write {node.value}"
+
+
+def _default(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    value = launch.evaluator.evaluate(node)
+    if type(value) in _NUMBERS:
+        yield node, f"this is not a string: write {str(value)!r}"
+    else:
+        yield from _texts(launch, call, node)
+
+
+def _choices(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    choices = launch.evaluator.evaluate(node)
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node, "choices must be a list of strings: every letter of this string is a choice"
+    if not isinstance(choices, list | tuple) or not all(map(is_known, choices)):
+        return
+    default = launch.text(call, "default_value")
+    if any(type(choice) in _NUMBERS for choice in choices):
+        yield node, "choices must be strings: a value of the command line never equals a number"
+    elif isinstance(default, str) and default not in choices:
+        yield node, f"the default {default!r} is not among the choices"
+
+
+def _condition(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    view = launch.call_of(node)
+    is_text = isinstance(launch.evaluator.evaluate(node), str | bool)
+    is_text = is_text or (view is not None and view.kind == "LaunchConfiguration")
+    if is_text and call.kind != "IfElseSubstitution":
+        yield node, "a condition must be an object such as IfCondition(...), not a value"
+
+
+def _parameters(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    for item in node.elts if isinstance(node, ast.List) else ():
+        if isinstance(item, ast.Tuple | ast.List):
+            needed = "parameters must be files or dictionaries {'name': value}"
+            yield node, f"{needed}, not lists or pairs"
+            break
+    for name, _, value in parameters_given(launch, call):
+        problem = _parameter_problem(value)
+        if problem:
+            yield value, f"the parameter {name!r} {problem}"
+
+
+def _parameter_problem(node: ast.expr) -> str:
+    match node:
+        case ast.Constant(value=None):
+            return "is None, which is not a value of a parameter"
+        case ast.List(elts=[]) | ast.Tuple(elts=[]):
+            return "is an empty list, whose type is unknown"
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            kinds = {
+                type(item.value) if isinstance(item, ast.Constant) else object for item in items
+            }
+            if object not in kinds and len(kinds) > 1 and kinds != {int, float}:
+                return "mixes types in a list"
+    return ""
+
+
+def _arguments_of_include(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
+    for name, _, value in given_arguments(launch, call) or ():
+        problem = _include_problem(launch, value)
+        if problem:
+            yield value, f"{name!r} gets {problem}"
+    match node:
+        case ast.Set():
+            yield node, f"this is a set: {_PAIRS}"
+        case ast.Attribute(value=ast.Dict(), attr="items"):
+            yield node, "items is not called: write .items()"
+        case ast.List(elts=items) | ast.Tuple(elts=items):
+            if any(isinstance(item, ast.Constant | ast.JoinedStr) for item in items):
+                yield node, f"these are not pairs: {_PAIRS}"
+
+
+def _include_problem(launch: LaunchFile, node: ast.expr) -> str:
+    value = launch.evaluator.evaluate(node)
+    if isinstance(node, ast.Constant) and not isinstance(node.value, str):
+        return f"{node.value!r}, which is not a string: write {str(node.value).lower()!r}"
+    if type(value) in _NUMBERS:
+        return f"{value!r}, which is not a string"
+    if isinstance(node, ast.List) and any(map(_is_number, node.elts)):
+        return "a list with a number, which launch cannot join"
+    return ""
+
+
+def _of_texts(*names: str) -> Mapping[str, Judge]:
+    return dict.fromkeys(names, _texts)
+
+
+_PROCESS: Mapping[str, Judge] = {
+    "additional_env": _environment,
+    "env": _environment,
+    "respawn": _respawn,
+}
+_NODE: Mapping[str, Judge] = {
+    **_PROCESS,
+    **_of_texts("executable", "package", "name", "namespace", "exec_name"),
+    "arguments": _words,
+    "output": _output,
+    "parameters": _parameters,
+    "remappings": _remappings,
+    "ros_arguments": _words,
+}
+_ARGUMENTS: Mapping[str, Mapping[str, Judge]] = {
+    **dict.fromkeys(NODES, _NODE),
+    "AppendEnvironmentVariable": _of_texts("name", "value"),
+    "ComposableNode": {
+        **_of_texts("package", "plugin", "name", "namespace"),
+        "parameters": _parameters,
+    },
+    "DeclareLaunchArgument": {"choices": _choices, "default_value": _default},
+    "EnvironmentVariable": _of_texts("name", "default_value"),
+    "ExecuteProcess": {**_PROCESS, "cmd": _command},
+    "FindExecutable": _of_texts("name"),
+    "FindPackageShare": _of_texts("package"),
+    "IfCondition": {"predicate_expression": _truth},
+    "IncludeLaunchDescription": {
+        **_of_texts("launch_description_source"),
+        "launch_arguments": _arguments_of_include,
+    },
+    "LaunchConfiguration": _of_texts("variable_name"),
+    "LogInfo": _of_texts("msg"),
+    "ParameterValue": {"value_type": _type},
+    "PathJoinSubstitution": _of_texts("substitutions"),
+    "PushRosNamespace": _of_texts("namespace"),
+    "PythonExpression": _of_texts("expression"),
+    "SetEnvironmentVariable": _of_texts("name", "value"),
+    "SetLaunchConfiguration": _of_texts("name", "value"),
+    "SetRemap": _of_texts("src", "dst"),
+    "TextSubstitution": _of_texts("text"),
+    "TimerAction": {"period": _period},
+    "UnlessCondition": {"predicate_expression": _truth},
+}
+"""What judges an argument, by the class and the name of the argument."""

@@ -1,0 +1,64 @@
+"""What it takes to declare a dependency: a line in package.xml, unless it would close a cycle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scaffold.edits import Fix
+from scaffold.record import NamedTuple
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+
+class Declaring(NamedTuple):
+    """How a dependency that is missing is declared."""
+
+    advice: str
+    """What to do, for the end of a message."""
+    fix: Fix | None
+    """``None`` where colcon could not order the packages afterwards."""
+
+
+def declaring(package: Package, tag: str, name: str) -> Declaring:
+    """Return how a package declares a dependency.
+
+    Args:
+        package: The package, which does not declare it.
+        tag: The element to add, such as ``exec_depend``.
+        name: The other package, or the rosdep key.
+    """
+    way = [] if tag == "test_depend" else way_back(package, name)
+    if way:
+        cycle = " needs ".join([package.name, *way])
+        advice = f"declaring it would close a cycle, {cycle}: move what both need into a third"
+        return Declaring(f"{advice} package", None)
+    fix = Fix(f"declare {name}", (package.manifest.insert(tag, name),))
+    note = package.manifest.note_on_export(name)
+    return Declaring(f"add <{tag}>{name}</{tag}>{note}", fix)
+
+
+def way_back(package: Package, start: str) -> list[str]:
+    """Return the packages from another one back to a package, if it needs it in turn.
+
+    Source: ``colcon_core/topological_order.py``, which takes dependencies for building and running.
+    """
+    ways = {start: [start]}
+    pending = [start]
+    while pending:
+        name = pending.pop(0)
+        neighbour = package.workspace.get(name)
+        if neighbour is None or neighbour is package:
+            continue
+        try:
+            manifest = neighbour.manifest
+        except ViewError:
+            continue
+        for needed in sorted(manifest.build_names | manifest.run_names):
+            if needed == package.name:
+                return [*ways[name], needed]
+            if needed not in ways:
+                ways[needed] = [*ways[name], needed]
+                pending.append(needed)
+    return []
