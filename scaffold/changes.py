@@ -38,6 +38,8 @@ class Change(NamedTuple):
     """Where it was decided: a repository and the number of a pull request, or a release."""
     having: str = ""
     """The keyword with which a call is meant."""
+    position: int | None = None
+    """Its place among the arguments without names; ``None`` where it always has its name."""
     value: str = ""
     """What that keyword is given, as it is written; empty if that does not matter."""
     without: str = ""
@@ -179,6 +181,7 @@ def _change(entry: dict[str, Any]) -> Change:
         entry.get("advice", ""),
         entry["source"],
         entry.get("having", ""),
+        entry.get("position"),
         entry.get("value", ""),
         entry.get("without", ""),
         entry.get("raises", ""),

@@ -169,7 +169,7 @@ def test_messages_are_those_of_the_target(
     package = write(tmp_path, "from geometry_msgs.msg import Pose2D\n\npose = Pose2D()\n")
     assert check(capsys, package, "kilted") == []
     (found,) = check(capsys, package, "lyrical")
-    assert found[0] == "MS001"
+    assert found[0] == "TY002"
 
 
 def test_syntax_is_that_of_the_targets_python(

@@ -51,7 +51,7 @@ class BridgeTypesUnfit(Rule):
 
     code = "BR002"
     name = "bridge-types-unfit"
-    other_severities = {Severity.WARNING: "for an old name that is still converted"}
+    other_severities = {Severity.WARNING: "the name is an old one that is still converted"}
     examples = (
         Example(
             "a pair",

@@ -89,6 +89,35 @@ class CommandUndefined(Rule):
     name = "command-undefined"
     examples = (
         Example(
+            "found as a test dependency",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <test_depend>ament_cmake_pytest</test_depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "find_package(ament_lint_auto REQUIRED)\n"
+                "ament_lint_auto_find_test_dependencies()\n"
+                "ament_add_pytest_test(talk test/test_talk.py)\nament_package()\n",
+                "test/test_talk.py": "",
+            },
+        ),
+        Example(
+            "not found, in a package that declares linters",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <test_depend>ament_lint_common</test_depend>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "rosidl_generate_interfaces(talker msg/Talk.msg)\n"
+                "find_package(ament_lint_auto REQUIRED)\n"
+                "ament_lint_auto_find_test_dependencies()\nament_package()\n",
+                "msg/Talk.msg": "int8 x\n",
+            },
+            Report(
+                "CMakeLists.txt:3:1",
+                "rosidl_generate_interfaces() is undefined without "
+                "find_package(rosidl_default_generators REQUIRED)",
+            ),
+        ),
+        Example(
             "found",
             {"CMakeLists.txt": _LISTS.format("find_package(ament_cmake_pytest REQUIRED)\n")},
         ),
@@ -131,13 +160,17 @@ class CommandUndefined(Rule):
         if cmake.find("include"):
             return
         own = {call.values[0].lower() for call in cmake.find("macro", "function") if call.values}
-        yield from self._check_providers(cmake, own)
+        yield from self._check_providers(package, own)
         if uses_ament(package):
             yield from self._check_names(cmake, own)
 
-    def _check_providers(self, cmake: CMakeLists, own: set[str]) -> Iterator[Diagnostic]:
+    def _check_providers(self, package: Package, own: set[str]) -> Iterator[Diagnostic]:
         """Report the commands of packages that are not found."""
-        packages = {package.name for package in cmake.found_packages}
+        cmake = package.cmake
+        packages = {found.name for found in cmake.found_packages}
+        tests: set[str] = set()
+        if cmake.find("ament_lint_auto_find_test_dependencies") and package.has("package.xml"):
+            tests = package.manifest.test_names
         if cmake.finds_automatically or cmake.finds_tests_automatically:
             return
         if any("$" in call.values[0] for call in cmake.find("find_package") if call.values):
@@ -145,7 +178,7 @@ class CommandUndefined(Rule):
         if not all(name in _BRING_NOTHING or name.endswith("_msgs") for name in packages):
             return
         for name, providers in PROVIDERS.items():
-            if name in own or not packages.isdisjoint(providers):
+            if name in own or not (packages | tests).isdisjoint(providers):
                 continue
             for command in cmake.find(name):
                 message = f"{name}() is undefined without find_package({providers[0]} REQUIRED)"

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 from scaffold.api.cmake import FoundPackage
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import requirements
+from scaffold.api.manifest import declaring, requirements
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n  <depend>rclcpp</depend>\n{}</package>\n'
 _LISTS = "project(talker)\nfind_package(rclcpp REQUIRED)\nfind_package({} REQUIRED)\n"
@@ -154,13 +154,9 @@ class FoundUndeclared(Rule):
                 yield self.report(found, message)
                 continue
             reported.add(name)
-            tag = _tag(found)
-            message = (
-                f"finds {name!r}, which no dependency in package.xml names; "
-                f"add <{tag}>{name}</{tag}>"
-            )
-            fix = Fix(f"declare {name}", (manifest.insert(tag, name),))
-            yield self.report(found, message, fix, cause=f"dependency {name}")
+            needed = declaring(package, _tag(found), name)
+            message = f"finds {name!r}, which no dependency in package.xml names; {needed.advice}"
+            yield self.report(found, message, needed.fix, cause=f"dependency {name}")
 
 
 def _undeclared(package: Package) -> Iterator[FoundPackage]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
 from scaffold.api.cmake import has_unknown_commands, is_used_by_build, programs
 from scaffold.api.install import is_started, paths_imported_by
+from scaffold.api.launch import package_uses
 
 _TRIALS = ("test", "example")
 """How the names of programs begin that nobody but their author starts."""
@@ -20,6 +21,7 @@ _LISTS = (
     "ament_package()\n"
 )
 _DATA = "install(DIRECTORY scripts DESTINATION share/talker)\nament_package()\n"
+_FOR_USERS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml", ".sh", ".md", ".rst")
 
 
 class ProgramNotInstalled(Rule):
@@ -35,8 +37,9 @@ class ProgramNotInstalled(Rule):
     code = "CM012"
     name = "program-not-installed"
     other_severities = {
-        Severity.WARNING: "no other program of its directory is installed, it is called test or "
-        "example, or it imports rospy: it may be a helper, or is not ported"
+        Severity.WARNING: "no launch file starts it, and it may be a helper: no other program of "
+        "its directory is installed, it is called test or example, it imports "
+        "rospy, or no script and no text names it",
     }
     examples = (
         Example(
@@ -76,9 +79,23 @@ class ProgramNotInstalled(Rule):
             },
         ),
         Example(
+            "one that nothing names",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
+            },
+            Report(
+                "CMakeLists.txt:3:1",
+                "talker/other.py is a node with a main function, but not installed: "
+                "`ros2 run` does not find it",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "one is missing",
             {
                 "CMakeLists.txt": _LISTS.format(""),
+                "README.md": "    ros2 run talker other.py\n",
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
             Report(
@@ -121,6 +138,25 @@ class ProgramNotInstalled(Rule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "what a launch file starts and a test has in its name, with nothing installed",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_pytest REQUIRED)\n"
+                "ament_add_pytest_test(test_node test/test_node.py)\nament_package()\n",
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    return LaunchDescription([Node(package='talker', executable='node.py')])\n",
+                "talker/node.py": _NODE,
+            },
+            Report(
+                "CMakeLists.txt:4:1",
+                "talker/node.py is a node with a main function, but not installed: "
+                "`ros2 run` does not find it",
+            ),
+            executable=("talker/node.py",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -136,6 +172,8 @@ class ProgramNotInstalled(Rule):
             return
         installed = {program.path for program in programs(package)}
         at = next((install.command for install in installs if install.kind == "PROGRAMS"), None)
+        uses = package_uses(package)
+        launched = {use.executable for use in uses if use.name == package.name}
         used = tuple(f"/{path}" for path in paths_imported_by(package, installed))
         for path in package.python_files:
             if path in installed or not is_started(package, path):
@@ -153,6 +191,8 @@ class ProgramNotInstalled(Rule):
             has_neighbor = any(other.rpartition("/")[0] == directory for other in installed)
             is_trial = path.rpartition("/")[2].startswith(_TRIALS)
             is_whole = has_neighbor and not is_trial and not _is_of_ros1(package, path)
+            is_whole = is_whole and _is_named(package, path)
+            is_whole = is_whole or path.rpartition("/")[2] in launched
             severity = Severity.ERROR if is_whole else Severity.WARNING
             yield self.report(place, message, severity=severity)
 
@@ -160,6 +200,12 @@ class ProgramNotInstalled(Rule):
         """Tell whether an installed file that does not exist must be this one."""
         missing = [program.path for program in programs(package) if not package.has(program.path)]
         return bool(closest_name(package, path, missing, 0.8))
+
+
+def _is_named(package: Package, path: str) -> bool:
+    """Tell whether something that users start or read names a program."""
+    name = path.rpartition("/")[2].encode()
+    return any(name in package.data(item) for item in package.files if item.endswith(_FOR_USERS))
 
 
 def _is_of_ros1(package: Package, path: str) -> bool:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import imports_by_path
+from scaffold.api.python import imports_by_path, rospack_lookups
 
 _NEW = {
     "actionlib": "rclpy.action",
     "dynamic_reconfigure": "parameters of the node",
     "ros_numpy": "sensor_msgs_py",
     "roslib": "ament_index_python",
-    "rospkg": "ament_index_python",
     "rospy": "rclpy",
     "tf": "tf2_ros",
 }
@@ -27,7 +26,9 @@ _MANIFEST = (
 class ModuleOfRos1Imported(Rule):
     """A module of ROS 1 is imported, or one of ROS 2 that is there for C++ alone.
 
-    **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started.
+    **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started. ``rospkg``
+    can be installed, but looks in ``ROS_PACKAGE_PATH``, which ROS 2 does not set:
+    ``ResourceNotFound``.
 
     **Fix.** Use its successor.
 
@@ -51,12 +52,32 @@ class ModuleOfRos1Imported(Rule):
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
             Report("talker/node.py:2:1", "'rospy' belongs to ROS 1; use rclpy"),
         ),
+        Example(
+            "rospkg, of which nothing is asked that ROS 2 does not know",
+            {
+                "package.xml": _MANIFEST,
+                "talker/node.py": "import rclpy\nimport rospkg\n\nprint(rospkg.__version__)\n",
+            },
+        ),
+        Example(
+            "rospkg, asked for a package",
+            {
+                "package.xml": _MANIFEST,
+                "talker/node.py": "import rclpy\nfrom rospkg import RosPack\n\n"
+                "print(RosPack().get_path('talker'))\n",
+            },
+            Report(
+                "talker/node.py:4:7",
+                "rospkg finds packages of ROS 1 alone: ResourceNotFound; use "
+                "get_package_share_directory() of ament_index_python",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         if not (package.manifest.build_type or "").startswith("ament"):
             return
-        for _, imports in imports_by_path(package):
+        for path, imports in imports_by_path(package):
             if all(item.root != "rclpy" or item.in_tests for item in imports):
                 continue
             for item in imports:
@@ -70,3 +91,9 @@ class ModuleOfRos1Imported(Rule):
                     else f"{root!r} has no Python module; use {_WITHOUT_PYTHON[root]}"
                 )
                 yield self.report(item, message)
+            for at in rospack_lookups(package, path):
+                message = (
+                    "rospkg finds packages of ROS 1 alone: ResourceNotFound; use "
+                    "get_package_share_directory() of ament_index_python"
+                )
+                yield self.report(at, message)

@@ -72,7 +72,7 @@ class NameGone(PythonRule):
 
     code = "IM046"
     name = "name-gone"
-    other_severities = {Severity.WARNING: "a name of NumPy 2 where NumPy comes from pip"}
+    other_severities = {Severity.WARNING: "the name is one of NumPy 2, and NumPy comes from pip"}
     examples = (
         Example("a name that exists", {"area.py": _NODE.format("np.trapz(values)")}),
         Example(

@@ -69,6 +69,27 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
+            "a client that git ignores, because each machine makes its own",
+            {
+                **_FILES,
+                ".gitignore": "**/*_client\n",
+                "talker/node.py": "from talker.text_client.types import Text\n",
+            },
+        ),
+        Example(
+            "a script that CMake installs into the Python package",
+            {
+                **_PROGRAM,
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "ament_python_install_package(${PROJECT_NAME})\n"
+                "install(DIRECTORY scripts/ DESTINATION ${PYTHON_INSTALL_DIR}/talker)\n"
+                "install(PROGRAMS scripts/node.py DESTINATION lib/${PROJECT_NAME})\n"
+                "ament_package()\n",
+                "scripts/node.py": "from talker.text import make\n",
+                "talker/__init__.py": "",
+            },
+        ),
+        Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
             Report(

@@ -33,7 +33,9 @@ class ConditionMalformed(Rule):
 
     code = "PX015"
     name = "condition-malformed"
-    other_severities = {Severity.WARNING: "a name that is misspelled; never true, or always"}
+    other_severities = {
+        Severity.WARNING: "a name in it is misspelled, or it is never true, or always"
+    }
     examples = (
         Example("a comparison", {"package.xml": _MANIFEST.format("$ROS_DISTRO == jazzy")}),
         Example(

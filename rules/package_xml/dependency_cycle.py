@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api.manifest import way_back
 
 _TALKER = '<package format="3">\n  <name>talker</name>\n  <depend>listener</depend>\n</package>\n'
 _ITSELF = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
@@ -61,28 +62,7 @@ class DependencyCycle(Rule):
                 continue
             if dependency.kind == "test_depend" or not dependency.active:
                 continue
-            way = self._way_back(package, dependency.name)
+            way = way_back(package, dependency.name)
             if way:
                 message = f"dependency cycle: {' needs '.join([package.name, *way])}"
                 yield self.report(dependency, message)
-
-    def _way_back(self, package: Package, start: str) -> list[str]:
-        """Return the packages from ``start`` back to the package, if there is a way."""
-        ways = {start: [start]}
-        pending = [start]
-        while pending:
-            name = pending.pop(0)
-            neighbour = package.workspace.get(name)
-            if neighbour is None or neighbour is package:
-                continue
-            try:
-                manifest = neighbour.manifest
-            except ViewError:
-                continue
-            for needed in sorted(manifest.build_names | manifest.run_names):
-                if needed == package.name:
-                    return [*ways[name], needed]
-                if needed not in ways:
-                    ways[needed] = [*ways[name], needed]
-                    pending.append(needed)
-        return []

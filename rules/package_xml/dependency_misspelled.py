@@ -21,7 +21,8 @@ class DependencyMisspelled(Rule):
     code = "PX022"
     name = "dependency-misspelled"
     other_severities = {
-        Severity.WARNING: "a name that other packages suggest: rclpy_action; a key of Python"
+        Severity.WARNING: "the name is one that other packages suggest, such as rclpy_action, or a "
+        "key of Python",
     }
     release_refused = "bloom finds no rule of rosdep for the name"
     examples = (

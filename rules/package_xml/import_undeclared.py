@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import declared, required_packages, requirements
+from scaffold.api.manifest import declared, declaring, required_packages, requirements
+from scaffold.api.python import rospack_lookups
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
@@ -32,9 +33,9 @@ class ImportUndeclared(Rule):
     code = "PX020"
     name = "import-undeclared"
     other_severities = {
-        Severity.WARNING: "launch and launch_ros, which come with `ros2 launch`, what comes with "
-        "these and only launch files import, torch, which many install with pip, and what only "
-        "scripts in the share directory import"
+        Severity.WARNING: "it comes with `ros2 launch` and launch files alone import it, only "
+        "scripts in the share directory import it, or it is torch, which many "
+        "install with pip",
     }
     examples = (
         Example(
@@ -249,6 +250,16 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "rospkg, which would not find the package if it were there",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>rclpy</exec_depend>\n</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nimport rospkg\n\n"
+                "path = rospkg.RosPack().get_path('talker')\n",
+            },
+        ),
+        Example(
             "a script among the data",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n'
@@ -316,6 +327,8 @@ class ImportUndeclared(Rule):
                 continue
             if need.module in _INDEX and _is_required(package, need.module):
                 continue
+            if need.module == "rospkg" and rospack_lookups(package, need.location.path):
+                continue  # module-of-ros1-imported says it
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
@@ -330,13 +343,11 @@ class ImportUndeclared(Rule):
                 continue
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
-            message = (
-                f"imports {need.module!r}, which no dependency in package.xml provides; "
-                f"add <{tag}>{need.keys[0]}</{tag}>"
-            )
-            fix = Fix(f"declare {need.keys[0]}", (manifest.insert(tag, need.keys[0]),))
+            needed = declaring(package, tag, need.keys[0])
+            message = f"imports {need.module!r}, which no dependency in package.xml provides; "
+            message += needed.advice
             cause = f"dependency {need.keys[0]}"
-            yield self.report(need, message, fix, severity=severity, cause=cause)
+            yield self.report(need, message, needed.fix, severity=severity, cause=cause)
 
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:

@@ -117,7 +117,8 @@ class InterfaceDeclarationsMissing(Rule):
             Report(
                 "package.xml:3:4",
                 "CMakeLists.txt:2 generates interfaces, but no <exec_depend> "
-                "rosidl_default_runtime; what is inside <export> is not read",
+                "rosidl_default_runtime; line 6 is inside <export>, where it has no "
+                "effect",
                 fix="add <exec_depend>rosidl_default_runtime</exec_depend>",
             ),
             fixed={
@@ -148,8 +149,7 @@ class InterfaceDeclarationsMissing(Rule):
         line = generations(package)[0].command.location.line
         for problem, tag, text in _missing(manifest, package):
             message = f"CMakeLists.txt:{line} generates interfaces, but {problem}"
-            if any((child.tag, child.text) == (tag, text) for child in manifest.exports):
-                message += "; what is inside <export> is not read"
+            message += manifest.note_on_export(text)
             changes = [manifest.insert(tag, text)]
             changes += _format_3(manifest) if tag == "member_of_group" else []
             fix = Fix(f"add <{tag}>{text}</{tag}>", tuple(changes))

@@ -22,7 +22,7 @@ class LicenseNotSpdx(Rule):
     code = "PX005"
     name = "license-not-spdx"
     severity = Severity.INFO
-    other_severities = {Severity.WARNING: "a misspelled identifier"}
+    other_severities = {Severity.WARNING: "the identifier is misspelled"}
     examples = (
         Example("SPDX", {"package.xml": "<package><license>MIT</license></package>\n"}),
         Example(

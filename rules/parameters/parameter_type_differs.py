@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety
-from scaffold.api.formats import Scalar
+from scaffold.api.formats import Scalar, YamlNode
 from scaffold.api.launch import consumers, values_in_files
 from scaffold.api.parameters import (
     Entry,
@@ -22,6 +23,7 @@ _NODE = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.declare_parameter('mode', 'slow')\n"
 )
+_PLACEHOLDER = r"(?!(?:TRUE|FALSE|YES|OFF)$)[A-Z_]{3,}|<\w+>|\$\(.*\)|\{\{.*\}\}"
 _ERROR = "InvalidParameterTypeException"
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n    mode: {}\n"
 _MANIFEST = (
@@ -69,6 +71,10 @@ class ParameterTypeDiffers(Rule):
             fixed={"a.yaml": _FILE.format("2.0", "'on'")},
         ),
         Example(
+            "a word that is replaced before the node gets the file",
+            {"talker.py": _NODE, "a.yaml": _FILE.format("REPLACE", "REPLACE")},
+        ),
+        Example(
             "a string for a double",
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
             Report(
@@ -109,7 +115,7 @@ class ParameterTypeDiffers(Rule):
         for path, entry, declarations in values_in_files(package):
             kind, where = agreed_type(package, declarations, entry.name)
             given = value_type(entry.value)
-            if not kind or not given or given == kind:
+            if not kind or not given or given == kind or _is_placeholder(entry.value, kind):
                 continue
             if narrow_default(package, declarations, entry.name, given) is None:
                 message = f"{where} is {a_type(kind)}, but this is {a_type(given)}: {_ERROR}"
@@ -127,6 +133,12 @@ class ParameterTypeDiffers(Rule):
                     actual = f"{given.text} is {a_type(given.type)}"
                     message = f"{where} is {a_type(kind)}, but {actual}: {_ERROR}"
                     yield self.report(item, message)
+
+
+def _is_placeholder(value: YamlNode, kind: str) -> bool:
+    """Tell whether a value stands for a number or a truth that a launch file puts there."""
+    is_word = isinstance(value, Scalar) and re.fullmatch(_PLACEHOLDER, value.text) is not None
+    return is_word and kind in {"bool", "double", "integer"}
 
 
 def _fix(path: str, entry: Entry, kind: str, given: str) -> Fix | None:

@@ -59,6 +59,17 @@ class RequiredNeverSet(RclpyRule):
             },
         ),
         Example(
+            "set under the name that a launch file gives the node",
+            {
+                "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
+                "config/a.yaml": "listener:\n  ros__parameters:\n    rate: 3.0\n",
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n    return LaunchDescription([\n"
+                "        Node(package='demo', executable='talk', name='listener')])\n",
+            },
+        ),
+        Example(
             "a type alone, and a value for another node",
             {
                 "package.xml": "<package><name>demo</name></package>\n",
@@ -101,8 +112,10 @@ def _is_set(package: Package, node: NodeDefinition, name: str) -> bool:
         for section in file.sections if file else ():
             is_of_node = section.is_pattern or section.name == node.node_name
             is_of_node = is_of_node or not isinstance(node.node_name, str)
-            if is_of_node and any(entry.name == name for entry in section.entries):
-                return True
+            if not any(entry.name == name for entry in section.entries):
+                continue
+            if is_of_node or _mentions(package, section.name, _LAUNCH):
+                return True  # a launch file may start the node under the name of the section
     if _mentions(package, name, _LAUNCH):
         return True
     return any(

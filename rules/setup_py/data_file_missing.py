@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
 from scaffold.api.python import Glob
@@ -12,6 +13,8 @@ _SETUP = (
     "from glob import glob\n\nfrom setuptools import setup\n\n"
     "setup(\n    name='talker',\n    data_files=[\n{}    ],\n)\n"
 )
+_CAUSE = "data_files"
+"""Files were renamed or moved, and setup.py was not."""
 
 
 class DataFileMissing(Rule):
@@ -52,6 +55,26 @@ class DataFileMissing(Rule):
             },
         ),
         Example(
+            "a directory among the files",
+            {
+                "setup.py": _SETUP.format(
+                    "        ('share/talker', ['package.xml']),\n"
+                    "        ('share/talker/config', glob('config/*')),\n"
+                    "        ('share/talker/maps', glob('maps/*.yaml')),\n"
+                ),
+                "package.xml": "<package/>\n",
+                "config/arm/arm.yaml": "",
+                "config/base.yaml": "",
+                "maps/small/map.yaml": "",
+                "maps/map.yaml": "",
+            },
+            Report(
+                "setup.py:9:33",
+                "the pattern config/* matches the directory config/arm, which "
+                "cannot be copied: the build stops; give it a line of its own",
+            ),
+        ),
+        Example(
             "no such file, and files with another ending",
             {
                 "setup.py": _SETUP.format(
@@ -76,15 +99,18 @@ class DataFileMissing(Rule):
                 continue
             for source, at in zip(data.sources, data.source_locations, strict=True):
                 if isinstance(source, Glob):
-                    message = self._nothing_matches(package, source)
+                    message = self._nothing_matches(package, source) or _directory_in(
+                        package, source
+                    )
                     if message:
-                        yield self.report(at, message)
+                        yield self.report(at, message, cause=_CAUSE)
                 elif isinstance(source, str) and source != marker:
                     path = source.removeprefix("./")
                     if "resource/" in path or package.has(path) or path.startswith(("/", "../")):
                         continue
                     what = "a directory" if package.has_directory(path) else "not there"
-                    yield self.report(at, f"data_files names {source}, which is {what}")
+                    message = f"data_files names {source}, which is {what}"
+                    yield self.report(at, message, cause=_CAUSE)
 
     def _nothing_matches(self, package: Package, pattern: Glob) -> str | None:
         directory, _, name = pattern.pattern.rpartition("/")
@@ -105,3 +131,20 @@ class DataFileMissing(Rule):
         if {path for glob in globs for path in matches(glob, package.files)}.issuperset(beside):
             return None  # other lines install them
         return f"the pattern {pattern.pattern} matches no file; closest: {beside[0]}"
+
+
+def _directory_in(package: Package, pattern: Glob) -> str | None:
+    """Return the message for a directory that a pattern matches besides files."""
+    directory, _, name = pattern.pattern.rpartition("/")
+    if "*" in directory or "**" in name or pattern.filtered or not directory:
+        return None
+    start = f"{directory.removeprefix('./')}/"
+    inside = [path[len(start) :] for path in package.files if path.startswith(start)]
+    folders = sorted({path.partition("/")[0] for path in inside if "/" in path})
+    for folder in folders:
+        if fnmatchcase(folder, name):
+            return (
+                f"the pattern {pattern.pattern} matches the directory {start}{folder}, which "
+                "cannot be copied: the build stops; give it a line of its own"
+            )
+    return None

@@ -33,6 +33,17 @@ class NameDiffers(Rule):
             },
         ),
         Example(
+            "left over in a package that CMake builds",
+            {
+                "package.xml": _MANIFEST.replace(
+                    "</package>", "<export><build_type>ament_cmake</build_type></export></package>"
+                ),
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "ament_package()\n",
+                "setup.py": "from setuptools import setup\n\nsetup(version='0.1.0')\n",
+            },
+        ),
+        Example(
             "copied from another package",
             {
                 "package.xml": _MANIFEST,
@@ -44,6 +55,18 @@ class NameDiffers(Rule):
                 unsafe_fix="write talker",
             ),
             fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
+        ),
+        Example(
+            "a comma too many",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": "from setuptools import setup\n\npackage_name = 'talker',\n\n"
+                "setup(name=package_name)\n",
+            },
+            Report(
+                "setup.py:5:12",
+                "the name is a tuple, not a str: the build stops; remove the comma after it",
+            ),
         ),
         Example(
             "no name",
@@ -59,6 +82,8 @@ class NameDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py
         name = package.manifest.name
         keyword = package.setup_py.keyword("name")
         if keyword is None and package.setup_py.call is not None and name:
@@ -68,6 +93,9 @@ class NameDiffers(Rule):
                 )
                 yield self.report(package.setup_py, message)
             return
+        if keyword is not None and isinstance(keyword.value, tuple | list):
+            message = "the name is a tuple, not a str: the build stops; remove the comma after it"
+            yield self.report(keyword, message)
         if keyword is None or not isinstance(keyword.value, str) or not name:
             return
         if keyword.value.replace("-", "_") == name.replace("-", "_") or name_used_elsewhere(

@@ -91,11 +91,12 @@ class ScriptDirectoryDiffers(Rule):
                 at = package.start_of("setup.cfg")
                 message = f"[{section}] has no {key}={wanted}: `ros2 run` finds nothing"
                 fix = Fix(f"write {wanted}", (cfg.set(section, key, wanted),))
-                yield self.report(at, message, fix)
+                yield self.report(at, message, fix, cause="directory of scripts")
             elif entry is not None and entry.value.rstrip("/") not in {
                 wanted,
                 wanted.replace("$base", "${base}"),
             }:
                 message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
-                yield self.report(entry, message, Fix(f"write {wanted}", (edit,)))
+                fix = Fix(f"write {wanted}", (edit,))
+                yield self.report(entry, message, fix, cause="directory of scripts")

@@ -45,7 +45,9 @@ class TestsNotRun(Rule):
     name = "tests-not-run"
     is_fixed_for_all = True
     is_deprecation = True
-    other_severities = {Severity.INFO: "``tests_require``, which Ubuntu 24.04 still reads"}
+    other_severities = {
+        Severity.INFO: "it says so with ``tests_require``, which Ubuntu 24.04 still reads"
+    }
     examples = (
         Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
         Example("no tests", {"setup.py": _SETUP.format("")}),

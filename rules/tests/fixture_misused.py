@@ -11,6 +11,7 @@ from scaffold.api.python import PythonModule
 from scaffold.api.tests import (
     LAUNCH,
     Fixture,
+    TestFunction,
     arguments,
     files_of_tests,
     fixtures,
@@ -57,6 +58,25 @@ class FixtureMisused(Rule):
             Report("9:5", "there is no fixture 'txt'; closest: 'text'"),
         ),
         Example(
+            "not asked for, and used all the same",
+            {"test/test_text.py": _TEST.format("return 'a'", "", "text")},
+            Report(
+                "10:12",
+                "text is the fixture itself here, a function: take it as an argument of the test",
+            ),
+        ),
+        Example(
+            "a function without the decorator",
+            {
+                "test/test_text.py": _TEST.format("return 'a'", "text", "text").replace(
+                    "@pytest.fixture\n", ""
+                )
+            },
+            Report(
+                "8:5", "text() is no fixture: pytest finds none of this name; add @pytest.fixture"
+            ),
+        ),
+        Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
             Report("10:12", "the fixture text returns nothing, so this is None"),
@@ -77,6 +97,12 @@ class FixtureMisused(Rule):
                 if name:
                     message = f"{name} is a fixture: take it as an argument instead of calling it"
                     yield self.report(module.location(call), message)
+            for use in _taken_from_module(module):
+                message = (
+                    f"{use.id} is the fixture itself here, a function: take it as an argument of "
+                    "the test"
+                )
+                yield self.report(module.location(use), message)
         for module in test_modules(package):
             if LAUNCH not in module.functions:
                 yield from self._check_tests(module, fixtures(package, module))
@@ -96,16 +122,23 @@ class FixtureMisused(Rule):
                             yield self.report(module.location(node), message)
                             break
                 elif fixture is None and not test.node.decorator_list:
-                    closest = get_close_matches(name, available, 1, 0.75)
-                    if name == "self" and test.class_ is None:
-                        message = (
-                            f"{test.node.name} is not a method: pytest finds no fixture 'self'"
-                        )
-                    elif closest and name not in _BUILT_IN:
-                        message = f"there is no fixture {name!r}; closest: {closest[0]!r}"
-                    else:
-                        continue
-                    yield self.report(module.name_location(test.node), message)
+                    message = _missing(module, test, name, available)
+                    if message:
+                        yield self.report(module.name_location(test.node), message)
+
+
+def _missing(
+    module: PythonModule, test: TestFunction, name: str, available: Mapping[str, Fixture]
+) -> str:
+    """Return what is wrong with an argument that no fixture is known for; empty if unclear."""
+    if name == "self" and test.class_ is None:
+        return f"{test.node.name} is not a method: pytest finds no fixture 'self'"
+    if name in _BUILT_IN:
+        return ""
+    if name in module.functions:
+        return f"{name}() is no fixture: pytest finds none of this name; add @pytest.fixture"
+    closest = get_close_matches(name, available, 1, 0.75)
+    return f"there is no fixture {name!r}; closest: {closest[0]!r}" if closest else ""
 
 
 def _is_name(node: ast.expr, name: str) -> bool:
@@ -120,6 +153,21 @@ def _called(module: PythonModule, call: ast.Call) -> str:
     nodes = [binding.node for binding in lookup[1]] if lookup else []
     own = {fixture.node for fixture in own_fixtures(module)} if len(nodes) == 1 else set()
     return call.func.id if nodes and nodes[0] in own else ""
+
+
+def _taken_from_module(module: PythonModule) -> Iterator[ast.Name]:
+    """Yield where tests use a fixture of the file without asking for it, each name once."""
+    own = {fixture.name: fixture.node for fixture in own_fixtures(module)}
+    for test in test_functions(module):
+        seen = set(arguments(test.node))
+        for use in module.below(test.node, ast.Name):
+            lookup = module.index.lookup(use.id, use) if use.id in own.keys() - seen else None
+            above = module.parent(use)
+            if lookup is None or [x.node for x in lookup[1]] != [own[use.id]]:
+                continue
+            if not (isinstance(above, ast.Call) and above.func is use):
+                seen.add(use.id)
+                yield use
 
 
 def _gives_nothing(fixture: Fixture) -> bool:

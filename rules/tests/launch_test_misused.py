@@ -6,7 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.python import PythonModule, is_generator, may_end, paths_importing, returned
+from scaffold.api.python import (
+    FunctionNode,
+    PythonModule,
+    is_generator,
+    may_end,
+    paths_importing,
+    returned,
+)
 from scaffold.api.tests import LAUNCH, is_test_case, marks, may_start, methods
 
 _MARKS = ("launch_test", "rostest")
@@ -46,6 +53,23 @@ class LaunchTestMisused(Rule):
         Example("right", {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT)}),
         Example("for launch_pytest", {"test/test_a.py": "import launch_pytest\n" + _OTHER}),
         Example(
+            "never ready, and without any import of launch_testing",
+            {
+                "setup.py": "",
+                "test/test_a.py": "import unittest\n\nfrom launch import LaunchDescription\n"
+                "import pytest\n\n\n@pytest.mark.launch_test\n"
+                "def generate_test_description():\n    return LaunchDescription([])\n\n\n"
+                "class TestA(unittest.TestCase):\n    def test_a(self):\n        assert True\n",
+                "launch/b.launch.py": "from launch import LaunchDescription\n\n\n"
+                "def generate_test_description():\n    return LaunchDescription([])\n",
+            },
+            Report(
+                "test/test_a.py:8:5",
+                "generate_test_description has no ReadyToTest() in its list: "
+                "launch_testing refuses it",
+            ),
+        ),
+        Example(
             "never ready",
             {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
             Report(
@@ -79,10 +103,12 @@ class LaunchTestMisused(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
-        for module in package.modules(paths_importing(package, "launch_testing")):
+        for module in package.modules(paths_importing(package, "launch_testing", "launch")):
             function = module.functions.get(LAUNCH)
             roots = module.imports_by_root
             if function is None or "launch_pytest" in roots:
+                continue
+            if "launch_testing" not in roots and not _is_marked(module, function.node):
                 continue
             for problem in _problems(package, module):
                 yield self.report(function, problem)
@@ -94,6 +120,10 @@ class LaunchTestMisused(Rule):
                 if has_tests and plain and not module.index.names(class_.name):
                     message = f"launch_testing does not run {class_.name}: it is not a TestCase"
                     yield self.report(class_, message)
+
+
+def _is_marked(module: PythonModule, node: FunctionNode) -> bool:
+    return any(mark in _MARKS for mark, _ in marks(module, node))
 
 
 def _problems(package: Package, module: PythonModule) -> Iterator[str]:
@@ -112,7 +142,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
     name = module.path.rpartition("/")[2]
     by_pytest = package.has("setup.py") and not package.has("CMakeLists.txt")
     collected = name.startswith("test_") or name.endswith("_test.py")
-    marked = any(mark in _MARKS for mark, _ in marks(module, node))
+    marked = _is_marked(module, node)
     if by_pytest and collected and tests and not marked and not may_start(package, name):
         yield f"@pytest.mark.launch_test is missing: pytest does not start what {LAUNCH} describes"
 

@@ -48,7 +48,7 @@ class TestBodyNeverRun(Rule):
             for test in test_functions(module) if not module.has_main_guard else ():
                 is_plain = test.class_ is None or not test.class_.bases
                 problem = _problem(module, test.node) if is_plain else ""
-                if problem and not is_named_elsewhere(package, test.node.name):
+                if problem and not is_named_elsewhere(package, module, test.node.name):
                     yield self.report(module.name_location(test.node), problem)
 
 

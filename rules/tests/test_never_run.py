@@ -107,12 +107,12 @@ class TestNeverRun(Rule):
                 message = f"pytest does not run {function.name}: its name does not begin with test"
             else:
                 continue
-            if not is_named_elsewhere(package, function.name):
+            if not is_named_elsewhere(package, module, function.name):
                 yield self.report(function, message)
 
     def _check_classes(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         for class_ in module.classes.values():
-            if is_named_elsewhere(package, class_.name) or class_.node.decorator_list:
+            if is_named_elsewhere(package, module, class_.name) or class_.node.decorator_list:
                 continue
             own = methods(class_.node)
             tests = [item for item in own if item.name.startswith("test")]
@@ -126,7 +126,7 @@ class TestNeverRun(Rule):
                 if (
                     _states(suite)
                     and not suite.decorator_list
-                    and not is_named_elsewhere(package, suite.name)
+                    and not is_named_elsewhere(package, module, suite.name)
                 ):
                     message = f"pytest does not run {suite.name}: its name does not begin with test"
                     yield self.report(module.name_location(suite), message)

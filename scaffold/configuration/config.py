@@ -135,7 +135,7 @@ def _validate(file: _File, table: str, entries: object) -> None:
     """Raise if the configuration has no such table or key, or the value is of another type."""
     if not isinstance(entries, dict):
         raise ConfigError(
-            f"{file.path}: {table!r} is outside of a table such as [{file.prefix}check]"
+            f"{file.path}: {table!r} is outside of a table{_key_hint(file.prefix, table)}"
         )
     if table not in keys.TABLES:
         raise ConfigError(f"{file.path}: unknown table [{file.prefix}{table}]{_table_hint(table)}")
@@ -160,7 +160,19 @@ def _validate(file: _File, table: str, entries: object) -> None:
 def _table_hint(table: str) -> str:
     if table == "tool":
         return ": write [check] instead of [tool.ros2-scaffold.check]"
-    return f"; {keys.nearest(table, keys.TABLES)}"
+    inner = next((key.path for key in keys.KEYS if key.path.endswith(f".{table}")), "")
+    return f"; did you mean [{inner}]?" if inner else f"; {keys.nearest(table, keys.TABLES)}"
+
+
+def _key_hint(prefix: str, name: str) -> str:
+    """Return where a key belongs that stands before all tables."""
+    from difflib import get_close_matches
+
+    tables = {key.path.rpartition(".")[2]: key.table for key in reversed(keys.KEYS) if key.table}
+    closest = get_close_matches(name, tables, n=1)
+    if not closest:
+        return f" such as [{prefix}check]"
+    return f"; did you mean {closest[0]!r} in [{prefix}{tables[closest[0]]}]?"
 
 
 def named_content(directory: str) -> list[str]:

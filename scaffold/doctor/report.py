@@ -69,6 +69,7 @@ def _lines(environments: Sequence[Environment], findings: Findings) -> Iterator[
         yield f"{finding.severity.value}: {finding.message} [{name}]"
         yield f"    {finding.fix}"
     problems = sum(finding.severity is not Severity.INFO for _, finding in findings)
+    problems += not any(item.taken for item in environments)
     if problems:
         yield f"{problems} problem{'' if problems == 1 else 's'}"
     else:
