@@ -52,10 +52,10 @@ ERRORS = (
 class TimedNode(Node):
     """A node whose clock shows one second more for each message, on every run the same."""
 
-    def get_clock(self) -> Any:
+    def get_clock(self) -> TimedNode:
         return self
 
-    def now(self) -> Any:
+    def now(self) -> object:
         from rclpy.time import Time
 
         return Time(seconds=START + self.count)
