@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import Enum, IntEnum
 
 from scaffold.edits import Fix
 from scaffold.record import NamedTuple
@@ -18,6 +18,23 @@ class Severity(Enum):
     """The style guide says otherwise."""
     INFO = "info"
     """Advice."""
+
+
+class Effect(IntEnum):
+    """What a flaw does; a screen shows the findings of one severity in this order."""
+
+    STOPS_BUILD = 0
+    """A file is not read, or the package is not built."""
+    STOPS_PROGRAM = 1
+    """A program stops, or does the wrong thing."""
+    IGNORED = 2
+    """What is written has no effect; the program goes on."""
+    SPOILS_INSTALL = 3
+    """What is built or installed is incomplete; the program that needs it stops later."""
+    MISSING_ELSEWHERE = 4
+    """A program stops on a machine that lacks a package."""
+    DECLARED_WRONG = 5
+    """The manifest, a name or a test says something wrong; nothing stops here."""
 
 
 class Diagnostic(NamedTuple):

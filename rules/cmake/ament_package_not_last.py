@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 
 FATAL = (
     "ament_export_definitions",
@@ -41,6 +41,7 @@ class AmentPackageNotLast(Rule):
 
     code = "CM003"
     name = "ament-package-not-last"
+    effect = Effect.STOPS_BUILD
     other_severities = {Severity.INFO: "the call is ``install()``"}
     examples = (
         Example(

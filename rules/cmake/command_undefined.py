@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, uses_ament
 
 _OF_ROS1 = {
@@ -87,6 +87,7 @@ class CommandUndefined(Rule):
 
     code = "CM022"
     name = "command-undefined"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "found as a test dependency",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.catalog import similar_package
 from scaffold.api.cmake import Argument
 
@@ -24,6 +24,7 @@ class FindMisspelled(Rule):
 
     code = "CM023"
     name = "find-misspelled"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("right", {"CMakeLists.txt": _LISTS.format("std_msgs")}),
         Example(

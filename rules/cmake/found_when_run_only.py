@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity, ViewError
+from scaffold.api import (
+    Diagnostic,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.catalog import ROS_PACKAGES, transitive_dependencies
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
@@ -28,6 +38,7 @@ class FoundWhenRunOnly(Rule):
     code = "CM107"
     name = "found-when-run-only"
     severity = Severity.WARNING
+    effect = Effect.STOPS_BUILD
     release_refused = "the build farm does not install the package before it builds"
     examples = (
         Example(

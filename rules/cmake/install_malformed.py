@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, closest_name
 from scaffold.api.cmake import Argument
 
 _OF_FILES = ("PROGRAMS", "FILES", "DIRECTORY")
@@ -39,6 +39,7 @@ class InstallMalformed(Rule):
 
     code = "CM092"
     name = "install-malformed"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "with one",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
 from scaffold.api.cmake import Install, InstallItem, is_made_by_build, runs_if_exists
 from scaffold.api.workspace import is_untracked
 
@@ -24,6 +24,7 @@ class InstalledPathMissing(Rule):
 
     code = "CM011"
     name = "installed-path-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "there; a generated file and an optional one may come later",

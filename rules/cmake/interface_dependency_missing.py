@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.cmake import Generation, generations
 from scaffold.api.interfaces import KINDS, Definitions, interface_files
 
@@ -28,6 +28,7 @@ class InterfaceDependencyMissing(Rule):
 
     code = "CM064"
     name = "interface-dependency-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "geometry_msgs brings std_msgs along",

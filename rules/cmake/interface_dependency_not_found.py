@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, ViewError
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import CMakeLists, generations, has_unknown_commands
 from scaffold.api.interfaces import KINDS
@@ -35,6 +35,7 @@ class InterfaceDependencyNotFound(Rule):
 
     code = "CM065"
     name = "interface-dependency-not-found"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "found", {"CMakeLists.txt": _LISTS.format("find_package(std_msgs REQUIRED)\n"), **_BEAT}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.cmake import generations, is_interface_package
 from scaffold.api.distributions import target
 
@@ -29,6 +29,7 @@ class InterfacePackageClash(Rule):
 
     code = "CM063"
     name = "interface-package-clash"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("another name", {"CMakeLists.txt": _LISTS % "my_robot_tools", **_FILES}),
         Example(

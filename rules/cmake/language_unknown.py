@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
 
 _LISTS = "project(talker {})\nament_package()\n"
 _LANGUAGES = frozenset(
@@ -27,6 +27,7 @@ class LanguageUnknown(Rule):
 
     code = "CM111"
     name = "language-unknown"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("known", {"CMakeLists.txt": _LISTS.format("VERSION 1.0 LANGUAGES C CXX")}),
         Example("none, in short", {"CMakeLists.txt": _LISTS.format("NONE")}),

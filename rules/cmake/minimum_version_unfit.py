@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.cmake import CMakeLists, Command, nested
 from scaffold.api.distributions import target
 
@@ -32,6 +32,7 @@ class MinimumVersionUnfit(Rule):
     code = "CM005"
     name = "minimum-version-unfit"
     severity = Severity.WARNING
+    effect = Effect.STOPS_BUILD
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {

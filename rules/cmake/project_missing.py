@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.cmake import uses_ament
 
 _LISTS = (
@@ -25,6 +25,7 @@ class ProjectMissing(Rule):
 
     code = "CM094"
     name = "project-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("named", {"CMakeLists.txt": _LISTS.format("project(talker)\n")}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.manifest import name_used_elsewhere
 
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
@@ -22,6 +22,7 @@ class ProjectNameDiffers(Rule):
 
     code = "CM001"
     name = "project-name-differs"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("one name", {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
 
 COMMANDS = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
 _LISTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"
@@ -22,6 +22,7 @@ class PytestFileMissing(Rule):
 
     code = "CM025"
     name = "pytest-file-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "there", {"CMakeLists.txt": _LISTS.format("test_talk.py"), "test/test_talk.py": ""}

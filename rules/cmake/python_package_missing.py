@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import CreateFile, Diagnostic, Effect, Example, Fix, Package, Report, Rule
 
 _LISTS = "project(talker)\nament_python_install_package({})\n"
 
@@ -21,6 +21,7 @@ class PythonPackageMissing(Rule):
 
     code = "CM016"
     name = "python-package-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "there", {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/__init__.py": ""}

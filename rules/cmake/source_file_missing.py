@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
 from scaffold.api.workspace import is_untracked
 
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
@@ -35,6 +35,7 @@ class SourceFileMissing(Rule):
 
     code = "CM108"
     name = "source-file-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("there", {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/a.cpp": ""}),
         Example(

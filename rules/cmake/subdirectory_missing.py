@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.workspace import is_untracked
 
 _LISTS = "project(talker)\nadd_subdirectory({})\n"
@@ -23,6 +23,7 @@ class SubdirectoryMissing(Rule):
 
     code = "CM102"
     name = "subdirectory-missing"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "there",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
 from scaffold.api.cmake import (
     TAKING_TARGETS,
     defined_targets,
@@ -29,6 +29,7 @@ class TargetUndefined(Rule):
 
     code = "CM031"
     name = "target-undefined"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("defined", {"CMakeLists.txt": _LISTS.format("talk")}),
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 
 COMMANDS = (
     "ament_add_gmock",
@@ -52,6 +52,7 @@ class TestUnguarded(Rule):
     code = "CM024"
     name = "test-unguarded"
     severity = Severity.WARNING
+    effect = Effect.STOPS_BUILD
     release_refused = "the build farm may build it without its test dependencies"
     examples = (
         Example(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.cmake import Argument
 
 _LISTS = (
@@ -25,6 +25,7 @@ class VariableUnclosed(Rule):
 
     code = "CM104"
     name = "variable-unclosed"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "closed", {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME}"), "talker/node.py": ""}

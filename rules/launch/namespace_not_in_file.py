@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.install import share_of
 from scaffold.api.launch import StartedNode, consumers
 from scaffold.api.parameters import ParameterFile, parameter_file
@@ -39,6 +39,7 @@ class NamespaceNotInFile(Rule):
 
     code = "LF016"
     name = "namespace-not-in-file"
+    effect = Effect.IGNORED
     examples = (
         Example("the full name", {**_FILES, "config/demo.yaml": _FILE.format("/left/talker")}),
         Example("all namespaces", {**_FILES, "config/demo.yaml": _FILE.format("/**/talker")}),

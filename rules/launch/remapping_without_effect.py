@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api import (
+    Diagnostic,
+    Effect,
+    Example,
+    Package,
+    Report,
+    Rule,
+    closest_name,
+    listed_names,
+)
 from scaffold.api.launch import (
     Remapped,
     has_name,
@@ -54,6 +63,7 @@ class RemappingWithoutEffect(Rule):
 
     code = "LF065"
     name = "remapping-without-effect"
+    effect = Effect.IGNORED
     examples = (
         Example(
             "a name that keeps its name",

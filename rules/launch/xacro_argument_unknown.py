@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, closest_name
+from scaffold.api import Diagnostic, Effect, Example, LaunchRule, Package, Report, closest_name
 from scaffold.api.launch import LaunchFile
 from scaffold.api.robot import Expansion, robots
 
@@ -45,6 +45,7 @@ class XacroArgumentUnknown(LaunchRule):
 
     code = "LF084"
     name = "xacro-argument-unknown"
+    effect = Effect.IGNORED
     examples = (
         Example(
             "declared",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import CreateFile, Diagnostic, Effect, Example, Fix, Package, Report, Rule
 from scaffold.api.python import UNKNOWN, Import, imports_by_path
 from scaffold.api.setup_py import FindPackages, matches, package_data
 
@@ -30,6 +30,7 @@ class SubpackageWithoutInit(Rule):
 
     code = "LY004"
     name = "subpackage-without-init"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example("with", {**_FILES, "talker/text/__init__.py": ""}),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report
 from scaffold.api.distributions import target
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import MessageClass, MessageTypes
@@ -27,6 +27,7 @@ class MessageArgumentUnknown(MessageRule):
 
     code = "MS003"
     name = "message-argument-unknown"
+    effect = Effect.IGNORED
     examples = (
         Example("a field", {"talker.py": _PREFIX.format("data='hello'")}),
         Example("unpacked arguments", {"talker.py": _PREFIX.format("**fields, check_fields=True")}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
 from scaffold.api.cmake import uses_ament
 
 _MANIFEST = (
@@ -29,6 +29,7 @@ class BuildTypeDiffers(Rule):
 
     code = "PX013"
     name = "build-type-differs"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "a setup.py and ament_python",

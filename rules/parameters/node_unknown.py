@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
 from scaffold.api.launch import names_alike, node_names, use_of
 from scaffold.api.parameters import ParameterFile, own_nodes, parameter_file, parameter_paths
 
@@ -38,6 +38,7 @@ class NodeUnknown(Rule):
 
     code = "PF003"
     name = "node-unknown"
+    effect = Effect.IGNORED
     examples = (
         Example(
             "the name of the node, all nodes, a node of another package",

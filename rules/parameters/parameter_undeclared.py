@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api import (
+    Diagnostic,
+    Effect,
+    Example,
+    Package,
+    Report,
+    Rule,
+    closest_name,
+    listed_names,
+)
 from scaffold.api.launch import StartedNode, is_loaded, nodes_for, started_nodes, use_of
 from scaffold.api.parameters import Declared, declared_by, parameter_file, parameter_paths
 
@@ -29,6 +38,7 @@ class ParameterUndeclared(Rule):
 
     code = "PF004"
     name = "parameter-undeclared"
+    effect = Effect.IGNORED
     examples = (
         Example(
             "declared", {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")}

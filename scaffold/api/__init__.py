@@ -8,7 +8,7 @@ from __future__ import annotations
 from scaffold.check.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
 from scaffold.check.rule import Example, Report, Rule
 from scaffold.check.type_rules import TypeRule
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.facts import fact
 from scaffold.model.package import Package
@@ -20,6 +20,7 @@ __all__ = [
     "CreateFile",
     "Diagnostic",
     "Edit",
+    "Effect",
     "Example",
     "Fix",
     "LaunchRule",

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 from scaffold.check.rule import Example, Rule
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -33,6 +33,7 @@ class UnparsableFile(_Internal):
 
     code = "SC001"
     name = "unparsable-file"
+    effect = Effect.STOPS_BUILD
     other_severities: ClassVar[dict[Severity, str]] = {
         Severity.WARNING: "the file is not UTF-8, which CMake and compilers do not mind: "
         "only this tool cannot check it"
@@ -125,6 +126,7 @@ class PackageOfRos1(_Internal):
 
     code = "SC007"
     name = "package-of-ros1"
+    effect = Effect.SPOILS_INSTALL
 
 
 class LicenseNotAllowed(_Internal):

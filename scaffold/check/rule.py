@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from scaffold import distributions
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.edits import Fix, Safety
 from scaffold.source import Location
 
@@ -116,6 +116,13 @@ class Example:
         return tuple(report.within(self.files) for report in self._reports)
 
 
+_EFFECTS = {
+    "CM": Effect.SPOILS_INSTALL,
+    **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
+}
+"""What flaws of an area do, of those where most do not stop a program."""
+
+
 class Rule:
     """A rule; its docstring says what the flaw is, **Why.**, **Fix.** and **Source.**."""
 
@@ -126,6 +133,8 @@ class Rule:
     severity: ClassVar[Severity] = Severity.ERROR
     other_severities: ClassVar[Mapping[Severity, str]] = {}
     """Severities that a diagnostic may have instead, each with the condition for it."""
+    effect: ClassVar[Effect | None] = None
+    """What the flaw does, where it is not what most flaws of the area do: see ``usual_effect``."""
     release_refused: ClassVar[str] = ""
     """Why no release is made of what has this flaw: then it is an error with `check --release`."""
     is_fixed_for_all: ClassVar[bool] = False
@@ -139,6 +148,13 @@ class Rule:
     since: ClassVar[str] = "0.1"
     """The version of ros2-scaffold that had it first."""
     examples: ClassVar[tuple[Example, ...]]
+
+    @classmethod
+    def usual_effect(cls) -> Effect:
+        """Return what the flaw does, which decides how early a screen shows it."""
+        if cls.effect is not None:
+            return cls.effect
+        return _EFFECTS.get(cls.code[:2], Effect.STOPS_PROGRAM)
 
     @classmethod
     def fix_safety(cls) -> Safety | None:

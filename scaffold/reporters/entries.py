@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from scaffold.ament.codes import STYLE
+from scaffold.check import registry
 from scaffold.check.result import Result
-from scaffold.diagnostic import Diagnostic, Severity
+from scaffold.check.rule import Rule
+from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 from scaffold.reporters.paths import shown
@@ -16,18 +18,6 @@ from scaffold.reporters.paths import shown
 SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.INFO)
 """Worst first."""
 
-_FIRST = (
-    *("E9", "SC001", "CM001", "CM003", "CM005", "CM011", "CM016", "CM022", "CM023", "CM024"),
-    *("CM025", "CM031", "CM063", "CM064", "CM065", "CM092", "CM094", "CM102", "CM104", "CM107"),
-    *("CM108", "CM111", "LY004", "PX013"),
-)
-"""Codes of what keeps a file from being read, or a package from being built."""
-_WITHOUT_EFFECT = ("LF016", "LF065", "LF084", "MS003", "PF003", "PF004")
-"""Codes of what is ignored while the program goes on."""
-_LAST = ("PX", "LY", "NM", "TS")
-"""Areas whose findings stop no build and no program: the manifest, files, names, tests."""
-_LATER = ("CM", "SC007", *_LAST)
-"""Areas whose findings do not crash a running program, and packages that are for ROS 1 alone."""
 _SET_ASIDE = re.compile(
     r"(?:.*[_ .-])?(?:archived?|archives|attic|backups?|bak|deprecated|junk|legacy|obsolete|old"
     r"|trash|unused)|[(\[](?:old|unused|deprecated)[)\]].*",
@@ -111,7 +101,8 @@ def in_order(entries: Sequence[Entry]) -> list[Entry]:
 
     What is in a directory such as ``archive`` or ``old`` comes after all others.
     """
-    return sorted(entries, key=_rank)
+    rules = registry.loaded()
+    return sorted(entries, key=lambda entry: _rank(entry, rules))
 
 
 def is_style(diagnostic: Diagnostic) -> bool:
@@ -127,22 +118,21 @@ def _is_set_aside(entry: Entry) -> bool:
     )
 
 
-def _rank(entry: Entry) -> tuple[int, bool, bool, int]:
+def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, bool, Effect]:
     level = SEVERITIES.index(entry.severity)
-    return level, is_style(entry.first), _is_set_aside(entry), _weight(entry.first)
+    return level, is_style(entry.first), _is_set_aside(entry), _effect(entry.first, rules)
 
 
-def _weight(first: Diagnostic) -> int:
-    """Return how late a finding comes among those of its severity."""
-    is_later = first.code.startswith(_LATER)
+def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
+    """Return what a finding does, as its rule declares it."""
+    code = first.code
+    if code in STYLE:  # errors among them: the class E9 of pycodestyle is of what no parser reads
+        return Effect.STOPS_BUILD if code.startswith("E9") else Effect.STOPS_PROGRAM
+    rule = rules.get(code)
+    effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM
     if first.cause.startswith(DEPENDENCY):
-        return 5 if is_later else 4
-    if first.code.startswith(_FIRST):
-        return 0
-    if first.code.startswith(_LAST):
-        return 5
-    if _TESTS.search(first.location.path):
-        return 3
-    if first.code in _WITHOUT_EFFECT:
-        return 2
-    return 3 if is_later else 1
+        is_run = effect in {Effect.STOPS_PROGRAM, Effect.IGNORED}
+        return Effect.MISSING_ELSEWHERE if is_run else Effect.DECLARED_WRONG
+    if effect in {Effect.STOPS_PROGRAM, Effect.IGNORED} and _TESTS.search(first.location.path):
+        return Effect.SPOILS_INSTALL
+    return effect

@@ -6,11 +6,19 @@ from pathlib import Path
 
 import pytest
 
+from scaffold.check import registry
 from scaffold.check.result import Result
+from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.reporters.entries import by_cause, in_order, merged
 from scaffold.source import Location
+
+
+@pytest.fixture(autouse=True, scope="module")
+def rules() -> None:
+    """Load what declares the effects of flaws."""
+    registry.load(content.roots("rules"))
 
 
 def _result(directory: str, code: str, path: str, severity: Severity = Severity.ERROR) -> Result:
