@@ -1,0 +1,105 @@
+"""Angles about the vertical axis that are taken for parts of quaternions, and the other way."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api.messages import MessageTypes
+
+Flaw = tuple[ast.expr, str]
+"""The place, and what is wrong there."""
+_WORDS = frozenset({"yaw", "theta", "heading", "psi"})
+"""Parts of the names of such angles."""
+
+
+def flaws(types: MessageTypes) -> Iterator[Flaw]:
+    """Yield angles that are written into a quaternion, or read from one, as they are."""
+    for item in types.assigned:
+        if (item.owner.name, item.field.name) == ("geometry_msgs/msg/Quaternion", "z"):
+            problem = _written_problem(types, item.holder, item.value)
+            if problem:
+                yield item.value, problem
+    for assigned in types.module.walk(ast.Assign):
+        match assigned:
+            case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (
+                _is_angle(name)
+            ):
+                problem = _read_problem(types, value)
+                if problem:
+                    yield value, problem
+
+
+def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
+    """Return what is wrong with what becomes z of a quaternion; empty if nothing."""
+    if _is_angle(z):
+        text = types.module.text(z)
+        return f"z of a quaternion is no angle: write z=sin({text} / 2.0) and w=cos({text} / 2.0)"
+    angle = _whole_angle(types, holder, z)
+    if angle:
+        return f"a quaternion takes half the angle: write sin({angle} / 2.0) and cos({angle} / 2.0)"
+    return ""
+
+
+def _is_angle(node: ast.expr) -> bool:
+    """Tell whether an expression is a yaw by its name."""
+    match node:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return not _WORDS.isdisjoint(re.split(r"[_\d]+", name.lower()))
+        case ast.Call(args=[value], func=ast.Name(id="float") | ast.Attribute(attr="radians")):
+            return _is_angle(value)
+    return False
+
+
+def _whole_angle(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
+    """Return the yaw whose sine and cosine are z and w, without being halved; empty if none."""
+    angle = _argument_of(types, z, "sin")
+    if angle is None or not _is_angle(angle):
+        return ""
+    if isinstance(types.facts.evaluator.single_value(angle), ast.BinOp):
+        return ""
+    text = types.module.text(angle)
+    function = types.module.enclosing_function(holder)
+    for item in types.assigned:
+        if item.field.name == "w" and types.module.text(item.holder) == types.module.text(holder):
+            other = _argument_of(types, item.value, "cos")
+            if other is not None and types.module.text(other) == text:
+                return text if types.module.enclosing_function(item.holder) is function else ""
+    return ""
+
+
+def _argument_of(types: MessageTypes, node: ast.expr, function: str) -> ast.expr | None:
+    """Return the argument of a function of math or numpy."""
+    match node:
+        case ast.Call(args=[argument]):
+            name = types.module.qualified_name(node.func) or ""
+            return argument if name in {f"math.{function}", f"numpy.{function}"} else None
+    return None
+
+
+def _read_problem(types: MessageTypes, value: ast.expr) -> str:
+    """Return what is wrong with a yaw that is read from a quaternion; empty if nothing."""
+    match value:
+        case ast.Attribute(attr="z", value=holder) if _is_quaternion(types, holder):
+            text = types.module.text(holder)
+            return (
+                "z of a quaternion is no angle: write "
+                f"2.0 * math.atan2({text}.z, {text}.w), or euler_from_quaternion()"
+            )
+        case ast.Call(
+            args=[ast.Attribute(attr="z", value=first), ast.Attribute(attr="w", value=second)]
+        ) if types.module.text(first) == types.module.text(second):
+            name = types.module.qualified_name(value.func)
+            is_half = name in {"math.atan2", "numpy.arctan2"} and _is_quaternion(types, first)
+            return "this is half of the angle: multiply by 2.0" if is_half else ""
+    return ""
+
+
+def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:
+    """Tell whether an expression is a quaternion: by its type, or as what messages call one."""
+    owner = types.type_of(node)
+    if owner is not None:
+        return owner.name == "geometry_msgs/msg/Quaternion"
+    value = types.facts.evaluator.single_value(node)
+    return isinstance(value, ast.Attribute) and value.attr in {"orientation", "rotation"}

@@ -1,0 +1,92 @@
+"""Encodings of images, and how many bytes their rows have."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api.messages import MessageTypes
+
+Flaw = tuple[ast.expr, str]
+"""The place, and what is wrong there."""
+_COLORS = ("rgb", "rgba", "bgr", "bgra")
+_BAYER = ("rggb", "bggr", "gbrg", "grbg")
+_ENCODINGS = frozenset(
+    {f"{name}{bits}" for name in (*_COLORS, "mono") for bits in (8, 16)}
+    | {f"bayer_{name}{bits}" for name in _BAYER for bits in (8, 16)}
+    | {f"{kind}C{count}" for kind in ("8U", "8S", "16U", "16S", "32S") for count in (1, 2, 3, 4)}
+    | {f"{kind}C{count}" for kind in ("32F", "64F") for count in (1, 2, 3, 4)}
+    | {"yuv422", "uyvy", "yuv422_yuy2", "yuyv", "nv21", "nv24", "passthrough"}
+)
+_SHORT = {"bgr": "bgr8", "rgb": "rgb8", "rgba": "rgba8", "bgra": "bgra8"} | dict.fromkeys(
+    ("mono", "gray", "grey", "gray8", "grayscale", "greyscale"), "mono8"
+)
+_OF_CV_BRIDGE = frozenset({"imgmsg_to_cv2", "compressed_imgmsg_to_cv2", "cv2_to_imgmsg"})
+
+
+def flaws(types: MessageTypes) -> Iterator[Flaw]:
+    """Yield encodings that cv_bridge does not know, and rows that are too short."""
+    for item in types.assigned:
+        key = (item.owner.name, item.field.name)
+        problem = ""
+        if key == ("sensor_msgs/msg/Image", "encoding"):
+            problem = _encoding_problem(types, item.value, "cv_bridge raises an error")
+        elif key == ("sensor_msgs/msg/Image", "step"):
+            problem = _step_problem(types, item.holder, item.value)
+        if problem:
+            yield item.value, problem
+    if "cv_bridge" in types.module.imports_by_root:
+        for call in types.module.walk(ast.Call):
+            yield from _call_flaws(types, call)
+
+
+def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:
+    """Yield encodings that a call of cv_bridge does not know."""
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
+    if name not in _OF_CV_BRIDGE:
+        return
+    words = (word.value for word in call.keywords if word.arg in {"desired_encoding", "encoding"})
+    for node in (*call.args[1:2], *words):
+        problem = _encoding_problem(types, node, "CvBridgeError")
+        if problem:
+            yield node, problem
+
+
+def _encoding_problem(types: MessageTypes, node: ast.expr, what_happens: str) -> str:
+    value = types.facts.evaluator.evaluate(node)
+    near = _meant(value) if isinstance(value, str) else ""
+    return f"unknown encoding {value!r}: {what_happens}; write {near!r}" if near else ""
+
+
+def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
+    """Return what to write for a row with as many bytes as pixels, although a pixel has several."""
+    module = types.module
+    name = module.text(holder)
+    function = module.enclosing_function(holder)
+    given = {
+        item.field.name: item.value
+        for item in types.assigned
+        if module.text(item.holder) == name and module.enclosing_function(item.holder) is function
+    }
+    encoding = types.facts.evaluator.evaluate(given["encoding"]) if "encoding" in given else ""
+    if not isinstance(encoding, str) or "width" not in given:
+        return ""
+    encoding = encoding.lower()
+    width = module.text(given["width"])
+    count = len(encoding.rstrip("168")) if encoding.rstrip("168") in _COLORS else 1
+    count *= 2 if encoding.endswith("16") else 1
+    if count > 1 and module.text(step) in {width, f"{name}.width"}:
+        return f"step is in bytes: a row of {encoding!r} has {count} * {width}"
+    return ""
+
+
+def _meant(encoding: str) -> str:
+    """Return the encoding that an unknown one stands for; empty if it may be one of its own."""
+    if encoding in _ENCODINGS or re.fullmatch(r"(8|16|32|64)[USF]C\d+", encoding):
+        return ""
+    known = {name.lower(): name for name in _ENCODINGS}
+    lower = encoding.lower().replace("-", "").replace(" ", "")
+    letters = sorted(lower)
+    near = (name for name in sorted(known) if sorted(name) == letters)
+    return _SHORT.get(lower) or known.get(lower) or next(near, "")
