@@ -778,6 +778,13 @@ def test_every_answer_alone(kind: str, question: Question) -> None:
         judged(wanted)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("distro", ["humble", "rolling"])
+def test_comments_for_learners_fit_into_every_distribution(kind: str, distro: str) -> None:
+    part = {"kind": kind}
+    assert judged({"package": "talker", "comments": "tutorial", "distro": distro, "add": [part]})
+
+
 @pytest.mark.parametrize("kind", [name for name in KINDS if TEMPLATES[name].role is Role.NODE])
 def test_a_node_may_have_the_name_of_a_class_that_its_module_imports(kind: str) -> None:
     made = judged({"package": "talker", "add": [{"kind": kind, "node_name": "first"}]})
