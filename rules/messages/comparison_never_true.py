@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.api.messages import MessageTypes
-from scaffold.api.python import is_for_ros1
 
 _NODE = (
     "from diagnostic_msgs.msg import DiagnosticStatus\nfrom nav_msgs.msg import OccupancyGrid\n"
@@ -82,7 +81,7 @@ class ComparisonNeverTrue(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for node in types.module.walk(ast.Compare):
-            if len(node.ops) != 1 or is_for_ros1(types.module, node):
+            if len(node.ops) != 1:
                 continue
             left, right = node.left, node.comparators[0]
             problem = _nan_problem(types, node)

@@ -9,7 +9,6 @@ from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
-from scaffold.api.python import is_for_ros1
 
 _CLASS_PARTS = frozenset({"Request", "Response", "Event", "Goal", "Result", "Feedback", "Impl"})
 _NODE = (
@@ -128,7 +127,7 @@ class MessageFieldUnknown(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for node in types.module.walk(ast.Attribute):
             message = _flaw(types, node)
-            if message and not types.is_tolerated(node) and not is_for_ros1(types.module, node):
+            if message and not types.is_tolerated(node):
                 start, end = types.module.span(node)
                 at = types.module.source.location(max(start, end - len(node.attr)), end)
                 cause = f"fields of {message.partition(' has no ')[0]}"

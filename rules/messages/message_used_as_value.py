@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.api.messages import MessageClass, MessageTypes
-from scaffold.api.python import is_for_ros1, is_handled
+from scaffold.api.python import is_handled
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Float32MultiArray, String\n\n\n"
@@ -203,7 +203,7 @@ class MessageUsedAsValue(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         for node, problem in _problems(types):
-            if is_for_ros1(types.module, node) or types.is_tolerated(node):
+            if types.is_tolerated(node):
                 continue
             if not is_handled(types.module, node, "TypeError"):
                 yield self.report(types.module.location(node), problem)

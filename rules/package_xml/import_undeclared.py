@@ -70,6 +70,85 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "what the package of a declared library depends on",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>python3-fastapi</exec_depend>\n"
+                "  <exec_depend>python3-flask-socketio</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/page.py": "import fastapi\nimport flask\nimport jinja2\nimport pydantic\n",
+            },
+        ),
+        Example(
+            "switched off by a constant; in a branch for ROS 1",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import os\n\nimport rclpy\n\nUSE_GUI = False\n"
+                "ros_version = os.environ['ROS_VERSION']\n"
+                "if USE_GUI:\n    import PyQt5\n"
+                "if ros_version == '1':\n    import numpy\n",
+            },
+        ),
+        Example(
+            "a switch that a function turns on",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\n\nUSE_GUI = False\n\n\ndef start():\n"
+                "    global USE_GUI\n    USE_GUI = True\n\n\ndef show():\n"
+                "    if USE_GUI:\n        import trimesh\n\n        print(trimesh)\n",
+            },
+            Report(
+                "talker/node.py:13:9",
+                "imports 'trimesh', which no dependency in package.xml provides; "
+                "add <exec_depend>python3-trimesh-pip</exec_depend>",
+                fix="declare python3-trimesh-pip",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <exec_depend>python3-trimesh-pip</exec_depend>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
+            "declared for the build alone",
+            {
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <build_depend>std_msgs</build_depend>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
+            },
+            Report(
+                "talker/node.py:2:1",
+                "imports 'std_msgs', which line 3 of package.xml declares for the "
+                "build alone: <build_depend> does not install it where the package "
+                "runs; add <exec_depend>std_msgs</exec_depend>",
+                fix="declare std_msgs",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n'
+                "  <name>talker</name>\n"
+                "  <build_depend>std_msgs</build_depend>\n"
+                "  <exec_depend>rclpy</exec_depend>\n"
+                "  <exec_depend>std_msgs</exec_depend>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
             "messages that only the tests have",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
@@ -344,10 +423,21 @@ class ImportUndeclared(Rule):
             tag = "test_depend" if need.for_tests else "exec_depend"
             tag = "run_depend" if manifest.format == 1 and tag == "exec_depend" else tag
             needed = declaring(package, tag, need.keys[0])
-            message = f"imports {need.module!r}, which no dependency in package.xml provides; "
-            message += needed.advice
+            message = f"imports {need.module!r}, which {_why(package, need)}; {needed.advice}"
             cause = f"dependency {need.keys[0]}"
             yield self.report(need, message, needed.fix, severity=severity, cause=cause)
+
+
+def _why(package: Package, need: requirements.Requirement) -> str:
+    """Return why a package may be missing where the import runs."""
+    for dependency in package.manifest.dependencies:
+        if dependency.name in need.keys and dependency.kind.startswith("build"):
+            line = dependency.location.line
+            return (
+                f"line {line} of package.xml declares for the build alone: <{dependency.kind}> "
+                "does not install it where the package runs"
+            )
+    return "no dependency in package.xml provides"
 
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:

@@ -12,7 +12,6 @@ from scaffold.model.python.facts import (
 from scaffold.model.python.guards import (
     caught_around,
     conditions_on,
-    is_for_ros1,
     is_guarded_by,
     is_handled,
 )
@@ -43,7 +42,6 @@ __all__ = [
     "conditions_on",
     "exports_of",
     "imports_by_path",
-    "is_for_ros1",
     "is_generator",
     "is_guarded_by",
     "is_handled",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from scaffold.model.released import is_released
 
@@ -191,6 +191,26 @@ _OTHER_MODULES = {
     "zmq": "python3-zmq",
 }
 
+_BROUGHT = {
+    "python3-fastapi": "python3-pydantic",
+    "python3-flask": "python3-jinja2 python3-click",
+    "python3-flask-cors": "python3-flask",
+    "python3-flask-socketio": "python3-flask",
+    "python3-flask-sqlalchemy": "python3-flask",
+    "python3-geopandas": "python3-pandas python3-pyproj python3-shapely",
+    "python3-matplotlib": "python3-dateutil python3-numpy python3-packaging python3-pil",
+    "python3-pandas": "python3-dateutil python3-numpy",
+    "python3-pydantic": "python3-typing-extensions",
+    "python3-opencv": "python3-numpy",
+    "python3-scipy": "python3-numpy",
+    "python3-shapely": "python3-numpy",
+    "python3-skimage": "python3-networkx python3-numpy python3-packaging python3-pil python3-scipy",
+    "python3-sklearn": "python3-numpy python3-scipy",
+    "python3-transforms3d": "python3-numpy",
+    "python3-uvicorn": "python3-click",
+}
+"""Libraries of the system whose packages in Ubuntu depend on others with a key of their own."""
+
 ROS1_PACKAGES = {
     "actionlib": "rclpy or rclcpp_action",
     "catkin": "ament_cmake",
@@ -253,6 +273,21 @@ def keys_of_module(root: str) -> tuple[str, ...]:
     if root in _OTHER_MODULES:
         return tuple(_OTHER_MODULES[root].split())
     return (root,) if root in ROS_PACKAGES else ()
+
+
+def keys_brought(keys: Iterable[str]) -> set[str]:
+    """Return the keys of the libraries that come along with declared ones.
+
+    Args:
+        keys: What a manifest declares.
+    """
+    result: set[str] = set()
+    pending = [*keys]
+    for key in pending:  # grows on the way
+        brought = {*_BROUGHT.get(key, "").split()} - result
+        result |= brought
+        pending += sorted(brought)
+    return result
 
 
 def module_keys() -> frozenset[str]:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from scaffold.model.catalog import ROS1_PACKAGES, keys_of_module
+from scaffold.model.catalog import ROS1_PACKAGES, keys_brought, keys_of_module
 from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
@@ -115,7 +115,8 @@ def _declared(package: Package, for_tests: bool) -> Declared:  # noqa: FBT001  a
             brought = _run_names(neighbour)
             along |= brought
             pending += sorted(brought)
-    return Declared(direct, along | transitive_dependencies(along))
+    along |= transitive_dependencies(along)
+    return Declared(direct, along | keys_brought(direct | along))
 
 
 def is_shipped(package: Package, path: str) -> bool:

@@ -22,7 +22,9 @@ _ORDERS: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
 }
-ASKED = (VARIABLE, "version_info", "hexversion")
+_ROS_VERSION = "ROS_VERSION"
+_OF_ENVIRONMENT = (VARIABLE, _ROS_VERSION)
+ASKED = (*_OF_ENVIRONMENT, "ros_version", "version_info", "hexversion")
 """What a file mentions that asks for the distribution, or for the Python that it brings."""
 _DEEPEST = 20
 """The most names that a condition is followed through."""
@@ -117,19 +119,19 @@ def _only_value(module: PythonModule, test: ast.expr) -> ast.expr | None:
 
 
 class _DistributionEvaluator(Evaluator):
-    """Knows the variable ROS_DISTRO and the version of Python, and notes what comes from them."""
+    """Knows ROS_DISTRO, ROS_VERSION and the version of Python; notes what comes from them."""
 
     def call(self, node: ast.Call) -> object:
         """Return the value of the variable, or what a method says of a text."""
         match node:
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if (
-                key == VARIABLE and self.module.qualified_name(func) == _GETTER
+                key in _OF_ENVIRONMENT and self.module.qualified_name(func) == _GETTER
             ):
-                return self._asked()
+                return self._asked(key)
             case ast.Call(
                 func=ast.Attribute(attr="get", value=holder), args=[ast.Constant(value=key), *_]
-            ) if key == VARIABLE and self._is_environment(holder):
-                return self._asked()
+            ) if key in _OF_ENVIRONMENT and self._is_environment(holder):
+                return self._asked(key)
             case ast.Call(
                 func=ast.Attribute(attr="startswith" | "endswith" as method, value=holder),
                 args=[argument],
@@ -148,7 +150,7 @@ class _DistributionEvaluator(Evaluator):
             case ast.Call(func=ast.Attribute(attr="perform", value=holder)) if (
                 self._is_substitution(holder)
             ):
-                return self._asked()
+                return self._asked(VARIABLE)
         for argument in node.args:
             self.evaluate(argument)  # for its notes
         return UNKNOWN
@@ -208,15 +210,17 @@ class _DistributionEvaluator(Evaluator):
         self.note("sys.version_info")
         return value
 
-    def _asked(self) -> str:
-        self.note(VARIABLE)
-        return target().name
+    def _asked(self, variable: object) -> str:
+        self.note(str(variable))
+        return "2" if variable == _ROS_VERSION else target().name
 
     def _subscript(self, node: ast.Subscript) -> object:
         match node:
-            case ast.Subscript(value=value, slice=ast.Constant(value=key)) if key == VARIABLE:
+            case ast.Subscript(value=value, slice=ast.Constant(value=key)) if (
+                key in _OF_ENVIRONMENT
+            ):
                 if self._is_environment(value):
-                    return self._asked()
+                    return self._asked(key)
             case ast.Subscript(
                 value=holder,
                 slice=ast.Slice(lower=None, upper=ast.Constant(value=int(end)), step=None),
@@ -245,7 +249,10 @@ class _DistributionEvaluator(Evaluator):
             if self._is_environment(right):
                 return self._is_set(left, compare)
             return self._contained(self.evaluate(left), compare, self.evaluate(right))
-        first, second, kind = self.evaluate(left), self.evaluate(right), type(compare)
+        first, second = self.evaluate(left), self.evaluate(right)
+        if first is UNKNOWN and self._is_ros_version(left):
+            first = self._ros_version_as(second)
+        kind = type(compare)
         result: object = None
         if isinstance(second, RunningVersion):
             result = second.compare(SWAPPED.get(kind, kind), first)
@@ -256,6 +263,22 @@ class _DistributionEvaluator(Evaluator):
                 compared = COMPARISONS.get(kind) or _ORDERS.get(kind)
                 result = None if compared is None else compared(first, second)
         return UNKNOWN if result is None else result
+
+    def _is_ros_version(self, node: ast.expr) -> bool:
+        """Tell whether a name, or the argument of a conversion, is called ``ros_version``."""
+        match node:
+            case ast.Call(args=[argument], keywords=[]):
+                return self._is_ros_version(argument)
+            case ast.Name(id=name) | ast.Attribute(attr=name):
+                return name.upper() == _ROS_VERSION
+        return False
+
+    def _ros_version_as(self, other: object) -> object:
+        """Return the version of ROS in the type of what it is compared with: 1 or '1'."""
+        if str(other) not in {"1", "2"} or not isinstance(other, int | str):
+            return UNKNOWN
+        self.note(_ROS_VERSION)
+        return type(other)(2)
 
     def _is_set(self, name: ast.expr, compare: ast.cmpop) -> object:
         """Return whether a variable is in the environment."""

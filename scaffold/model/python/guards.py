@@ -348,23 +348,3 @@ def _left_before(module: PythonModule, child: ast.AST, parent: ast.AST) -> Itera
             case ast.Expr(value=ast.Call() as call) | ast.Assign(value=ast.Call() as call):
                 if module.qualified_name(call.func) == IMPORT_OR_SKIP:
                     yield Condition(call, needed=True, is_of_leaving=True)
-
-
-def is_for_ros1(module: PythonModule, node: ast.AST) -> bool:
-    """Tell whether a node runs with ROS 1 only: ``if ROS_VERSION == 1:``."""
-    child = node
-    for parent in module.parents(node):
-        if isinstance(parent, ast.If) and child is not parent.test:
-            version = _asks_for_version(parent.test)
-            is_body = module.index.place(child)[0] == "body"
-            if version is not None and version == ("1" if is_body else "2"):
-                return True
-        child = parent
-    return False
-
-
-def _asks_for_version(test: ast.expr) -> str | None:
-    match test:
-        case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=value)]):
-            return str(value) if "ROS_VERSION" in ast.unparse(left) else None
-    return None

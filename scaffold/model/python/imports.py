@@ -113,7 +113,7 @@ class _Guards:
                         guarded = True
                         in_body = self._module.index.place(child)[0] == "body"
                         type_checking = type_checking or in_body
-                    elif self._asks_platform(parent.test) or _is_never_run(parent, child):
+                    elif self._asks_platform(parent.test) or self._is_never_run(parent, child):
                         guarded = True
                     else:
                         conditional = True
@@ -140,6 +140,15 @@ class _Guards:
             if self._module.qualified_name(call.func) == IMPORT_OR_SKIP
         )
 
+    def _is_never_run(self, node: ast.If, child: ast.AST) -> bool:
+        """Tell whether a branch is switched off, by a constant of the file, or is for ROS 1."""
+        from scaffold.model.python.distribution_conditions import holds
+
+        is_body = child in node.body
+        return _is_switched(self._module, node.test, not is_body) or (
+            holds(self._module, node.test) is (not is_body)
+        )
+
     def _asks_platform(self, test: ast.expr) -> bool:
         for node in ast.walk(test):
             if isinstance(node, ast.Name | ast.Attribute):
@@ -149,9 +158,18 @@ class _Guards:
         return False
 
 
-def _is_never_run(node: ast.If, child: ast.AST) -> bool:
-    """Tell whether code is in the body of ``if False:``."""
-    return isinstance(node.test, ast.Constant) and not node.test.value and child in node.body
+def _is_switched(module: PythonModule, test: ast.expr, wanted: bool) -> bool:  # noqa: FBT001
+    """Tell whether a condition is a constant, or the name of one, that is true or false."""
+    match test:
+        case ast.Constant():
+            return bool(test.value) is wanted
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return _is_switched(module, operand, not wanted)
+        case ast.Name(id=name):
+            scope, bindings = module.index.lookup(name, test) or (None, ())
+            value = bindings[0].value if len(bindings) == 1 and scope is module.tree else None
+            return isinstance(value, ast.Constant) and bool(value.value) is wanted
+    return False
 
 
 def is_main_test(test: ast.expr) -> bool:
