@@ -255,7 +255,12 @@ def _stubs_of(package: Package, module: str) -> Mapping[str, str]:
     other = package if package.name == root else package.workspace.get(root)
     if other is not None:
         return other.remember("stubs", lambda: stubs.interface_stub_files(other))
-    return _bundled(distributions.target())
+    return _bundled_of(distributions.target(), root)
+
+
+@lru_cache(maxsize=16)
+def _bundled_of(distribution: Distribution, root: str) -> Mapping[str, str]:
+    return stubs.stubs_of(distribution, root)
 
 
 @lru_cache(maxsize=1)

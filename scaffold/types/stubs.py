@@ -36,24 +36,28 @@ INCOMPLETE = frozenset(
 """The libraries whose stubs leave modules or names out."""
 
 
-def library_stubs(distribution: Distribution) -> dict[str, str]:
+def library_stubs(distribution: Distribution, library: str = "") -> dict[str, str]:
     """Return the stubs of the libraries of a distribution, by relative path.
 
     Those of Jazzy are complete; of others there are those that differ, and a list of those that
     are gone.
+
+    Args:
+        distribution: The one.
+        library: The importable package to which they are limited.
     """
-    files = _stubs_below(distributions.JAZZY.path(_STUBS))
+    files = _stubs_below(distributions.JAZZY.path(_STUBS), library)
     if distribution.place != distributions.JAZZY.place:
         with open(distribution.path(_REMOVED), encoding="utf-8") as file:
             for line in file:
                 files.pop(line.strip(), None)
-        files.update(_stubs_below(distribution.path(_STUBS)))
+        files.update(_stubs_below(distribution.path(_STUBS), library))
     return dict(sorted(files.items()))
 
 
-def _stubs_below(top: str) -> dict[str, str]:
+def _stubs_below(top: str, library: str) -> dict[str, str]:
     files: dict[str, str] = {}
-    for directory, _, names in os.walk(top):
+    for directory, _, names in os.walk(os.path.join(top, library)):
         for name in names:
             if not name.endswith(".pyi"):
                 continue
@@ -83,6 +87,18 @@ def stub_files(
         for path, text in package_stubs(definitions, package).items():
             files.setdefault(path, text)
     return files
+
+
+def stubs_of(distribution: Distribution, name: str) -> dict[str, str]:
+    """Return those of `stub_files` that are of one importable package."""
+    from scaffold.model.interfaces.definitions import Definitions
+
+    with distributions.targeting(distribution):
+        definitions = Definitions.around(prefixes=())
+    is_known = name in definitions.packages()
+    made = package_stubs(definitions, name) if is_known else {}
+    own = {path: text for path, text in made.items() if path.startswith(f"{name}/")}
+    return own | library_stubs(distribution, name)
 
 
 def interface_stub_files(package: Package) -> dict[str, str]:
