@@ -70,6 +70,13 @@ class InstalledPathMissing(Rule):
                 ".gitignore": "/built/\n",
             },
         ),
+        Example(
+            "a file that git ignores in one directory",
+            {
+                "CMakeLists.txt": _INSTALL.format("PROGRAMS simulator/controller"),
+                "simulator/.gitignore": "/controller\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:

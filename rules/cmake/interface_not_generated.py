@@ -65,6 +65,20 @@ class InterfaceNotGenerated(Rule):
             ),
         ),
         Example(
+            "nothing is generated, and what uses it is a comment",
+            {
+                "package.xml": "<package><name>my_msgs</name></package>\n",
+                "CMakeLists.txt": "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n",
+                "msg/Beat.msg": "int32 count\n",
+                "src/talk.cpp": "// using my_msgs::msg::Beat;\nint main() { return 0; }\n",
+            },
+            Report(
+                "CMakeLists.txt:1:1",
+                "nothing generates msg/Beat.msg: rosidl_generate_interfaces is not called",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "in a Python package",
             {
                 "package.xml": "<package><name>robot</name><export>"

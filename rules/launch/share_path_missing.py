@@ -88,6 +88,35 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a path that only went into what nothing starts",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    config = os.path.join(share, 'config', 'lights.yaml')\n"
+                    "    config = ParameterFile(param_file=config, allow_substs=True)\n"
+                    "    lights = Node(package='talker', executable='light',\n"
+                    "                  parameters=[config])\n    return",
+                ),
+            },
+        ),
+        Example(
+            "a path that is read at once",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    path = os.path.join(share, 'config', 'lights.yaml')\n"
+                    "    lights = open(path).read()\n    return",
+                ),
+            },
+            Report(
+                "launch/a.launch.py:10:12",
+                "share/talker/config/lights.yaml does not exist: talker has no such "
+                "file; closest: config/talker.yaml",
+            ),
+        ),
+        Example(
             "a file that the node writes",
             {
                 **_FILES,

@@ -81,6 +81,24 @@ class SpinInCallback(RclpyRule):
             },
         ),
         Example(
+            "a spin until the first message is there, in what starts the callbacks",
+            {
+                "caller.py": _NODE.format("future.add_done_callback(self.answer)")
+                .replace(
+                    "        self.create_timer(1.0, self.ask)\n",
+                    "        self.count = 0\n"
+                    "        self.client = self.create_client(Trigger, 'reset')\n",
+                )
+                .replace(
+                    "    def ask(self):\n",
+                    "    def on_state(self, message):\n        self.count += 1\n\n"
+                    "    def ask(self):\n        while self.count < 1:\n"
+                    "            rclpy.spin_once(self)\n",
+                )
+                .replace("        pass\n", "        self.ask()\n")
+            },
+        ),
+        Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
             Report(
@@ -147,7 +165,7 @@ class SpinInCallback(RclpyRule):
                 spun = file.evaluator.self_class(node)
                 if spun is None or (called and called not in file.related_classes(spun)):
                     continue  # another node than that of the callback
-                if _is_last(file, function):
+                if _is_last(file, function) or _waits_once(file, call.call):
                     continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(call, f"{message}: no callback runs after that")
@@ -179,6 +197,36 @@ def _is_last(file: RclpyFile, function: ast.AST) -> bool:
         if file.function_of(attribute) not in start
     ]
     return bool(calls) and all(_ends_after(file, call) for call in calls)
+
+
+def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether a spin waits for an attribute that stays set, such as a count of messages.
+
+    Whoever was there before the callback may have waited for it already.
+    """
+    loop = next((x for x in file.module.parents(call) if isinstance(x, ast.While)), None)
+    name = getattr(file.function_of(call), "name", "")
+    if loop is None or any(isinstance(x, ast.Call) for x in ast.walk(loop.test)):
+        return False
+    is_called = all(
+        isinstance(parent := file.module.parent(use), ast.Call) and parent.func is use
+        for use in file.module.index.attributes(name)
+    )
+    awaited = {x.attr for x in ast.walk(loop.test) if isinstance(x, ast.Attribute)}
+    return is_called and bool(awaited) and all(_only_counts(file, item) for item in awaited)
+
+
+def _only_counts(file: RclpyFile, name: str) -> bool:
+    """Tell whether an attribute only grows once the node is made."""
+    start = {executed.function for executed in in_constructors(file)}
+    stores = [
+        file.module.parent(use)
+        for use in file.module.index.attributes(name)
+        if isinstance(use.ctx, ast.Store) and file.function_of(use) not in start
+    ]
+    return bool(stores) and all(
+        isinstance(store, ast.AugAssign) and isinstance(store.op, ast.Add) for store in stores
+    )
 
 
 def _ends_after(file: RclpyFile, node: ast.AST) -> bool:

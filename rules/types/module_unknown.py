@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Report, Severity, TypeRule, closest_name
 from scaffold.api.distributions import target
+from scaffold.api.install import is_installed_by_path
 from scaffold.api.types import TypeFinding, later_modules, module_names, modules_with
 
 _INSTEAD = {
@@ -32,6 +33,16 @@ _BEFORE = {
     "tomllib": "tomli",
 }
 """What has the same for Pythons before."""
+_INTERFACES = {
+    "package.xml": '<package format="3"><name>talker</name>'
+    "<export><build_type>ament_cmake</build_type></export></package>\n",
+    "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_python REQUIRED)\n"
+    'rosidl_generate_interfaces(${PROJECT_NAME} "msg/Beat.msg")\n'
+    "install(DIRECTORY scripts/ DESTINATION ${PYTHON_INSTALL_DIR}/${PROJECT_NAME}\n"
+    '  FILES_MATCHING PATTERN "*.py")\n'
+    "install(PROGRAMS scripts/node.py DESTINATION lib/${PROJECT_NAME})\nament_package()\n",
+    "msg/Beat.msg": "int32 count\n",
+}
 _NODE = "import rclpy\nimport {}\n\nrclpy.init()\nmessage = std_msgs.msg.String()\n"
 
 
@@ -134,6 +145,27 @@ class ModuleUnknown(TypeRule):
             distro="humble",
         ),
         Example(
+            "modules that CMake installs next to the code of messages",
+            {
+                **_INTERFACES,
+                "scripts/node.py": "from talker.gains import Gains\nfrom talker.msg import Beat\n"
+                "from talker import gains\n",
+                "scripts/gains.py": "",
+            },
+        ),
+        Example(
+            "one that is not installed there",
+            {
+                **_INTERFACES,
+                "scripts/node.py": "from talker.limits import Limits\n"
+                "from talker.msg import Beat\n",
+            },
+            Report(
+                "scripts/node.py:1:6",
+                "ROS 2 Jazzy has no module 'talker.limits': ModuleNotFoundError",
+            ),
+        ),
+        Example(
             "a package of one's own with such a name",
             {"archive.py": "import rclpy\nfrom compression import pack\n\nrclpy.init()\npack()\n"},
         ),
@@ -142,7 +174,7 @@ class ModuleUnknown(TypeRule):
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         matched = finding.match(r"Cannot resolve imported module `([\w.]+)`")
         is_run = finding.path != "setup.py" or finding.package.build_type != "ament_cmake"
-        if matched is None or not is_run:
+        if matched is None or not is_run or is_installed_by_path(finding.package, matched[1]):
             return None
         module = matched[1]
         root = module.partition(".")[0]

@@ -8,6 +8,7 @@ import sys
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, TypeRule, closest_name
 from scaffold.api.distributions import removed_interface
+from scaffold.api.install import is_installed_by_path
 from scaffold.api.types import TypeFinding, module_names, modules_with
 
 _IMPORTED = frozenset(
@@ -137,6 +138,8 @@ class NameNotInModule(TypeRule):
         if module.split(".")[-1].startswith("_") or name.startswith("_"):
             return None
         if name in _IMPORTED:
+            return None
+        if any(is_installed_by_path(finding.package, x) for x in (module, f"{module}.{name}")):
             return None
         message = f"{module!r} has no {name!r}: ImportError"
         if module == "collections" and name in collections.abc.__all__:

@@ -82,6 +82,22 @@ class FileNotThere(Rule):
             },
         ),
         Example(
+            "made by the build",
+            {
+                "package.xml": _MANIFEST.replace("ament_python", "ament_cmake"),
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "find_package(xacro REQUIRED)\n"
+                "install(DIRECTORY urdf DESTINATION share/${PROJECT_NAME})\n"
+                "xacro_add_files(urdf/arm.urdf.xacro TARGET arm INSTALL DESTINATION urdf)\n"
+                "ament_package()\n",
+                "urdf/arm.urdf.xacro": "<robot/>\n",
+                "urdf/base.stl": "",
+                "urdf/robot.xacro": _ROBOT.format(
+                    "$(find talker)/urdf/arm.urdf", "package://talker/urdf/base.stl"
+                ),
+            },
+        ),
+        Example(
             "another name; another directory",
             {
                 **_FILES,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, keys_of_module
 from scaffold.model.cmake.ament import has_unknown_commands, programs
 from scaffold.model.facts import fact
+from scaffold.model.install.share import installed_files
 from scaffold.model.package import mentions
 from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
@@ -16,11 +19,15 @@ from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
+    from scaffold.model.cmake.lists import Install
     from scaffold.model.package import Package
     from scaffold.model.python.imports import Import
 
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on Python's path in another way."""
+
+_ON_PATH = re.compile(r"(?:.*(?:-packages/|\}/))([\w/]+)$")
+"""Matches a destination on Python's path, and what is below that."""
 
 
 def absolute_name(path: str, node: Import) -> str:
@@ -92,17 +99,58 @@ def may_be_made(package: Package, name: str) -> bool:
 
 def _is_put_into_package(package: Package, name: str) -> bool:
     """Tell whether CMake installs the file of a module from elsewhere into a Python package."""
-    above, _, last = name.rpartition(".")
-    inside = re.compile(rf"(?:^|[/}}]){above.replace('.', '/')}/?$")
-    for install in package.cmake.installs if package.has("CMakeLists.txt") else ():
-        written = install.destination_argument
-        if written is None or not inside.search(install.destination or written.value):
+    return package.has("CMakeLists.txt") and name in _modules_installed_by_path(package)
+
+
+def is_installed_by_path(user: Package, name: str) -> bool:
+    """Tell whether a package of the workspace installs a module with ``install(DESTINATION)``."""
+    root = name.partition(".")[0]
+    package = user if user.name == root else user.workspace.get(root)
+    if package is None or not package.has("CMakeLists.txt"):
+        return False
+    try:
+        return name in _modules_installed_by_path(package)
+    except ViewError:
+        return False
+
+
+@fact
+def _modules_installed_by_path(package: Package) -> frozenset[str]:
+    """Return the modules that ``install(DESTINATION ${PYTHON_INSTALL_DIR}/...)`` installs.
+
+    These are full names, also of the directories that modules lie in; raises ViewError.
+    """
+    result: set[str] = set()
+    for install in package.cmake.installs:
+        directory = _python_directory(package, install)
+        if directory is None or install.kind not in {"DIRECTORY", "FILES", "PROGRAMS"}:
             continue
-        paths = [item.path for item in install.items if item.path is not None]
-        paths = [path if path.endswith(".py") else f"{path}/{last}.py" for path in paths]
-        if any(path.endswith(f"/{last}.py") and package.has(path) for path in paths):
-            return True
-    return False
+        for item in install.items:
+            for path, _ in installed_files(package, install, item):
+                result |= {*_names_of(posixpath.join(directory, path))}
+    return frozenset(result)
+
+
+def _python_directory(package: Package, install: Install) -> str | None:
+    """Return where below a directory on Python's path something is installed; ``None`` if not.
+
+    A variable that nothing in the package sets may be such a directory.
+    """
+    written = install.destination_argument
+    if written is None:
+        return None
+    name = package.cmake.project_name or package.name
+    destination = install.destination or written.text.replace("${PROJECT_NAME}", name)
+    matched = _ON_PATH.match(destination)
+    return matched[1] if matched else None
+
+
+def _names_of(path: str) -> Iterator[str]:
+    """Yield the name of a module, and those of the packages that it lies in but the outermost."""
+    if path.endswith(".py"):
+        parts = path.removesuffix(".py").removesuffix("/__init__").split("/")
+        yield from (".".join(parts[:depth]) for depth in range(2, len(parts)))
+        yield ".".join(parts)
 
 
 def modules_of(package: Package, root: str) -> list[str]:

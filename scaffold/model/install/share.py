@@ -80,12 +80,15 @@ def _by_cmake(package: Package) -> Share | None:
             continue
         for item in install.items:
             complete = complete and item.path is not None
-            for name, source in _installed(package, install, item):
+            for name, source in installed_files(package, install, item):
                 files[posixpath.join(below, name)] = source
     return Share(files, complete)
 
 
-def _installed(package: Package, install: Install, item: InstallItem) -> Iterator[tuple[str, str]]:
+def installed_files(
+    package: Package, install: Install, item: InstallItem
+) -> Iterator[tuple[str, str]]:
+    """Yield what an item installs: the path below the destination, and the source."""
     path = item.path
     if path is None:
         return

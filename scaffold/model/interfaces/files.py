@@ -57,6 +57,10 @@ def names_used_in_code(package: Package) -> set[str]:
     return package.remember("names_used_in_code", lambda: _words_of_users(package))
 
 
+_COMMENT = re.compile(r"^[ \t]*(?://|#(?!include)).*", re.MULTILINE)
+"""Matches a line that is a comment of C++ or Python."""
+
+
 def _words_of_users(package: Package) -> set[str]:
     result: set[str] = set()
     own: set[str] = set()
@@ -86,6 +90,7 @@ def _names_used_in(package: Package, path: str, name: str) -> frozenset[str]:
     text = package.source(path).text
     if name not in text:
         return frozenset()
+    text = _COMMENT.sub("", text)
     section = r"(?:msg|srv|action)(?:\.|::|/|\s+import\s*\(?)"
     use = rf"\b{re.escape(name)}(?:\.|::|/)(?:{section})?([\w\s,\\]*)"
     return frozenset(word for item in re.findall(use, text) for word in _capitalized(item))

@@ -44,6 +44,8 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
                 continue
             if _is_next_to_source(package, launch, share_path):
                 continue
+            if _is_never_read(launch, share_path.node, frozenset()):
+                continue
             if not _is_written(launch, share_path.node):
                 yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
     for file in markup_files(package):
@@ -71,6 +73,47 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
         else []
     )
     return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
+
+
+def _is_never_read(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bool:
+    """Tell whether a path only goes into a variable of a function that nothing uses.
+
+    Classes of launch look at their files when they are performed, functions may do so at once.
+
+    Args:
+        launch: The launch file.
+        node: The path, or a variable that has it.
+        seen: Variables that led here.
+    """
+    names: set[str] = set()
+    function: ast.AST | None = None
+    for parent in launch.module.parents(node):
+        match parent:
+            case ast.Assign(targets=[ast.Name(id=name)]) if not names:
+                names = {name}
+            case ast.Call() if not names and not _makes_object(parent):
+                return False
+            case ast.stmt() if not names:
+                return False
+            case ast.FunctionDef() | ast.AsyncFunctionDef():
+                function = parent
+                break
+            case _:
+                continue
+    if function is None or not names:
+        return False
+    uses = [
+        item
+        for item in ast.walk(function)
+        if isinstance(item, ast.Name) and item.id in names and isinstance(item.ctx, ast.Load)
+    ]
+    return names <= seen or all(_is_never_read(launch, use, seen | names) for use in uses)
+
+
+def _makes_object(call: ast.Call) -> bool:
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else call.func
+    name = name.id if isinstance(name, ast.Name) else name
+    return isinstance(name, str) and name[:1].isupper()
 
 
 def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
@@ -144,13 +187,25 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
         build = "setup.py" if owner.build_type == "ament_python" else "CMakeLists.txt"
         return f"{build} of {owner.name} does not install {first}"
     made_of = [file for file in owner.files if _name(file).startswith(f"{_name(path)}.")]
-    if any(not file.endswith(".xacro") for file in made_of):
+    if any(not file.endswith(".xacro") or _is_converted(owner, file) for file in made_of):
         return None  # made from a template
     if is_untracked(owner, path):
         return None  # made on each machine
     closest = get_close_matches(path, files, 1, 0.6)
     hint = f"; closest: {closest[0]}" if closest else ""
     return f"{owner.name} has no such file{hint}"
+
+
+def _is_converted(owner: Package, path: str) -> bool:
+    """Tell whether the build makes a URDF of a file of xacro."""
+    if owner.build_type != "ament_cmake":
+        return False
+    converters = owner.cmake.find("xacro_add_files", "xacro_add_xacro_file")
+    return any(
+        _name(argument.value) == _name(path)
+        for command in converters
+        for argument in command.arguments
+    )
 
 
 def _instead(owner: Package, path: str, installed: list[str]) -> str:

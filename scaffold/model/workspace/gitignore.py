@@ -24,11 +24,23 @@ def is_untracked(package: Package, path: str) -> bool:
     if _is_of_submodule(package, path):
         return True
     return any(
-        _is_named(pattern, path, f"{prefix}{path}")
-        for prefix, text in _texts(package, _FILE)
+        _is_named(pattern, below, full_path)
+        for below, full_path, text in _ignore_files(package, path)
         for line in text.splitlines()
         if (pattern := line.strip()) and pattern[0] not in "#!"
     )
+
+
+def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]:
+    """Yield a path in the package, from the directory of a ``.gitignore``, and what that says."""
+    for prefix, text in _texts(package, _FILE):
+        yield path, f"{prefix}{path}", text
+    directory, *rest = path.split("/")
+    while rest and directory and ".." not in directory.split("/"):
+        with contextlib.suppress(OSError):
+            text = package.bytes_of(f"{directory}/{_FILE}", _MOST_BYTES).decode(errors="replace")
+            yield "/".join(rest), "/".join(rest), text
+        directory = f"{directory}/{rest.pop(0)}"
 
 
 def _is_named(pattern: str, path: str, full_path: str) -> bool:
@@ -36,7 +48,7 @@ def _is_named(pattern: str, path: str, full_path: str) -> bool:
 
     Args:
         pattern: A line of the file.
-        path: The path in the package.
+        path: The path in the package, below the directory of the file.
         full_path: The path from the directory of the file.
     """
     from fnmatch import fnmatchcase  # few packages name a file that is not there

@@ -45,3 +45,12 @@ def test_the_files_of_the_checkout_count(
 def test_patterns_name_directories_and_paths(pattern: str, path: str, *, expected: bool) -> None:
     package = Package.of({".gitignore": f"{pattern}\n"})
     assert is_untracked(package, path) is expected
+
+
+def test_a_file_in_a_directory_counts_for_what_is_below_it() -> None:
+    package = Package.of({"simulator/.gitignore": "/controller\n*.log\n"})
+    assert is_untracked(package, "simulator/controller")
+    assert is_untracked(package, "simulator/logs/run.log")
+    assert not is_untracked(package, "simulator/lib/controller")
+    assert not is_untracked(package, "controller")
+    assert not is_untracked(package, "../controller")
