@@ -59,7 +59,8 @@ def _of_headers(
             message = f"{explain(header, -1)}: ament_copyright fails"
             yield diagnostic(code, header.location, message, cause=_CAUSE)
     if passed_over:
-        why = use.why_not or "it is configured to exclude them"
+        limit = "CMakeLists.txt hands it other files" if use.paths else ""
+        why = use.why_not or limit or "it is configured to exclude them"
         first, others = passed_over[0], len(passed_over) - 1
         message = f"{explain(first, others)}: ament_copyright would fail, but {why}"
         yield diagnostic(code, first.location, message, severity=Severity.INFO, cause=_CAUSE)

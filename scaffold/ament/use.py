@@ -16,7 +16,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.cmake.lists import CMakeLists
-    from scaffold.model.cmake.parser import Command
+    from scaffold.model.cmake.parser import Argument, Command
     from scaffold.model.package import Package
     from scaffold.model.python.module import PythonModule
 
@@ -34,12 +34,21 @@ class Use(NamedTuple):
     """Patterns of files that it is configured to skip."""
     is_excluded: bool = False
     """The package switches it off on purpose."""
+    paths: tuple[str, ...] = ()
+    """The files and directories that it is given; empty for the whole package."""
 
     def covers(self, path: str) -> bool:
         """Tell whether the linter looks at a file."""
-        return self.runs and not any(
-            fnmatchcase(path, pattern) and path.count("/") == pattern.count("/")
-            for pattern in self.excluded
+        is_given = not self.paths or any(
+            path == given or path.startswith(f"{given}/") for given in self.paths
+        )
+        return (
+            self.runs
+            and is_given
+            and not any(
+                fnmatchcase(path, pattern) and path.count("/") == pattern.count("/")
+                for pattern in self.excluded
+            )
         )
 
 
@@ -65,8 +74,7 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
         cmake = package.cmake
         calls = cmake.find(f"ament_{linter}")
         if calls:
-            arguments = [a for call in calls for a in call.arguments if a.text != "EXCLUDE"]
-            return _excluding(cmake, cmake.expand_list(arguments))
+            return _called(cmake, calls)
         if hook(package, linter) is None:
             return None
     except ViewError:
@@ -75,6 +83,30 @@ def _by_cmake(package: Package, linter: str) -> Use | None:
     if reason:
         return Use(runs=False, why_not=reason, is_excluded=True)
     return _excluding(cmake, file_excludes(cmake))
+
+
+_KEYWORDS = ("EXCLUDE", "TESTNAME", "TIMEOUT", "EXTENSIONS", "CONFIG_FILE")
+
+
+def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
+    """Return what CMake hands a linter: files that it leaves out, and where it looks at all."""
+    excluded: list[Argument] = []
+    given: list[str] = []
+    is_limited = True
+    for call in calls:
+        sections = call.sections(_KEYWORDS)
+        excluded += sections.get("EXCLUDE", ())
+        # Of the keywords, TESTNAME and TIMEOUT have one value; what follows it is a path as well.
+        single = (name for name in ("TESTNAME", "TIMEOUT") if name in sections)
+        paths = [*sections.get("", ()), *(it for name in single for it in sections[name][1:])]
+        values = cmake.expand_list(paths, call)
+        if values is None:
+            return _undetermined("names")
+        is_limited = is_limited and bool(values)
+        given += map(cmake.path_of, values)
+    use = _excluding(cmake, cmake.expand_list(excluded))
+    is_limited = is_limited and not {"", "."} & {*given}
+    return use._replace(paths=tuple(given)) if is_limited else use
 
 
 def hook(package: Package, linter: str) -> Command | None:
@@ -138,11 +170,13 @@ def file_excludes(cmake: CMakeLists) -> list[str] | None:
     return result
 
 
+def _undetermined(verb: str) -> Use:
+    return Use(runs=False, why_not=f"the files that CMakeLists.txt {verb} cannot be determined")
+
+
 def _excluding(cmake: CMakeLists, values: list[str] | None) -> Use:
     if values is None:
-        return Use(
-            runs=False, why_not="the files that CMakeLists.txt excludes cannot be determined"
-        )
+        return _undetermined("excludes")
     return Use(runs=True, excluded=tuple(cmake.path_of(value) for value in values))
 
 

@@ -311,6 +311,12 @@ def test_copyright_is_as_loud_as_the_linter_in_a_python_package(
         ),
         ("set(AMENT_LINT_AUTO_FILE_EXCLUDE a.py)", "ament_lint_common", Severity.INFO),
         ("set(AMENT_LINT_AUTO_FILE_EXCLUDE b.py)", "ament_lint_common", Severity.ERROR),
+        ("ament_copyright()", "ament_cmake_copyright", Severity.ERROR),
+        ("ament_copyright(src)", "ament_cmake_copyright", Severity.INFO),
+        ("ament_copyright(src a.py TESTNAME x)", "ament_cmake_copyright", Severity.ERROR),
+        ("ament_copyright(TESTNAME x src)", "ament_cmake_copyright", Severity.INFO),
+        ("ament_copyright(${PLACES})", "ament_cmake_copyright", Severity.INFO),
+        ("ament_copyright(EXCLUDE a.py)", "ament_cmake_copyright", Severity.INFO),
     ],
 )
 def test_copyright_is_as_loud_as_the_linter_in_a_cmake_package(
