@@ -53,6 +53,22 @@ def severities(capsys: pytest.CaptureFixture[str], code: str) -> dict[str, str]:
     return {item["path"]: item["severity"] for item in found}
 
 
+def test_a_script_that_only_a_comment_names(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "setup.py").unlink()
+    lists = "# install(PROGRAMS scripts/past.py DESTINATION lib/talker)\n"
+    lists += "install(PROGRAMS\n  scripts/talk.py  # and scripts/soon.py\n"
+    write(package / "CMakeLists.txt", f"project(talker)\n{lists}  DESTINATION lib/talker)\n")
+    for name in ("past", "soon", "talk"):
+        write(package / "scripts" / f"{name}.py", "print 'hello'\n")
+    assert severities(capsys, "E999") == {
+        "scripts/past.py": "warning",
+        "scripts/soon.py": "warning",
+        "scripts/talk.py": "error",
+    }
+
+
 @pytest.mark.parametrize("name", ["node_old.py", "node copy.py", "old_node.py", "node.bak.py"])
 def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     for path in (name, "node.py", "threshold.py"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from scaffold.formats.hash_comments import without_comments
 from scaffold.model.python.module import is_in_tests
 
 if TYPE_CHECKING:
@@ -46,8 +47,8 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     parts = directory.split("/") if directory else []
     if any(package.has("/".join([*parts[:at], "__init__.py"])) for at in range(1, len(parts) + 1)):
         return False
-    installing = [package.data(item) for item in _BUILDING if package.has(item)]
-    is_mentioned = any(_mentions(data, part) for part in parts for data in installing)
+    installing = [without_comments(package.data(item)) for item in _BUILDING if package.has(item)]
+    is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
     is_taken_whole = not parts and any(b"*.py" in data for data in installing)
     return not (is_mentioned or is_taken_whole or _is_named(package, path, stem))
 
@@ -80,7 +81,18 @@ def _is_named(package: Package, path: str, stem: str) -> bool:
         for item in package.files
         if item != path and (item.endswith(_NAMING) or item.startswith("scripts/"))
     )
-    return any(_mentions(package.data(item), stem) for item in others)
+    return any(_is_in_code(package.data(item), stem) for item in others)
+
+
+def _is_in_code(data: bytes, name: str) -> bool:
+    return _mentions(data, name) and _mentions(without_comments(data), name)
+
+
+def _mentions_directory(data: bytes, name: str) -> bool:
+    """Tell whether a build file names a directory, and not only single files in it."""
+    word = re.escape(name.encode("utf-8", "surrogateescape"))
+    pattern = rb"(?<![\w-])%b(?![\w-])(?!/[\w/-]+\.\w+)" % word
+    return re.search(pattern, data) is not None
 
 
 def _mentions(data: bytes, name: str) -> bool:

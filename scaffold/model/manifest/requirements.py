@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.formats.hash_comments import without_comments
 from scaffold.model.catalog import ROS1_PACKAGES, keys_brought, keys_of_module
 from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
@@ -219,7 +220,7 @@ def _is_named_for_tests(package: Package, path: str) -> bool:
 def _builds(package: Package) -> Iterator[str]:
     for path in ("CMakeLists.txt", "setup.py"):
         try:
-            yield package.source(path).text
+            yield without_comments(package.source(path).text)
         except ViewError:
             continue
 

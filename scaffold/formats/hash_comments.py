@@ -1,0 +1,20 @@
+"""Comments that begin with ``#``, as CMake, Python, YAML and shells have them."""
+
+from __future__ import annotations
+
+import re
+from typing import AnyStr
+
+_COMMENT = r"(?m)(?:^|(?<=[ \t)\]},;]))#[^\n]*"
+_IN_TEXT, _IN_BYTES = re.compile(_COMMENT), re.compile(_COMMENT.encode())
+
+
+def without_comments(text: AnyStr) -> AnyStr:
+    """Return a text without what looks like a comment, also where it is in a string.
+
+    Args:
+        text: The text of a file, in which names are looked for.
+    """
+    if isinstance(text, bytes):
+        return _IN_BYTES.sub(b"", text)
+    return _IN_TEXT.sub("", text)
