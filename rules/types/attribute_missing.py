@@ -190,6 +190,25 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "an annotation that the calls contradict, of a function that others get as well",
+            {
+                "turn.py": "from geometry_msgs.msg import Quaternion\n"
+                "from rclpy.node import Node\nfrom sensor_msgs.msg import Imu\n\n\n"
+                "class Turner(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('turner')\n"
+                "        self.kinds.add(Quaternion, self.to_yaw)\n"
+                "        self.create_subscription(Quaternion, 'q', self.on_turn, 10)\n\n"
+                "    def on_turn(self, message):\n"
+                "        self.to_yaw(message)\n"
+                "        map(self.to_roll, [message])\n\n"
+                "    def to_yaw(self, q: Imu):\n"
+                "        return q.z * q.w\n\n"
+                "    def to_roll(self, q: Imu):\n"
+                "        return q.x * q.w\n"
+            },
+        ),
+        Example(
             "what a module imports for itself",
             {"kinds.py": "import rclpy.node\n\nOnSet = rclpy.node.Callable[[list], None]\n"},
         ),

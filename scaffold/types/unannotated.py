@@ -18,6 +18,12 @@ from scaffold.model.python.scopes import ScopeIndex
 
 _UNKNOWN = "_"
 """A name that tells a type checker nothing."""
+_REGISTERING = frozenset(
+    {"create_subscription", "create_service", "create_timer", "ActionServer", "partial"}
+    | {"add_done_callback", "registerCallback"}
+    | {f"add_{when}_set_parameters_callback" for when in ("pre", "on", "post")}
+)
+"""Functions that take callbacks."""
 _AROUND = {
     # linear: a line has 20 kB at most
     "variable": (re.compile(r"[ \t]*:[ \t]*$"), re.compile(r"[ \t]*=")),
@@ -62,15 +68,31 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _handed_over(index: ScopeIndex) -> set[str]:
-    """Return the names of functions that are arguments of calls: callbacks."""
-    names: set[str] = set()
+    """Return the names of functions that are arguments of calls: callbacks.
+
+    Those that the file itself calls, or hands to functions such as ``map``, are only among them
+    where rclpy gets them: they may be given something else than their annotations say.
+    """
+    registered: set[str] = set()
+    others: set[str] = set()
+    called: set[str] = set()
     for call in index.all_of(ast.Call):
-        for value in (*call.args, *(keyword.value for keyword in call.keywords)):
-            if isinstance(value, ast.Attribute):
-                names.add(value.attr)
-            elif isinstance(value, ast.Name):
-                names.add(value.id)
-    return names
+        taker = _name(call.func)
+        called.add(taker)
+        is_plain = isinstance(call.func, ast.Name) and taker.islower()
+        given = {_name(value) for value in (*call.args, *(word.value for word in call.keywords))}
+        if taker in _REGISTERING:
+            registered |= given
+        elif not is_plain:
+            others |= given
+    return registered | (others - called)
+
+
+def _name(node: ast.expr) -> str:
+    match node:
+        case ast.Attribute(attr=name) | ast.Name(id=name):
+            return name
+    return ""
 
 
 def _never_rebound(function: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:
