@@ -38,6 +38,14 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "def rate():\n    return 2.0\n"},
         ),
         Example(
+            "a module that gives a class its methods in a loop",
+            {
+                "CMakeLists.txt": _LISTS,
+                "talker/node.py": f"{_NODE}\n\nclass Talker:\n    pass\n\n\n"
+                "for name in ('start', 'stop'):\n    setattr(Talker, name, print)\n",
+            },
+        ),
+        Example(
             "installed by CMake itself under another name, which sets the bit",
             {
                 "CMakeLists.txt": _LISTS.replace("DESTINATION", "RENAME node DESTINATION"),

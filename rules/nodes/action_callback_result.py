@@ -95,6 +95,14 @@ class ActionCallbackResult(MessageRule):
             ),
         ),
         Example(
+            "on every path but the shutdown",
+            {
+                "server.py": _NODE.format(
+                    _JUDGED, "while rclpy.ok():\n            return Fibonacci.Result()"
+                )
+            },
+        ),
+        Example(
             "the class of the result",
             {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result")},
             Report(

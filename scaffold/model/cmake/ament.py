@@ -145,8 +145,11 @@ def is_only_imported(package: Package, path: str) -> bool:
 
 
 def _only_defines(statement: ast.stmt) -> bool:
-    if isinstance(statement, ast.Expr):
-        return isinstance(statement.value, ast.Constant)
+    match statement:
+        case ast.Expr(value=ast.Constant() | ast.Call(func=ast.Name(id="setattr"))):
+            return True
+        case ast.For(body=body, orelse=orelse) | ast.If(body=body, orelse=orelse):
+            return all(map(_only_defines, [*body, *orelse]))
     return isinstance(
         statement,
         ast.Import

@@ -75,7 +75,7 @@ def _passes_one(statement: ast.stmt) -> bool:
             passes = _passes(body) or _passes(orelse)
         case ast.With(body=body) | ast.AsyncWith(body=body):
             passes = _passes(body)
-        case ast.While(test=ast.Constant(value=value)) if value:
+        case ast.While(test=test) if _holds_until_shutdown(test):
             passes = any(isinstance(node, ast.Break) for node in ast.walk(statement))
         case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=final):
             caught = () if _is_safe(body[0]) else handlers
@@ -89,6 +89,16 @@ def _passes_one(statement: ast.stmt) -> bool:
         case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
             passes = False
     return passes
+
+
+def _holds_until_shutdown(test: ast.expr) -> bool:
+    """Tell whether a condition is always true, or ``rclpy.ok()``: then nobody waits for a value."""
+    match test:
+        case ast.Constant(value=value):
+            return bool(value)
+        case ast.Call(func=ast.Attribute(attr="ok"), args=[]):
+            return True
+    return False
 
 
 def _sets(node: ast.AST, name: str) -> bool:

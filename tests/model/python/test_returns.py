@@ -22,3 +22,13 @@ def test_handlers_of_what_cannot_fail_are_not_reached(body: str, ends: bool) -> 
     function = ast.parse(f"def f():\n{body}").body[0]
     assert isinstance(function, ast.FunctionDef)
     assert may_end(function) is ends
+
+
+@pytest.mark.parametrize(
+    ("condition", "ends"),
+    [("True", False), ("rclpy.ok()", False), ("rclpy.ok() and self.is_busy", True), ("0", True)],
+)
+def test_a_loop_until_the_shutdown_is_not_left_before(condition: str, *, ends: bool) -> None:
+    function = ast.parse(f"def f():\n    while {condition}:\n        step()\n").body[0]
+    assert isinstance(function, ast.FunctionDef)
+    assert may_end(function) is ends
