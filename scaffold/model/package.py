@@ -219,6 +219,7 @@ class Package:
                 raise ParseError(at, message)
             return lists
 
+        self._note(CMAKE_LISTS)
         return self._view("cmake", parse)
 
     @property

@@ -1,14 +1,14 @@
 """Which files a view of a package, or what a rule found, was made of.
 
-The content of Python files, package.xml and setup.cfg is followed file by file; after any other
-change in a package everything in it is checked again.
+The content of files of the usual formats is followed file by file; after any other change in a
+package everything in it is checked again.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scaffold.files.tree import MANIFEST, SETUP_CFG
+from scaffold.files.tree import CMAKE_LISTS, SETUP_CFG
 
 if TYPE_CHECKING:
     from scaffold.model.facts import Fact
@@ -44,8 +44,8 @@ class Reads:
         return files, frozenset(facts.values())
 
 
-_FOLLOWED = frozenset({MANIFEST, SETUP_CFG})
-"""Files that are read through views of the package alone, and that fixes often change."""
+_FOLLOWED = (".py", ".xml", ".yaml", ".yml", ".urdf", ".xacro", CMAKE_LISTS, SETUP_CFG)
+"""What the paths of files end with that are read through views of the package alone."""
 _recorders: list[Reads] = []
 
 
@@ -89,4 +89,4 @@ def note_view(reads: Reads) -> None:
 
 def is_followed(path: str) -> bool:
     """Tell whether changes of the content of a file are followed."""
-    return path.endswith(".py") or path.rpartition("/")[2] in _FOLLOWED
+    return path.endswith(_FOLLOWED)

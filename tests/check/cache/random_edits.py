@@ -10,7 +10,10 @@ from random import Random
 
 Edit = Callable[[Path, Random], str]
 
-_TEXTS = (".py", ".xml", ".txt", ".cfg", ".yaml", ".yml", ".msg", ".srv", ".action")
+_TEXTS = (
+    *(".py", ".xml", ".txt", ".cfg", ".yaml", ".yml"),
+    *(".msg", ".srv", ".action", ".urdf", ".xacro"),
+)
 _LINES = (
     "# a comment\n",
     "import os\n",
@@ -41,8 +44,8 @@ def _files(top: Path, endings: tuple[str, ...] = _TEXTS) -> list[Path]:
 
 
 def _any(top: Path, random: Random) -> Path:
-    """Return a file, a Python file most of the time."""
-    endings = (".py",) if random.random() < 0.7 else _TEXTS
+    """Return a file, a Python file half of the time."""
+    endings = (".py",) if random.random() < 0.5 else _TEXTS
     return random.choice(_files(top, endings) or _files(top))
 
 
