@@ -51,6 +51,17 @@ class OneShotVolatile(RclpyRule):
     examples = (
         Example("transient local", {"server.py": _NODE.format(_LATCHED)}),
         Example(
+            "after waiting for a subscriber",
+            {
+                "server.py": _NODE.format("1").replace(
+                    "        self.map_pub.publish",
+                    "        while self.map_pub.get_subscription_count() < 1:\n"
+                    "            time.sleep(0.1)\n"
+                    "        self.map_pub.publish",
+                )
+            },
+        ),
+        Example(
             "volatile",
             {"server.py": _NODE.format("1")},
             Report(
@@ -89,6 +100,8 @@ class OneShotVolatile(RclpyRule):
                 continue
             topic = f" on {publisher.topic!r}" if isinstance(publisher.topic, str) else ""
             if file.function_of(call) is owner.constructor:
+                if file.module.mentions(*_SEEKING):
+                    continue  # it is for those that it waits for
                 message = (
                     f"the only message{topic} is published in the constructor: later subscribers "
                     "miss it; use TRANSIENT_LOCAL"
@@ -103,7 +116,9 @@ class OneShotVolatile(RclpyRule):
                 yield self.report(file.module.location(call), message)
 
 
-_WAITING = ("spin", "sleep", "wait", "get_subscription_count", "input(", "Thread(", "asyncio")
+_SEEKING = ("get_subscription_count", "count_subscribers", "get_subscriptions_info_by_topic")
+"""What asks whether anybody subscribes."""
+_WAITING = ("spin", "sleep", "wait", *_SEEKING, "input(", "Thread(", "asyncio")
 """What programs contain that last longer, or look for subscribers."""
 
 

@@ -53,4 +53,5 @@ class BuildToolMissing(Rule):
             return
         fix = Fix("declare it", (manifest.insert("buildtool_depend", "ament_cmake"),))
         message = "nothing declares ament_cmake, which CMakeLists.txt finds"
-        yield self.report(manifest.root.name_location, message, fix)
+        at = manifest.root.name_location
+        yield self.report(at, message, fix, cause="dependency ament_cmake")
