@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Container, Iterator
+from contextlib import suppress
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.launch import markup_paths
+from scaffold.api.launch import is_loaded, markup_paths, use_of
 from scaffold.api.parameters import mistake, parameter_paths
 
 _LAUNCH = "launch:\n- node: {{pkg: talker, exec: talker{}\n- node: {{pkg: talker, exec: ear}}\n"
+_OTHER_FORMATS = rb"\A%YAML:|\{%|\{\{"
+_LONGEST = 64_000
+"""Bytes of a file that somebody writes."""
+_POINTS = "points:\n- [1.0, 2.0\n- [3.0, 4.0]\n"
+_LOADING = (
+    "import yaml\n\n\ndef points(share):\n"
+    "    with open(share + '/config/points.yaml') as file:\n"
+    "        return yaml.safe_load(file)\n"
+)
 _FILE = "talker:\n  ros__parameters:\n{}"
 
 
@@ -43,6 +54,24 @@ class YamlMalformed(Rule):
             Report("config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"),
         ),
         Example(
+            "what nobody reads; a template; a file of OpenCV",
+            {
+                "config/points.yaml": _POINTS,
+                "config/camera.yaml": "%YAML:1.0\n---\n" + _POINTS,
+                "config/arm.yaml": "{% if sim %}\n" + _POINTS,
+                "talker/read.py": _LOADING.replace("points.y", "camera.y")
+                + _LOADING.replace("points.y", "arm.y"),
+            },
+        ),
+        Example(
+            "a file that code loads",
+            {"config/points.yaml": _POINTS, "talker/read.py": _LOADING},
+            Report(
+                "config/points.yaml:3:1",
+                "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
+            ),
+        ),
+        Example(
             "launch files",
             {
                 "launch/a.launch.yaml": _LAUNCH.format("}"),
@@ -57,7 +86,27 @@ class YamlMalformed(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         launched = [path for path in markup_paths(package) if not path.endswith(".xml")]
-        for path in dict.fromkeys([*parameter_paths(package), *launched]):
+        known = dict.fromkeys([*parameter_paths(package), *launched])
+        for path in [*known, *_written_by_hand(package, known)]:
             error = mistake(package, path)
-            if error is not None:
+            if error is not None and (path in known or _is_read(package, path)):
                 yield self.report(error.location, error.message)
+
+
+def _written_by_hand(package: Package, known: Container[str]) -> Iterator[str]:
+    """Yield the other files of YAML, but for those of tests and what is YAML for others.
+
+    Files of OpenCV have a header of their own; templates are none yet.
+    """
+    for path in package.files:
+        is_of_tests = not {"test", "tests"}.isdisjoint(path.split("/"))
+        if path in known or is_of_tests or not path.endswith((".yaml", ".yml")):
+            continue
+        with suppress(OSError):
+            if re.search(_OTHER_FORMATS, package.bytes_of(path, _LONGEST)) is None:
+                yield path
+
+
+def _is_read(package: Package, path: str) -> bool:
+    """Tell whether a launch file gives a file to a node, or code of the workspace loads it."""
+    return bool(use_of(package, path).nodes) or is_loaded(package, path)
