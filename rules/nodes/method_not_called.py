@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
-from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, class_of, is_method
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, class_of, is_method, only_while_stopping
 
 _FUNCTIONS = frozenset({"rclpy.init", "rclpy.shutdown", "rclpy.try_shutdown"})
 _FUNCTION_HAS = ("func", "self")
@@ -55,6 +55,7 @@ class MethodNotCalled(RclpyRule):
 
     code = "ND093"
     name = "method-not-called"
+    other_severities = {Severity.WARNING: "it is a shutdown after the spin, where the program ends"}
     examples = (
         Example("called", {"talker.py": _NODE.format("()", "()", "()", "()", "()")}),
         Example(
@@ -68,6 +69,24 @@ class MethodNotCalled(RclpyRule):
             ),
             Report("13:9", "'destroy_node' is a method that is not called; write destroy_node()"),
             Report("14:9", "rclpy.shutdown is not called; add the parentheses"),
+        ),
+        Example(
+            "at the end of a program",
+            {
+                "talker.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
+                "    rclpy.init()\n    node = Node('talker')\n    rclpy.spin(node)\n"
+                "    node.destroy_node\n    rclpy.shutdown\n"
+            },
+            Report(
+                "9:5",
+                "'destroy_node' is a method that is not called; write destroy_node()",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "10:5",
+                "rclpy.shutdown is not called; add the parentheses",
+                severity=Severity.WARNING,
+            ),
         ),
         Example("as values, one of which is called later", {"talker.py": _VALUES}),
         Example(
@@ -142,7 +161,7 @@ class MethodNotCalled(RclpyRule):
                 yield self.report(file.module.location(node), message)
             elif file.module.qualified_name(node) in _FUNCTIONS:
                 message = f"{file.module.text(node)} is not called; add the parentheses"
-                yield self.report(file.module.location(node), message)
+                yield self.report(file.module.location(node), message, severity=_level(file, node))
             elif _is_condition(file, node) and _is_event(file, node):
                 text = file.module.text(node)
                 message = f"{text} is an Event, which is always true; write {text}.is_set()"
@@ -152,9 +171,17 @@ class MethodNotCalled(RclpyRule):
                 yield self.report(file.module.location(node), message)
             elif _is_method_of_rclpy(file, node) or _is_own_method(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
-                yield self.report(file.module.location(node), message)
+                yield self.report(file.module.location(node), message, severity=_level(file, node))
 
 
+def _level(file: RclpyFile, node: ast.Attribute) -> Severity:
+    """Return what it means: what the end of a program leaves out, the system tidies up."""
+    is_of_end = node.attr in _TIDYING and isinstance(file.module.parent(node), ast.Expr)
+    is_late = is_of_end and only_while_stopping(file.module, node)
+    return Severity.WARNING if is_late else Severity.ERROR
+
+
+_TIDYING = frozenset({"shutdown", "try_shutdown", "destroy_node"})
 _OF_THREADS = {
     "threading.Event": frozenset({"set", "clear"}),
     "threading.Thread": frozenset({"start", "join"}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule
+from scaffold.api import CreateFile, Diagnostic, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.manifest import name_used_elsewhere
 
 INDEX = "share/ament_index/resource_index/packages"
@@ -29,6 +29,8 @@ class MarkerMissing(Rule):
 
     code = "SP006"
     name = "marker-missing"
+    other_severities = {Severity.WARNING: "setup.py does not install it: colcon still does"}
+    release_refused = "`ros2` does not find the released package"
     examples = (
         Example(
             "there and installed",
@@ -66,6 +68,7 @@ class MarkerMissing(Rule):
                 "data_files does not install resource/talker to "
                 "share/ament_index/resource_index/packages: ros2 does not find a "
                 "released package; colcon adds it for now, with a warning",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -109,4 +112,6 @@ class MarkerMissing(Rule):
                 f"data_files does not install {marker} to {INDEX}: ros2 does not find a released "
                 "package; colcon adds it for now, with a warning"
             )
-            yield self.report(setup.keywords.get("data_files", setup), message)
+            yield self.report(
+                setup.keywords.get("data_files", setup), message, severity=Severity.WARNING
+            )
