@@ -52,6 +52,7 @@ test-quick: $(VENV)/test.stamp
 .PHONY: nightly
 nightly: $(VENV)/test.stamp
 	$(BIN)/python -m pytest -m nightly tests/nightly $(PYTEST_ARGS)
+	$(PYTEST) -m hypothesis --hypothesis-profile random $(PYTEST_ARGS)
 
 .PHONY: test-rules
 test-rules: $(VENV)/rules.stamp

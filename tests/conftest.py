@@ -8,13 +8,14 @@ from collections.abc import Iterator
 import pytest
 from hypothesis import HealthCheck, settings
 
-# The time of an example tells about the machine; the gate gives the same verdict every time.
 settings.register_profile(
     "repository",
-    deadline=None,
-    derandomize="CI" in os.environ,
+    deadline=None,  # the time of an example tells about the machine
+    derandomize=True,  # the gate gives the same verdict every time
     suppress_health_check=[HealthCheck.too_slow],
 )
+# `make nightly` looks for new examples.
+settings.register_profile("random", settings.get_profile("repository"), derandomize=False)
 settings.load_profile("repository")
 
 
