@@ -107,6 +107,11 @@ _NANOSECONDS = frozenset({"nanosec", "nsec", "nsecs", "nanosecs", "to_nsec"})
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
 _METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
 """Matches a method that is not called."""
+_OF_MOCKS = re.compile(
+    r"assert_\w+|await(?:ed|_args|_args_list|_count)|call(?:ed|_args|_args_list|_count)"
+    r"|(?:method|mock)_calls|return_value|side_effect|(?:reset|configure|attach)_mock"
+)
+"""Matches the attributes of ``unittest.mock.AsyncMock``."""
 _FEW = 6
 """Names that a message can list."""
 
@@ -451,6 +456,27 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "a mock in the place of a node",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/counter.py": "import rclpy.node\nimport std_msgs.msg\n\n\n"
+                "class Counter:\n"
+                "    def __init__(self, node: rclpy.node.Node):\n"
+                "        self.publisher = node.create_publisher(std_msgs.msg.Int32, 'count', 10)\n"
+                "\n\ndef main():\n    rclpy.init()\n"
+                "    node = rclpy.node.Node('counter')\n    Counter(node)\n"
+                "    rclpy.spin(node)\n",
+                "test/test_counter.py": "import unittest\nfrom unittest.mock import Mock\n\n"
+                "import rclpy.node\nimport rover.counter\n\n\n"
+                "class TestCounter(unittest.TestCase):\n"
+                "    def setUp(self):\n"
+                "        self.counter = rover.counter.Counter(Mock(rclpy.node.Node))\n\n"
+                "    def test_count(self):\n"
+                "        self.assertEqual(self.counter.publisher.publish.call_count, 0)\n",
+            },
+        ),
+        Example(
             "an object of a class below the one that is promised",
             {
                 "package.xml": "<package><name>rover</name></package>\n",
@@ -506,6 +532,7 @@ class AttributeMissing(TypeRule):
         name, owner = matched["name"], _without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
         is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
+        is_known = is_known or _may_be_of_mock(finding, name)
         if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
         known = _plain(node, owner) or _known(finding, node, owner)
@@ -541,6 +568,11 @@ def _instead(shown: str, name: str, method: str) -> str:
     if shown in _TIMES and name in _SECONDS:
         return "; write .nanoseconds / 1e9"
     return "; write .nanoseconds" if shown in _TIMES and name in _NANOSECONDS else ""
+
+
+def _may_be_of_mock(finding: TypeFinding, name: str) -> bool:
+    """Tell whether a test may put a mock in the place of what annotations promise."""
+    return _OF_MOCKS.fullmatch(name) is not None and "mock" in finding.module.source.text
 
 
 def _is_chosen(finding: TypeFinding, node: ast.Attribute) -> bool:
