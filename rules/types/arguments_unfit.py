@@ -85,6 +85,20 @@ class ArgumentsUnfit(TypeRule):
     )
     examples = (
         Example(
+            "a method that a test replaces",
+            {
+                "test/test_asker.py": "from unittest.mock import patch\n\n"
+                "from rclpy.node import Node\n\n\n"
+                "def test_it(monkeypatch):\n"
+                "    node = Node('asker')\n"
+                "    monkeypatch.setattr(node, 'create_timer', print)\n"
+                "    node.create_timer()\n"
+                "    with patch.object(node, 'create_client') as client:\n"
+                "        node.create_client('reset')\n"
+                "        client.assert_called_once()\n"
+            },
+        ),
+        Example(
             "a method of a logger with another name",
             {"battery.py": _LOG.format("f'voltage {message.voltage}'")},
         ),

@@ -40,6 +40,9 @@ _OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
 """Kinds about an object, not about a call of it."""
 _OF_ARGUMENTS = frozenset({"unknown-argument", "too-many-positional-arguments"})
 """Kinds about a call that always fails."""
+# linear: of the text of a function that is called
+_PATCHING = re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
+"""Matches what replaces an attribute while a test runs."""
 _SHORT = 2
 """Statements of a ``try`` that only asks whether something works."""
 
@@ -154,6 +157,8 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
+        if self._is_patched(node):
+            return False
         conditions = [*all_conditions(self.module, node)]
         if any(map(self._asks_what_there_is, conditions)) or self._asks_arguments(conditions):
             return False
@@ -167,6 +172,24 @@ class TypeFinding:
                         return False
             child = parent
         return child not in self.module.passed_over
+
+    def _is_patched(self, node: ast.AST) -> bool:
+        """Tell whether a test puts something else in the place of what is used."""
+        module = self.module
+        if not module.mentions("patch"):
+            return False
+        around = [node, *module.parents(node)]
+        used = {it.attr for it in around if isinstance(it, ast.Attribute)}
+        called = [it.func for it in around if isinstance(it, ast.Call)]
+        used |= {it.attr for it in called if isinstance(it, ast.Attribute)}
+        functions = (it for it in around if isinstance(it, ast.FunctionDef | ast.AsyncFunctionDef))
+        return any(
+            isinstance(given, ast.Constant) and str(given.value).rpartition(".")[2] in used
+            for function in functions
+            for call in ast.walk(function)
+            if isinstance(call, ast.Call) and _PATCHING.search(module.text(call.func))
+            for given in call.args
+        )
 
     def _is_of_several(self, node: ast.AST) -> bool:
         """Tell whether what is called or used may be another object than the reported one."""
