@@ -71,8 +71,8 @@ def test_found(capsys: pytest.CaptureFixture[str]) -> None:
             "'talker' (package.xml, line 4) [project-name-differs]"
         ),
         (
-            "talker/package.xml:6:3: warning PX002 the description is a placeholder, "
-            "'TODO: Package description' [description-placeholder]"
+            "talker/package.xml:6:3: warning PX001 the description is a placeholder, "
+            "'TODO: Package description' [manifest-placeholder]"
         ),
         "1 package, 3 files for Jazzy: 1 error, 1 warning; 1 fixable with --fix",
     ]
@@ -126,7 +126,7 @@ def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.usefixtures("flawed")
 def test_select_and_ignore(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--select", "CM"]) == 1
-    assert "PX002" not in capsys.readouterr().out
+    assert "PX001" not in capsys.readouterr().out
     assert main(["check", "--ignore", "CM001,PX"]) == 0
 
 
@@ -224,10 +224,10 @@ def test_a_directory_in_a_package_is_the_package(
     ("words", "codes"),
     [
         (["--select", "project-name-differs"], {"CM001"}),
-        (["--select", "Project-Name-Differs,px002"], {"CM001", "PX002"}),
-        (["--select", "ALL", "--ignore", "description-placeholder"], {"CM001"}),
+        (["--select", "Project-Name-Differs,px001"], {"CM001", "PX001"}),
+        (["--select", "ALL", "--ignore", "manifest-placeholder"], {"CM001"}),
         (["--ignore", "ALL"], set()),
-        (["--ignore", "ALL", "--select", "PX"], {"PX002"}),
+        (["--ignore", "ALL", "--select", "PX"], {"PX001"}),
     ],
 )
 def test_rules_are_selected_by_name_and_all(
@@ -281,9 +281,9 @@ def test_configuration_is_searched_from_what_is_checked(
 def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
     assert main(["check"]) == 1
-    assert "PX002" not in capsys.readouterr().out
+    assert "PX001" not in capsys.readouterr().out
     assert main(["check", "--ignore", "CM"]) == 1
-    assert "PX002" in capsys.readouterr().out
+    assert "PX001" in capsys.readouterr().out
 
 
 def test_the_configuration_of_the_docs_is_accepted(
@@ -352,7 +352,7 @@ def test_fix(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert (flawed / "CMakeLists.txt").read_text() == CMAKE_LISTS.format(project="talker")
     captured = capsys.readouterr()
     assert captured.err == "1 fix applied\n"
-    assert "PX002" in captured.out
+    assert "PX001" in captured.out
     assert "CM001" not in captured.out
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from scaffold.cli.main import main
 
-PLACEHOLDER, PIP, NAME = "PX003", "PX029", "PX022"
+PLACEHOLDER, PIP, NAME = "PX001", "PX029", "PX022"
 
 
 @pytest.fixture(scope="module")

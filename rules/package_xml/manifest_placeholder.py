@@ -1,0 +1,120 @@
+"""PX001: the manifest says what the package is, who maintains it, and under which license."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Report, Diagnostic, Example, Package, Rule, Severity
+from scaffold.api.formats import Element
+from scaffold.api.manifest import is_placeholder, is_placeholder_address
+
+_PERSON = '<package>\n  <maintainer email="{}">{}</maintainer>\n</package>\n'
+
+
+class ManifestPlaceholder(Rule):
+    """``<license>``, ``<description>`` or who maintains the package is empty or a placeholder.
+
+    **Why.** Without a license no one may use the package; catkin_pkg, and with it colcon and bloom,
+    refuses an empty license or description. The description becomes the text of the Debian
+    package, and the build farm writes to the maintainer when the package breaks.
+
+    **Fix.** Write an SPDX identifier such as ``Apache-2.0``, a sentence about the package, a name
+    and an address that is read. No automatic fix: the choice is the author's.
+
+    **Source.** REP-149; ``catkin_pkg.package.Package.validate``; rosdistro review guidelines;
+    ``ros2 pkg create`` writes ``TODO`` and ``@todo.todo``.
+    """
+
+    code = "PX001"
+    name = "manifest-placeholder"
+    severity = Severity.WARNING
+    other_severities = {
+        Severity.ERROR: "it is the license, or there is no description: the package is not built"
+    }
+    release_refused = "nobody may use the package, reads what it is for, or hears of its faults"
+    examples = (
+        Example(
+            "all is said",
+            {
+                "package.xml": "<package>\n"
+                "  <description>Talks.</description>\n"
+                '  <maintainer email="ada@example.com">Ada Lovelace</maintainer>\n'
+                "  <license>Apache-2.0</license>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
+            "as written by ros2 pkg create",
+            {
+                "package.xml": "<package>\n"
+                "  <description>TODO: Package description</description>\n"
+                '  <maintainer email="root@todo.todo">root</maintainer>\n'
+                "  <license>TODO: License declaration</license>\n"
+                "</package>\n"
+            },
+            Report("2:3", "the description is a placeholder, 'TODO: Package description'"),
+            Report("3:22", "maintainer email 'root@todo.todo' is a placeholder"),
+            Report(
+                "4:12",
+                "the license is a placeholder, 'TODO: License declaration': nobody "
+                "may use the package",
+                severity=Severity.ERROR,
+            ),
+        ),
+        Example(
+            "empty",
+            {
+                "package.xml": "<package>\n"
+                "  <description> </description>\n"
+                "  <license> </license>\n"
+                "</package>\n"
+            },
+            Report(
+                "2:3",
+                "the description is empty: colcon refuses the package",
+                severity=Severity.ERROR,
+            ),
+            Report(
+                "3:3", "the license is empty: colcon refuses the package", severity=Severity.ERROR
+            ),
+        ),
+        Example(
+            "no name",
+            {"package.xml": _PERSON.format("ada@example.com", "")},
+            Report("2:3", "<maintainer> has no name"),
+        ),
+        Example(
+            "a placeholder for a name",
+            {"package.xml": _PERSON.format("ada@example.com", "TODO")},
+            Report("2:3", "the name of <maintainer> is a placeholder"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        for tag in ("license", "description"):
+            for element in package.manifest.all(tag):
+                yield from self._check_text(element)
+        for tag in ("maintainer", "author"):
+            for element in package.manifest.all(tag):
+                yield from self._check_person(element)
+
+    def _check_text(self, element: Element) -> Iterator[Diagnostic]:
+        if not element.text:
+            message = f"the {element.tag} is empty: colcon refuses the package"
+            yield self.report(element, message, severity=Severity.ERROR)
+        elif is_placeholder(element.text):
+            message = f"the {element.tag} is a placeholder, {element.text!r}"
+            if element.tag == "license":
+                at, message = element.text_location, f"{message}: nobody may use the package"
+                yield self.report(at, message, severity=Severity.ERROR)
+            else:
+                yield self.report(element, message)
+
+    def _check_person(self, element: Element) -> Iterator[Diagnostic]:
+        address = element.attributes.get("email")
+        if address and is_placeholder_address(address.value):
+            yield self.report(address, f"{element.tag} email {address.value!r} is a placeholder")
+        if not element.text:
+            yield self.report(element, f"<{element.tag}> has no name")
+        elif is_placeholder(element.text):
+            yield self.report(element, f"the name of <{element.tag}> is a placeholder")
