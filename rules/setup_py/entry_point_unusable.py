@@ -1,14 +1,28 @@
-"""SP053: entry points are functions that can be called without arguments."""
+"""SP001: console scripts are ``name = module:function``, of a function that can be called."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 
 from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError, fact
+from scaffold.api.install import moved_to
+from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
 
 _SETUP = (
+    "from setuptools import setup\n\n"
+    "setup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
+)
+_SETUP_NAMES = (
+    "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
+    "    entry_points={{'console_scripts': [\n"
+    "        'talker = talker.node:main',\n"
+    "        '{} = talker.other:main',\n"
+    "    ]}},\n)\n"
+)
+_SETUP_USE = (
     "from setuptools import setup\n\nsetup(\n    name='talker',\n    packages=['talker'],\n"
     "    entry_points={{'console_scripts': ['node = {}:main']}},\n)\n"
 )
@@ -16,29 +30,118 @@ _FILES = {"talker/__init__.py": "", "talker/node.py": "def main(args=None):\n   
 
 
 class EntryPointUnusable(Rule):
-    """An entry point names a module by another path, or a function that needs arguments.
+    """A console script is malformed, repeated, or leads to no function without arguments.
 
-    **Why.** The script that setuptools makes imports the module by its full name and calls the
-    function without arguments: ``ModuleNotFoundError: No module named 'node'``, ``TypeError: main()
-    missing 1 required positional argument``.
+    **Why.** setuptools stops the build, joins two lines without a comma between them, or makes only
+    the last of two scripts with one name. Else the build passes, and ``ros2 run`` ends with
+    ``ModuleNotFoundError: No module named 'node'``, ``AttributeError: module 'talker.node' has no
+    attribute 'run'`` or ``TypeError: main() missing 1 required positional argument``. Nothing
+    awaits an ``async`` function.
 
-    **Fix.** ``name = package.module:function``, and ``def main(args=None):``.
+    **Fix.** ``'name = package.module:function'``, a comma after each, and ``def main(args=None):``.
 
-    **Source.** setuptools documentation, "Entry points".
+    **Source.** setuptools documentation, "Entry points"; Python packaging user guide, "Entry points
+    specification"; ROS 2 documentation, "Writing a simple publisher and subscriber (Python)".
     """
 
-    code = "SP053"
+    code = "SP001"
     name = "entry-point-unusable"
     examples = (
-        Example("full name", {"setup.py": _SETUP.format("talker.node"), **_FILES}),
+        Example("one", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}),
+        Example(
+            "a comma is missing",
+            {
+                "setup.py": _SETUP.format(
+                    "        'talker = talker.node:main'\n"
+                    "        'listener = listener.node:main',\n"
+                )
+            },
+            Report("5:9", "missing comma after this console script: it is joined to the next"),
+        ),
+        Example(
+            "no function",
+            {"setup.py": _SETUP.format("        'talker = talker.node',\n")},
+            Report(
+                "5:9",
+                "console script 'talker = talker.node': no function is named: name "
+                "= module:function",
+            ),
+        ),
+        Example("two names", {"setup.py": _SETUP_NAMES.format("listener")}),
+        Example(
+            "one name",
+            {"setup.py": _SETUP_NAMES.format("talker")},
+            Report("8:9", "'talker' is the name of another entry point: only one is installed"),
+        ),
+        Example(
+            "a function that is there",
+            {
+                "setup.py": _SETUP.format("        'talker = talker.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+        ),
+        Example(
+            "another function, another module",
+            {
+                "setup.py": _SETUP.format(
+                    "        'talker = talker.node:run',\n        'other = talker.nodes:main',\n"
+                ),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            Report("setup.py:5:9", "`ros2 run` of 'talker' fails: talker/node.py has no 'run'"),
+            Report(
+                "setup.py:6:9",
+                "`ros2 run` of 'other' fails: there is no talker/nodes.py; closest: talker/node.py",
+            ),
+        ),
+        Example(
+            "a coroutine",
+            {
+                "setup.py": _SETUP.format("        'talker = talker.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "async def main():\n    pass\n",
+            },
+            Report(
+                "setup.py:5:9",
+                "`ros2 run` of 'talker' fails: talker/node.py has an async main(), which nothing "
+                "awaits; use asyncio.run()",
+            ),
+        ),
+        Example(
+            "packages that do not exist",
+            {
+                "package.xml": "<package><name>listener</name></package>\n",
+                "setup.py": _SETUP.format(
+                    "        'a = talkr.node:main',\n        'b = listener.node:main',\n"
+                ),
+                "talker/__init__.py": "",
+            },
+            Report(
+                "setup.py:5:9",
+                "`ros2 run` of 'a' fails: the package has no module 'talkr'; closest: talker",
+            ),
+            Report("setup.py:6:9", "`ros2 run` of 'b' fails: there is no directory listener/"),
+        ),
+        Example(
+            "a module of another package here",
+            {
+                "setup.py": _SETUP.format("        'talker = talkr.node:main',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            Report("setup.py:5:9", "no module 'talkr.node' is installed; closest: 'talker.node'"),
+        ),
+        Example("full name", {"setup.py": _SETUP_USE.format("talker.node"), **_FILES}),
         Example(
             "without the package",
-            {"setup.py": _SETUP.format("node"), **_FILES},
+            {"setup.py": _SETUP_USE.format("node"), **_FILES},
             Report("setup.py:6:39", "no module 'node' is installed; closest: 'talker.node'"),
         ),
         Example(
             "another package",
-            {"setup.py": _SETUP.format("my_package.node"), **_FILES},
+            {"setup.py": _SETUP_USE.format("my_package.node"), **_FILES},
             Report(
                 "setup.py:6:39", "no module 'my_package.node' is installed; closest: 'talker.node'"
             ),
@@ -46,7 +149,7 @@ class EntryPointUnusable(Rule):
         Example(
             "an argument",
             {
-                "setup.py": _SETUP.format("talker.node"),
+                "setup.py": _SETUP_USE.format("talker.node"),
                 **_FILES,
                 "talker/node.py": "def main(args):\n    pass\n",
             },
@@ -59,7 +162,7 @@ class EntryPointUnusable(Rule):
         Example(
             "a node class",
             {
-                "setup.py": _SETUP.format("talker.node").replace(":main", ":Talker"),
+                "setup.py": _SETUP_USE.format("talker.node").replace(":main", ":Talker"),
                 **_FILES,
                 "talker/node.py": "from rclpy.node import Node\n\n\n"
                 "class Talker(Node):\n    pass\n",
@@ -71,6 +174,83 @@ class EntryPointUnusable(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_form(package)
+        yield from self._check_names(package)
+        yield from self._check_target(package)
+        yield from self._check_use(package)
+
+    def _check_form(self, package: Package) -> Iterator[Diagnostic]:
+        for entry in package.setup_py.console_scripts:
+            if len(entry.joined) > 1 and entry.text.count("=") > 1:
+                at = entry.joined[0]
+                message = "missing comma after this console script: it is joined to the next"
+                yield self.report(at, message)
+            elif entry.malformed:
+                yield self.report(entry, f"console script {entry.text!r}: {entry.malformed}")
+
+    def _check_names(self, package: Package) -> Iterator[Diagnostic]:
+        seen: dict[str, EntryPoint] = {}
+        for entry in package.setup_py.console_scripts:
+            first = seen.setdefault(entry.name, entry)
+            if first is not entry and entry.name:
+                message = (
+                    f"{entry.name!r} is the name of another entry point: only one is installed"
+                )
+                yield self.report(entry, message)
+
+    def _check_target(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py there
+        for entry in package.setup_py.console_scripts:
+            if entry.malformed or not entry.module or not entry.function:
+                continue
+            problem = self._problem(package, entry)
+            if problem:
+                message = f"`ros2 run` of {entry.name!r} fails: {problem}"
+                directory = moved_to(package, entry.module)
+                cause = f"moved to {directory}" if directory else ""
+                yield self.report(entry, message, cause=cause)
+
+    def _problem(self, package: Package, entry: EntryPoint) -> str | None:
+        root, *_ = entry.module.split(".")
+        if not package.has_directory(root):
+            return self._missing_package(package, entry.module)
+        base = entry.module.replace(".", "/")
+        path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
+        if path is None:
+            modules = [path for path in package.python_files if not path.endswith("__.py")]
+            closest = get_close_matches(f"{base}.py", modules, n=1)
+            hint = f"; closest: {closest[0]}" if closest else ""
+            return f"there is no {base}.py{hint}"
+        try:
+            exports = exports_of(package, path)
+        except ViewError:
+            return None
+        function = entry.function.partition(".")[0]
+        if function in exports.coroutines:
+            return f"{path} has an async {function}(), which nothing awaits; use asyncio.run()"
+        if exports.defines(function) is not False:
+            return None
+        closest = get_close_matches(function, exports.functions, n=1)
+        hint = f"; it has {closest[0]}()" if closest else ""
+        return f"{path} has no {function!r}{hint}"
+
+    def _missing_package(self, package: Package, module: str) -> str | None:
+        root, _, rest = module.partition(".")
+        where = package.setup_py.keyword("package_dir")
+        own = [path.partition("/")[0] for path in package.glob("*/__init__.py")]
+        if where is None and any(
+            package.has(f"{other}/{rest.replace('.', '/')}.py") for other in own
+        ):
+            return None  # `_check_use` says which module it is
+        if where is not None or package.has(f"{root}.py") or root not in {package.name, *own}:
+            closest = get_close_matches(root, own, n=1)
+            if where is None and closest and not package.has(f"{root}.py"):
+                return f"the package has no module {root!r}; closest: {closest[0]}"
+            return None
+        return f"there is no directory {root}/"
+
+    def _check_use(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py
         if setup.keyword("package_dir") is not None or setup.keyword("py_modules") is not None:
             return
