@@ -1,4 +1,4 @@
-"""TS044: fixtures that tests ask for exist, give something, and are not called."""
+"""TS044: fixtures that tests ask for exist, give one value, and are not called."""
 
 from __future__ import annotations
 
@@ -29,16 +29,24 @@ _TEST = (
     "import pytest\n\n\n@pytest.fixture\ndef text():\n    {}\n\n\n"
     "def test_text({}):\n    assert {} == 'a'\n"
 )
+_SCOPES = ("function", "class", "module", "package", "session")
+"""From the narrowest to the widest."""
+_TEST_MADE = (
+    "import pytest\n\n\n@pytest.fixture\ndef word():\n    return 'a'\n\n\n"
+    "@pytest.fixture(scope='{}')\ndef text(word):\n    yield word\n{}\n\n"
+    "def test_text(text):\n    assert text == 'a'\n"
+)
 
 
 class FixtureMisused(Rule):
-    """A test calls a fixture, asks for one of another name, or uses one that gives nothing.
+    """A fixture is called, has another name, gives nothing, yields twice, or has a wrong scope.
 
     **Why.** The test ends in an error: ``Fixture "text" called directly``, ``fixture 'txt' not
-    found``, ``'NoneType' object has no attribute ...``.
+    found``, ``'NoneType' object has no attribute ...``, ``ScopeMismatch``, ``fixture function has
+    more than one 'yield'``.
 
     **Fix.** Take the fixture as an argument of the test, under its name; ``return`` or ``yield``
-    what the test needs.
+    once what the test needs, with a scope that is not wider than those of the fixtures it takes.
 
     **Source.** pytest documentation, "How to use fixtures".
     """
@@ -86,9 +94,32 @@ class FixtureMisused(Rule):
             {"test/test_text.py": _TEST.format("return 'a'", "self", "'a'")},
             Report("9:5", "test_text is not a method: pytest finds no fixture 'self'"),
         ),
+        Example("of one test", {"test/test_text.py": _TEST_MADE.format("function", "")}),
+        Example(
+            "a scope that does not exist",
+            {"test/test_text.py": _TEST_MADE.format("modul", "")},
+            Report(
+                "9:2",
+                "unknown scope 'modul'; choose from function, class, module, package, session",
+            ),
+        ),
+        Example(
+            "a wider scope than that of what it takes",
+            {"test/test_text.py": _TEST_MADE.format("module", "")},
+            Report("9:2", "a fixture of scope 'module' cannot use word of scope 'function'"),
+        ),
+        Example(
+            "two values",
+            {"test/test_text.py": _TEST_MADE.format("function", "    yield 'b'\n")},
+            Report("9:2", "the fixture text yields twice: pytest takes one value"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_use(package)
+        yield from self._check_made(package)
+
+    def _check_use(self, package: Package) -> Iterator[Diagnostic]:
         for module in package.modules(files_of_tests(package)):
             if "pytest" not in module.imports_by_root:
                 continue
@@ -125,6 +156,16 @@ class FixtureMisused(Rule):
                     message = _missing(module, test, name, available)
                     if message:
                         yield self.report(module.name_location(test.node), message)
+
+    def _check_made(self, package: Package) -> Iterator[Diagnostic]:
+        for module in package.modules(files_of_tests(package)):
+            if "pytest" not in module.imports_by_root:
+                continue
+            available = fixtures(package, module)
+            for fixture in own_fixtures(module):
+                problem = _problem(fixture, available)
+                if problem and fixture.node.decorator_list:
+                    yield self.report(module.location(fixture.node.decorator_list[0]), problem)
 
 
 def _missing(
@@ -173,3 +214,26 @@ def _taken_from_module(module: PythonModule) -> Iterator[ast.Name]:
 def _gives_nothing(fixture: Fixture) -> bool:
     gives = (ast.Return, ast.Yield, ast.YieldFrom)
     return not any(isinstance(node, gives) and node.value for node in ast.walk(fixture.node))
+
+
+def _problem(fixture: Fixture, available: Mapping[str, Fixture]) -> str:
+    """Return what is wrong about the scope of a fixture, or what it yields."""
+    if not fixture.scope:
+        return ""
+    if fixture.scope not in _SCOPES:
+        return f"unknown scope {fixture.scope!r}; choose from {', '.join(_SCOPES)}"
+    if sum(map(_yields, fixture.node.body)) > 1:
+        return f"the fixture {fixture.name} yields twice: pytest takes one value"
+    for name in arguments(fixture.node):
+        inner = available.get(name)
+        if inner is None or inner.scope not in _SCOPES or inner.node is fixture.node:
+            continue
+        if _SCOPES.index(inner.scope) < _SCOPES.index(fixture.scope):
+            return (
+                f"a fixture of scope {fixture.scope!r} cannot use {name} of scope {inner.scope!r}"
+            )
+    return ""
+
+
+def _yields(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Yield)
