@@ -1,28 +1,58 @@
-"""MS008: rosidl can read interface files."""
+"""MS008: rosidl can read interface files, and generate code for their names."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.interfaces import ProblemKind, problems
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api.interfaces import (
+    ProblemKind,
+    escape_problem,
+    interface_files,
+    problems,
+    reserved,
+    reserved_constant,
+    reserved_type,
+)
 
 _LISTS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg srv/Add.srv)\n"
+_LISTS_NAMES = {
+    "CMakeLists.txt": "project(my_msgs)\nrosidl_generate_interfaces(\n"
+    "  ${PROJECT_NAME} msg/Beat.msg msg/my_beat.msg srv/Add.srv)\n"
+}
+_KINDS = (
+    ProblemKind.TYPE_NAME,
+    ProblemKind.FIELD_NAME,
+    ProblemKind.CONSTANT_NAME,
+    ProblemKind.DUPLICATE,
+)
+_LISTS_KEYWORDS = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
+_LISTS_ESCAPES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg)\n"
 
 
 class InterfaceMalformed(Rule):
-    """rosidl cannot parse a line of a .msg, .srv or .action file.
+    """A line of a .msg, .srv or .action file has an invalid form, name, keyword or escape.
 
-    **Why.** The build stops in rosidl_adapter, with the line but not its number: an invalid
-    type or array size, a default that does not fit its type, a missing ``---``.
+    **Why.** The build stops in rosidl_adapter, with the line but not its number: an invalid type or
+    array size, a default that does not fit its type, a missing ``---``, ``'maxSpeed' is an invalid
+    field name``. A backslash that is no escape, such as one at the end of a comment, in
+    ``C:/users`` written the other way around, or ``x`` after one, is a ``UnicodeDecodeError``
+    without the line. Code with a keyword of C or C++ for a name does not compile; with one of
+    Python ``message.from`` is a SyntaxError.
 
-    **Fix.** Correct the line as the message shows.
+    **Fix.** Correct the line as the message shows. Types are files in CamelCase, fields are
+    lower-case words with single underscores between them, constants are in capitals; a default
+    comes after the name of a field without ``=``. No automatic fix: anyone who uses the name must
+    follow.
 
-    **Source.** ``rosidl_adapter/parser.py``; ROS 2 documentation, "Interfaces".
+    **Source.** ``rosidl_adapter/parser.py``; ``rosidl_adapter/msg/__init__.py``,
+    ``string_to_idl_string_literal``; ``rosidl_generator_py/generate_py_impl.py``; the keywords of
+    C17 and C++17; ROS 2 documentation, "Interfaces".
     """
 
     code = "MS008"
     name = "interface-malformed"
+    effect = Effect.STOPS_BUILD
     examples = (
         Example(
             "types, sizes, bounds and defaults",
@@ -71,10 +101,181 @@ class InterfaceMalformed(Rule):
                 "a .srv file needs 1 line '---' between request, response, but this file has 0",
             ),
         ),
+        Example(
+            "a type with small letters and an underscore",
+            {**_LISTS_NAMES, "msg/my_beat.msg": "int32 count\n"},
+            Report(
+                "msg/my_beat.msg:1:1",
+                "the file name 'my_beat' is not a valid type name: rosidl requires letters and "
+                "digits only, a capital first, as in 'MyBeat.msg'",
+            ),
+        ),
+        Example(
+            "fields: camel case, a trailing underscore",
+            {**_LISTS_NAMES, "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n"},
+            Report(
+                "msg/Beat.msg:2:9",
+                "'maxSpeed' is not a valid field name: rosidl requires lower-case letters, "
+                "digits and single underscores, a letter first, as in 'max_speed'",
+            ),
+            Report(
+                "msg/Beat.msg:3:7",
+                "'next_' is not a valid field name: rosidl requires lower-case letters, digits "
+                "and single underscores, a letter first, as in 'next'",
+            ),
+        ),
+        Example(
+            "constants: capitals; a default",
+            {**_LISTS_NAMES, "msg/Beat.msg": "int32 MAX_COUNT=5\nint32 count 1\n"},
+        ),
+        Example(
+            "constants: small letters, a default with an equals sign, a bound with spaces",
+            {**_LISTS_NAMES, "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n"},
+            Report(
+                "msg/Beat.msg:1:7",
+                "the '=' makes this line a constant, and 'max' is not a valid name "
+                "for one: rosidl requires capitals, digits and single underscores, "
+                "a letter first, as in 'MAX'",
+            ),
+            Report(
+                "msg/Beat.msg:2:7",
+                "the '=' makes this line a constant, and 'count' is not a valid "
+                "name for one: rosidl requires capitals, digits and single "
+                "underscores, a letter first, as in 'COUNT'",
+            ),
+            Report("msg/Beat.msg:3:8", "a bound is written without spaces, as in 'string<=10'"),
+        ),
+        Example(
+            "the same name in request and response",
+            {**_LISTS_NAMES, "srv/Add.srv": "int32 a\n---\nint32 a\n"},
+        ),
+        Example(
+            "a name twice in the request",
+            {**_LISTS_NAMES, "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n"},
+            Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
+            Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
+        ),
+        Example(
+            "keywords for names",
+            {
+                "CMakeLists.txt": _LISTS_KEYWORDS,
+                "msg/Beat.msg": "string class\nint32 from\nbool ok\n",
+            },
+            Report(
+                "msg/Beat.msg:1:8",
+                "'class' is a keyword of C or C++: the generated code does not compile",
+            ),
+            Report(
+                "msg/Beat.msg:2:7", "'from' is a keyword of Python: 'message.from' is a SyntaxError"
+            ),
+        ),
+        Example(
+            "macros for names",
+            {
+                "CMakeLists.txt": _LISTS_KEYWORDS,
+                "msg/Beat.msg": "int8 NULL=0\nint8 EIO=1\nint8 OK=2\n",
+            },
+            Report(
+                "msg/Beat.msg:1:6",
+                "'NULL' is a macro of C: the generated C++ code does not compile",
+            ),
+            Report(
+                "msg/Beat.msg:2:6", "'EIO' is a macro of C: the generated C++ code does not compile"
+            ),
+        ),
+        Example(
+            "a type that Python cannot have",
+            {
+                "CMakeLists.txt": _LISTS_KEYWORDS.replace("Beat", "None"),
+                "msg/None.msg": "int8 count\n",
+            },
+            Report(
+                "msg/None.msg:1:1",
+                "'None' is a keyword of Python: the generated module is a SyntaxError",
+            ),
+        ),
+        Example(
+            "backslashes: slashes, escapes, the end of the file, which rosidl leaves out",
+            {
+                "CMakeLists.txt": _LISTS_ESCAPES,
+                "msg/Beat.msg": "# in C:/users\nint32 count  # or \\d+\\\\\n# the end\\\n",
+            },
+        ),
+        Example(
+            "backslashes at the end, in a path",
+            {
+                "CMakeLists.txt": _LISTS_ESCAPES,
+                "msg/Beat.msg": "# C:\\users\nint32 count  # of C:\\data\\\n# all \\\nint8 code\n",
+            },
+            Report("msg/Beat.msg:1:1", "rosidl cannot read the comment: truncated \\uXXXX escape"),
+            Report("msg/Beat.msg:2:14", "rosidl cannot read the comment: \\ at end of string"),
+            Report("msg/Beat.msg:3:1", "rosidl cannot read the comment: \\ at end of string"),
+        ),
+        Example(
+            "backslashes: a line end, a constant",
+            {
+                "CMakeLists.txt": _LISTS_ESCAPES,
+                "msg/Beat.msg": 'int8 code  # ends with \\n\nstring HOME="C:\\users"\n',
+            },
+            Report(
+                "msg/Beat.msg:1:12",
+                "rosidl cannot read the comment: its \\n ends the line in the middle of a text",
+            ),
+            Report("msg/Beat.msg:2:1", "rosidl cannot read the value: truncated \\uXXXX escape"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_lines(package)
+        yield from self._check_names(package)
+        yield from self._check_keywords(package)
+        yield from self._check_escapes(package)
+
+    def _check_lines(self, package: Package) -> Iterator[Diagnostic]:
         for problem in problems(
             package, ProblemKind.SYNTAX, ProblemKind.TYPE, ProblemKind.VALUE, ProblemKind.SEPARATOR
         ):
             yield self.report(problem, problem.message)
+
+    def _check_names(self, package: Package) -> Iterator[Diagnostic]:
+        for problem in problems(package, *_KINDS):
+            yield self.report(problem, problem.message)
+
+    def _check_keywords(self, package: Package) -> Iterator[Diagnostic]:
+        for file in interface_files(package):
+            message = reserved_type(file.name)
+            if message:
+                yield self.report(package.start_of(file.path), message)
+            for section in file.definition.sections:
+                for field in section.fields:
+                    message = reserved(field.name)
+                    if message:
+                        yield self.report(field, message)
+                for constant in section.constants:
+                    message = reserved_constant(constant.name)
+                    if message:
+                        yield self.report(constant, message)
+
+    def _check_escapes(self, package: Package) -> Iterator[Diagnostic]:
+        for file in interface_files(package):
+            source = package.source(file.path)
+            start = 0
+            lines = source.text.splitlines(keepends=True)
+            declared = _last_declaration(lines)
+            for number, line in enumerate(lines):
+                text, mark, comment = line.rstrip().partition("#")
+                problem = escape_problem(comment.lstrip("#")) if mark else ""
+                if problem and number <= declared:
+                    at = source.location(start + len(text), start + len(line.rstrip()))
+                    yield self.report(at, f"rosidl cannot read the comment: {problem}")
+                problem = escape_problem(text)
+                if problem:
+                    at = source.location(start, start + len(text))
+                    yield self.report(at, f"rosidl cannot read the value: {problem}")
+                start += len(line)
+
+
+def _last_declaration(lines: Sequence[str]) -> int:
+    """Return the index of the last line that declares something: comments after it are dropped."""
+    stated = [n for n, line in enumerate(lines) if line.partition("#")[0].strip(" \t\r\n-")]
+    return stated[-1] if stated else -1
