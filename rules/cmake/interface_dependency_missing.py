@@ -1,11 +1,12 @@
-"""CM064: what the types of fields come from is among the DEPENDENCIES."""
+"""CM064: packages that the types of fields come from are found, and among the DEPENDENCIES."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
-from scaffold.api.cmake import Generation, generations
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, ViewError
+from scaffold.api.catalog import transitive_dependencies
+from scaffold.api.cmake import CMakeLists, Generation, generations, has_unknown_commands
 from scaffold.api.interfaces import KINDS, Definitions, interface_files
 
 _LISTS = (
@@ -13,14 +14,27 @@ _LISTS = (
     "rosidl_generate_interfaces(${PROJECT_NAME} msg/Beat.msg %s)\n"
 )
 _FILES = {"msg/Beat.msg": "std_msgs/Header header\ngeometry_msgs/Point point\n"}
+_TOOLS = ("ament_cmake", "ament_lint", "rosidl_", "Python3", "Eigen3")
+"""What brings no interfaces along, except for those that all interfaces use."""
+_ALWAYS = frozenset({"action_msgs", "builtin_interfaces", "service_msgs"})
+_ALWAYS |= {"unique_identifier_msgs", "type_description_interfaces", "rcl_interfaces"}
+_LISTS_FOUND = (
+    "project(my_msgs)\nfind_package(ament_cmake REQUIRED)\n"
+    "find_package(rosidl_default_generators REQUIRED)\n{}"
+    "rosidl_generate_interfaces(${{PROJECT_NAME}} msg/Beat.msg DEPENDENCIES std_msgs)\n"
+    "ament_package()\n"
+)
+_BEAT = {"msg/Beat.msg": "std_msgs/Header header\n"}
 
 
 class InterfaceDependencyMissing(Rule):
-    """A field has a type of a package that is not among the ``DEPENDENCIES``.
+    """A package whose types interfaces use is not among the ``DEPENDENCIES``, or is not found.
 
-    **Why.** The build stops: the generators do not find the definition of the type.
+    **Why.** The build stops: the generators do not find the definition of the type, or
+    ``rosidl_generate_interfaces() the passed dependency 'std_msgs' has not been found before using
+    find_package()``.
 
-    **Fix.** Call ``find_package`` for the package and add it to ``DEPENDENCIES``.
+    **Fix.** Call ``find_package`` for the package before, and add it to ``DEPENDENCIES``.
 
     **Source.** ``rosidl_cmake/cmake/rosidl_generate_interfaces.cmake``: DEPENDENCIES are "the
     packages from which message types are being used".
@@ -48,9 +62,33 @@ class InterfaceDependencyMissing(Rule):
                 "the DEPENDENCIES: add it",
             ),
         ),
+        Example(
+            "found before",
+            {"CMakeLists.txt": _LISTS_FOUND.format("find_package(std_msgs REQUIRED)\n"), **_BEAT},
+        ),
+        Example(
+            "geometry_msgs brings it along, which is found",
+            {
+                "CMakeLists.txt": _LISTS_FOUND.format("find_package(geometry_msgs REQUIRED)\n"),
+                **_BEAT,
+            },
+        ),
+        Example(
+            "among the DEPENDENCIES, but not found",
+            {"CMakeLists.txt": _LISTS_FOUND.format(""), **_BEAT},
+            Report(
+                "CMakeLists.txt:4:1",
+                "'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
+                "find_package(std_msgs REQUIRED) is missing",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_listed(package)
+        yield from self._check_found(package)
+
+    def _check_listed(self, package: Package) -> Iterator[Diagnostic]:
         definitions = package.workspace.interfaces
         for call in generations(package):
             if call.dependencies is None:
@@ -63,6 +101,21 @@ class InterfaceDependencyMissing(Rule):
                     message = (
                         f"{path}:{line} uses a type of {name!r}, which is not among the "
                         "DEPENDENCIES: add it"
+                    )
+                    yield self.report(call.command.name_location, message)
+
+    def _check_found(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        calls = [call for call in generations(package) if call.dependencies]
+        if not calls or cmake.finds_automatically or has_unknown_commands(package):
+            return
+        there = _available(package, _names_found(cmake))
+        for call in calls if there is not None else ():
+            for name in call.dependencies or ():
+                if name not in {*(there or ()), *_ALWAYS, package.name}:
+                    message = (
+                        f"{name!r} is among the DEPENDENCIES, but nothing finds it: "
+                        f"find_package({name} REQUIRED) is missing"
                     )
                     yield self.report(call.command.name_location, message)
 
@@ -97,3 +150,51 @@ def _reached(definitions: Definitions, names: list[str]) -> set[str] | None:
                     uses = {field.type.package for field in section.fields if field.type.package}
                     pending += [use for use in uses if use not in result and use not in pending]
     return result
+
+
+def _names_found(cmake: CMakeLists) -> set[str] | None:
+    """Return what is found; ``None`` if a name is not known."""
+    names: set[str] = set()
+    for command in cmake.find("find_package"):
+        expanded = cmake.expand_list(command.arguments[:1], command)
+        if not expanded and not any(package.command is command for package in cmake.found_packages):
+            return None
+    names.update(package.name for package in cmake.found_packages)
+    return names
+
+
+def _available(package: Package, required: set[str] | None) -> set[str] | None:
+    """Return what is found, with what comes along; ``None`` if more may come along."""
+    if required is None:
+        return None
+    definitions = package.workspace.interfaces
+    there: set[str] = set()
+    pending = sorted(required)
+    while pending:
+        name = pending.pop()
+        if name in there:
+            continue
+        there.add(name)
+        if name.startswith(_TOOLS):
+            continue
+        pending += sorted(transitive_dependencies({name}))
+        interfaces = [(kind, definitions.names(name, kind)) for kind in KINDS]
+        if name in required and not any(names for _, names in interfaces):
+            return None
+        pending += _declared(package, name)
+        for kind, names in interfaces:
+            for item in names or ():
+                interface = definitions.find(f"{name}/{kind}/{item}")
+                for section in interface.sections if interface else ():
+                    pending += [field.type.package or "" for field in section.fields]
+    return there
+
+
+def _declared(package: Package, name: str) -> list[str]:
+    """Return the DEPENDENCIES of another package of the workspace."""
+    other = package.workspace.get(name)
+    try:
+        calls = generations(other) if other is not None else []
+    except ViewError:
+        return []
+    return [dependency for call in calls for dependency in call.dependencies or ()]

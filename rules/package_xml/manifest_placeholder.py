@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Report, Diagnostic, Example, Package, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.formats import Element
 from scaffold.api.manifest import is_placeholder, is_placeholder_address
 

@@ -47,7 +47,9 @@ class EntryPointUnusable(Rule):
     code = "SP001"
     name = "entry-point-unusable"
     examples = (
-        Example("one", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}),
+        Example(
+            "one script", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}
+        ),
         Example(
             "a comma is missing",
             {
@@ -67,19 +69,10 @@ class EntryPointUnusable(Rule):
                 "= module:function",
             ),
         ),
-        Example("two names", {"setup.py": _SETUP_NAMES.format("listener")}),
         Example(
-            "one name",
+            "two scripts of one name",
             {"setup.py": _SETUP_NAMES.format("talker")},
             Report("8:9", "'talker' is the name of another entry point: only one is installed"),
-        ),
-        Example(
-            "a function that is there",
-            {
-                "setup.py": _SETUP.format("        'talker = talker.node:main',\n"),
-                "talker/__init__.py": "",
-                "talker/node.py": "def main():\n    pass\n",
-            },
         ),
         Example(
             "another function, another module",
@@ -133,7 +126,10 @@ class EntryPointUnusable(Rule):
             },
             Report("setup.py:5:9", "no module 'talkr.node' is installed; closest: 'talker.node'"),
         ),
-        Example("full name", {"setup.py": _SETUP_USE.format("talker.node"), **_FILES}),
+        Example(
+            "a function of a module that is there",
+            {"setup.py": _SETUP_USE.format("talker.node"), **_FILES},
+        ),
         Example(
             "without the package",
             {"setup.py": _SETUP_USE.format("node"), **_FILES},

@@ -94,7 +94,7 @@ class FixtureMisused(Rule):
             {"test/test_text.py": _TEST.format("return 'a'", "self", "'a'")},
             Report("9:5", "test_text is not a method: pytest finds no fixture 'self'"),
         ),
-        Example("of one test", {"test/test_text.py": _TEST_MADE.format("function", "")}),
+        Example("a fixture for one test", {"test/test_text.py": _TEST_MADE.format("function", "")}),
         Example(
             "a scope that does not exist",
             {"test/test_text.py": _TEST_MADE.format("modul", "")},

@@ -1,0 +1,138 @@
+"""CM095: what is named, found or exported once is not named, found or exported again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.cmake import Command
+
+_NAMING = (
+    "add_executable",
+    "add_launch_test",
+    "add_library",
+    "ament_add_gmock",
+    "ament_add_gtest",
+    "ament_add_pytest_test",
+    "ament_add_test",
+    "ament_python_install_package",
+)
+_LAUNCH_TEST = "add_launch_test"
+_LISTS = (
+    "project(talker)\nament_add_pytest_test(talk test/test_talk.py)\n"
+    "ament_add_pytest_test({} test/test_more.py)\n"
+)
+_FILES = {"test/test_talk.py": "", "test/test_more.py": ""}
+_FIND = "find_package(rclcpp REQUIRED)\n"
+
+
+class CallRepeated(Rule):
+    """A test, target or Python package has the name of another, or a call is repeated.
+
+    **Why.** CMake stops: ``add_test given test NAME "talk" which already exists in this
+    directory``. A second ``ament_package()`` writes the index entry and the configuration files
+    again, with what was collected up to there. A second ``find_package`` does nothing, and is
+    forgotten when the dependency is removed.
+
+    **Fix.** Give each its own name, or remove the call; of ``ament_package()`` keep the last.
+
+    **Source.** CMake documentation, ``add_test``; ``ament_python_install_package.cmake``; ROS 2
+    documentation, "ament_cmake user documentation": "exactly once"; catkin_lint, "duplicate
+    find_package".
+    """
+
+    code = "CM095"
+    name = "call-repeated"
+    effect = Effect.STOPS_BUILD
+    other_severities = {Severity.WARNING: "it only looks for a package again"}
+    examples = (
+        Example("two names", {"CMakeLists.txt": _LISTS.format("more"), **_FILES}),
+        Example(
+            "two tests of one name",
+            {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
+            Report(
+                "CMakeLists.txt:3:23",
+                "ament_add_pytest_test(talk) is already called in line 2: CMake stops",
+            ),
+        ),
+        Example(
+            "ament_package() in two branches",
+            {
+                "CMakeLists.txt": "project(talker)\n"
+                "if(WIN32)\n  ament_package()\n  return()\nendif()\nament_package()\n"
+            },
+        ),
+        Example(
+            "ament_package() twice",
+            {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
+            Report("3:1", "ament_package() is already called in line 2"),
+        ),
+        Example(
+            "a package found twice",
+            {"CMakeLists.txt": f"project(talker)\n{_FIND}{_FIND}"},
+            Report(
+                "3:1",
+                "'rclcpp' is already found in line 2",
+                fix="remove it",
+                severity=Severity.WARNING,
+            ),
+            fixed={"CMakeLists.txt": f"project(talker)\n{_FIND}"},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_names(package)
+        yield from self._check_exports(package)
+        yield from self._check_finds(package)
+
+    def _check_names(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        seen: dict[tuple[str, str], Command] = {}
+        for command in cmake.find(*_NAMING):
+            if not command.arguments or command.name == _LAUNCH_TEST or self._may_skip(command):
+                continue
+            if "ALIAS" in command.values:
+                continue
+            name = cmake.expand(command.arguments[0], command)
+            group = "target" if command.name.startswith("add_") else command.name
+            group = "test" if "test" in command.name else group
+            if name is None:
+                continue
+            first = seen.setdefault((group, name), command)
+            if first is not command:
+                line = first.location.line
+                message = f"{command.name}({name}) is already called in line {line}: CMake stops"
+                yield self.report(command.arguments[0], message)
+
+    def _may_skip(self, command: Command) -> bool:
+        """Tell whether a command is in one of several branches, or in a loop or function."""
+        return any(
+            block.name != "if" or "BUILD_TESTING" not in block.values for block in command.blocks
+        )
+
+    def _check_exports(self, package: Package) -> Iterator[Diagnostic]:
+        calls = [call for call in package.cmake.find("ament_package") if not call.blocks]
+        for call in calls[1:]:
+            line = calls[0].location.line
+            yield self.report(
+                call.name_location, f"ament_package() is already called in line {line}"
+            )
+
+    def _check_finds(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        first: dict[tuple[str, ...], int] = {}
+        for command in cmake.find("find_package"):
+            values = tuple(command.values)
+            if not values or command.blocks or "$" in values[0]:
+                continue
+            line = command.location.line
+            if values not in first:
+                first[values] = line
+                continue
+            start = cmake.source.offset(line)
+            end = cmake.source.offset(command.location.end_line + 1)
+            text = cmake.source.text[start:end]
+            alone = text.strip() == cmake.source.text[command.start : command.end]
+            fix = Fix("remove it", (Edit("CMakeLists.txt", start, end, ""),)) if alone else None
+            message = f"{values[0]!r} is already found in line {first[values]}"
+            yield self.report(command.name_location, message, fix, severity=Severity.WARNING)

@@ -1,0 +1,373 @@
+"""CM011: files and directories that commands of CMake name exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import (
+    CreateFile,
+    Diagnostic,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    closest_name,
+)
+from scaffold.api.cmake import Install, InstallItem, generations, is_made_by_build, runs_if_exists
+from scaffold.api.interfaces import SECTIONS, closest_word
+from scaffold.api.workspace import is_untracked
+
+_INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
+_ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
+_MAKERS = (
+    "configure_file",
+    "file",
+    "add_custom_command",
+    "add_custom_target",
+    "execute_process",
+    "externalproject_add",
+    "fetchcontent_declare",
+    "include",
+    "generate_parameter_library",
+)
+_LISTS = "project(talker)\nadd_executable(talker {})\n"
+_LISTS_SUBDIRECTORIES = "project(talker)\nadd_subdirectory({})\n"
+_TESTING = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
+_LISTS_TESTS = "project(talker)\nament_add_pytest_test(talk test/{})\n"
+_LISTS_INTERFACES = (
+    "project(my_msgs)\nset(files %s)\nrosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
+)
+_LISTS_PACKAGE = "project(talker)\nament_python_install_package({})\n"
+
+
+class NamedFileMissing(Rule):
+    """A command names a file or a directory that does not exist, or is not of the kind it needs.
+
+    **Why.** The build stops: ``file INSTALL cannot find``, ``Cannot find source file``,
+    ``add_subdirectory given source "src" which is not an existing directory``, ``the passed file
+    'msg/Bet.msg' doesn't exist``; so does a test, with ``file or directory not found``. An empty
+    directory is there only on the machine of its author: git does not keep it.
+
+    **Fix.** Correct the name, or remove it: a Python package needs no executable and no
+    ``add_subdirectory``, but an ``__init__.py``. Interfaces are in a directory, and end in .msg,
+    .srv, .action or .idl.
+
+    **Source.** CMake documentation, ``install``, ``add_executable``, ``add_subdirectory``;
+    ``rosidl_generate_interfaces.cmake``, ``ament_add_pytest_test.cmake``,
+    ``ament_python_install_package.cmake``.
+    """
+
+    code = "CM011"
+    name = "named-file-missing"
+    effect = Effect.STOPS_BUILD
+    examples = (
+        Example(
+            "there; a generated file and an optional one may come later",
+            {
+                "CMakeLists.txt": _INSTALL.format("DIRECTORY launch")
+                + _INSTALL.format("FILES ${CMAKE_CURRENT_BINARY_DIR}/made.yaml")
+                + "install(DIRECTORY maps OPTIONAL DESTINATION share/${PROJECT_NAME})\n",
+                "launch/talk.launch.py": "",
+            },
+        ),
+        Example(
+            "a directory and a file to install that are not there",
+            {
+                "CMakeLists.txt": _INSTALL.format("DIRECTORY include/")
+                + _INSTALL.format("PROGRAMS talker/nod.py"),
+                "talker/node.py": "",
+            },
+            Report(
+                "CMakeLists.txt:2:19",
+                "installs the directory include/, which does not exist: the build stops",
+            ),
+            Report(
+                "CMakeLists.txt:4:18",
+                "installs talker/nod.py, which does not exist: the build stops; "
+                "closest: talker/node.py",
+            ),
+        ),
+        Example(
+            "an empty directory",
+            {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
+            Report(
+                "CMakeLists.txt:2:19",
+                "the directory include/ is empty: git does not keep it, then the build stops",
+            ),
+        ),
+        Example(
+            "a directory that git ignores, and a package in a directory",
+            {
+                "CMakeLists.txt": _INSTALL.format(
+                    "DIRECTORY built templates templates/inner/launch"
+                ),
+                "templates/inner/package.xml": "<package/>\n",
+                ".gitignore": "/built/\n",
+            },
+        ),
+        Example(
+            "a file that git ignores in one directory",
+            {
+                "CMakeLists.txt": _INSTALL.format("PROGRAMS simulator/controller"),
+                "simulator/.gitignore": "/controller\n",
+            },
+        ),
+        Example(
+            "sources, a directory, a test and a Python package that are there",
+            {
+                "CMakeLists.txt": _LISTS.format("src/a.cpp ${CMAKE_BINARY_DIR}/made.cpp")
+                + _LISTS_SUBDIRECTORIES.format("src")
+                + _LISTS_TESTS.format("test_talk.py")
+                + _LISTS_PACKAGE.format("${PROJECT_NAME}"),
+                "src/CMakeLists.txt": "message(STATUS src)\n",
+                "src/a.cpp": "",
+                "test/test_talk.py": "",
+                "talker/__init__.py": "",
+            },
+        ),
+        Example(
+            "a source that is not there",
+            {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
+            Report(
+                "CMakeLists.txt:2:23", "there is no file src/a.cpp: CMake stops; closest: src/b.cpp"
+            ),
+        ),
+        Example(
+            "a submodule of git, which a clone may not have",
+            {
+                "CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("lib/json"),
+                ".gitmodules": '[submodule "json"]\n  path = lib/json\n',
+            },
+        ),
+        Example(
+            "a directory to add that is not there",
+            {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src")},
+            Report("2:18", "adds the directory src/, which does not exist: CMake stops"),
+        ),
+        Example(
+            "without a CMakeLists.txt",
+            {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src"), "src/talker.py": ""},
+            Report("CMakeLists.txt:2:18", "adds src/, which has no CMakeLists.txt: CMake stops"),
+        ),
+        Example(
+            "a test that is not there",
+            {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
+            Report(
+                "CMakeLists.txt:2:28",
+                "there is no test file test/test_talks.py; closest: test/test_talk.py",
+            ),
+        ),
+        Example(
+            "interfaces that exist, or are made by the build",
+            {
+                "CMakeLists.txt": _LISTS_INTERFACES
+                % "msg/Beat.msg ${CMAKE_CURRENT_BINARY_DIR}:msg/Made.msg",
+                "msg/Beat.msg": "int32 count\n",
+            },
+        ),
+        Example(
+            "interfaces: misspelled, without the directory",
+            {
+                "CMakeLists.txt": _LISTS_INTERFACES % "\n  msg/beat.msg\n  Beat.msg\n",
+                "msg/Beat.msg": "int32 count\n",
+            },
+            Report(
+                "CMakeLists.txt:3:3",
+                "there is no file 'msg/beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
+            ),
+            Report(
+                "CMakeLists.txt:4:3",
+                "there is no file 'Beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
+            ),
+        ),
+        Example(
+            "an interface next to CMakeLists.txt",
+            {"CMakeLists.txt": _LISTS_INTERFACES % "Beat.msg", "Beat.msg": "int32 count\n"},
+            Report(
+                "CMakeLists.txt:2:11",
+                "Beat.msg must be in a directory, so CMake stops: move it to msg/",
+            ),
+        ),
+        Example(
+            "another kind of file than an interface",
+            {"CMakeLists.txt": _LISTS_INTERFACES % "msg/Beat.txt", "msg/Beat.txt": ""},
+            Report("CMakeLists.txt:2:11", "msg/Beat.txt is not a .msg, .srv, .action or .idl file"),
+        ),
+        Example(
+            "a Python package without __init__.py",
+            {"CMakeLists.txt": _LISTS_PACKAGE.format("${PROJECT_NAME}"), "talker/node.py": ""},
+            Report(
+                "talker/__init__.py:1:1",
+                "missing, but CMakeLists.txt, line 2 installs talker/: CMake stops",
+                fix="create talker/__init__.py",
+            ),
+            fixed={"talker/__init__.py": ""},
+        ),
+        Example(
+            "no directory of the Python package",
+            {"CMakeLists.txt": _LISTS_PACKAGE.format("talkers"), "talker/__init__.py": ""},
+            Report(
+                "CMakeLists.txt:2:30",
+                "the Python package folder talkers/ does not exist: CMake stops",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_installed(package)
+        yield from self._check_sources(package)
+        yield from self._check_subdirectories(package)
+        yield from self._check_tests(package)
+        yield from self._check_interfaces(package)
+        yield from self._check_package(package)
+
+    def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            if install.kind not in {"PROGRAMS", "FILES", "DIRECTORY"} or install.command.has(
+                "OPTIONAL"
+            ):
+                continue
+            for item in install.items:
+                problem = self._problem(package, install, item)
+                if problem:
+                    yield self.report(item, problem)
+
+    def _problem(self, package: Package, install: Install, item: InstallItem) -> str | None:
+        path = item.path
+        if not path or not self._is_own(path) or is_made_by_build(package, path):
+            return None
+        if runs_if_exists(install.command) or is_untracked(package, path):
+            return None
+        nested = [f"{directory}/" for directory in package.tree.nested]
+        if any(f"{path}/".startswith(item) or item.startswith(f"{path}/") for item in nested):
+            return None  # the files of a package inside of this one are its own
+        if install.kind == "DIRECTORY":
+            return self._directory_problem(package, path)
+        if package.has(path):
+            return None
+        closest = closest_name(package, path, package.files, 0.8)
+        hint = f"; closest: {closest}" if closest else ""
+        return f"installs {path}, which does not exist: the build stops{hint}"
+
+    def _directory_problem(self, package: Package, path: str) -> str | None:
+        if not package.has_directory(path):
+            return f"installs the directory {path}/, which does not exist: the build stops"
+        if not any(name.startswith(f"{path}/") for name in package.files):
+            return f"the directory {path}/ is empty: git does not keep it, then the build stops"
+        return None
+
+    def _is_own(self, path: str) -> bool:
+        """Tell whether a path certainly lies in the package."""
+        return not path.startswith(("/", "..")) and path != "." and not set("$<*") & set(path)
+
+    def _check_sources(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if cmake.find(*_MAKERS):
+            return
+        for command in cmake.find("add_executable", "add_library"):
+            if command.blocks:
+                continue
+            for argument in command.arguments[1:]:
+                value = cmake.expand(argument, command)
+                if value is None or set("$<*;") & set(value) or not value.endswith(_ENDINGS):
+                    continue
+                path = cmake.path_of(value)
+                if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
+                    continue
+                closest = closest_name(package, path, package.files, 0.8)
+                hint = f"; closest: {closest}" if closest else ""
+                message = f"there is no file {path}: CMake stops{hint}"
+                yield self.report(argument, message)
+
+    def _check_subdirectories(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        made = cmake.find(
+            "configure_file",
+            "file",
+            "execute_process",
+            "externalproject_add",
+            "fetchcontent_declare",
+            "fetchcontent_makeavailable",
+            "include",
+        )
+        for command in cmake.find("add_subdirectory"):
+            if made or command.blocks or not command.arguments:
+                continue
+            value = cmake.expand(command.arguments[0], command)
+            if value is None or set("$<*") & set(value) or value.startswith(("/", "..")):
+                continue
+            path = cmake.path_of(value)
+            if package.has(f"{path}/CMakeLists.txt") or is_untracked(package, path):
+                continue
+            if not package.has_directory(path):
+                message = f"adds the directory {path}/, which does not exist: CMake stops"
+            elif any(name.startswith(f"{path}/") for name in package.files):
+                message = f"adds {path}/, which has no CMakeLists.txt: CMake stops"
+            else:
+                continue  # a submodule that has not been cloned is an empty directory
+            yield self.report(command.arguments[0], message)
+
+    def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        for command in cmake.find(*_TESTING):
+            position = 1 if command.name == "ament_add_pytest_test" else 0
+            if len(command.arguments) <= position:
+                continue
+            argument = command.arguments[position]
+            value = cmake.expand(argument, command)
+            if value is None or value.startswith(("/", "..", "$")) or "<" in value:
+                continue
+            path = cmake.path_of(value)
+            if package.has(path) or package.has_directory(path):
+                continue
+            closest = closest_name(package, path, package.python_files, 0.7)
+            hint = f"; closest: {closest}" if closest else ""
+            yield self.report(argument, f"there is no test file {path}{hint}")
+
+    def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
+        there = [path for path in package.files if path.rpartition(".")[2] in {*SECTIONS, "idl"}]
+        made = [command.values for command in package.cmake.find("configure_file", "file")]
+        for call in generations(package):
+            for file in call.files:
+                path, ending = file.path, file.path.rpartition(".")[2]
+                if package.has(path) and ending not in {*SECTIONS, "idl"}:
+                    message = f"{path} is not a .msg, .srv, .action or .idl file"
+                    yield self.report(file.argument, message)
+                elif package.has(path) and "/" not in path:
+                    message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"
+                    yield self.report(file.argument, message)
+                elif not package.has(path) and not any(path in values for values in made):
+                    same = [item for item in there if item.lower().endswith(f"/{path.lower()}")]
+                    hint = f"; did you mean {same[0]!r}?" if same else closest_word(path, there)
+                    message = f"there is no file {path!r}, so CMake stops{hint}"
+                    yield self.report(file.argument, message)
+
+    def _check_package(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        for command in cmake.find("ament_python_install_package"):
+            sections = command.sections(
+                {
+                    "PACKAGE_DIR",
+                    "VERSION",
+                    "SETUP_CFG",
+                    "DESTINATION",
+                    "SCRIPTS_DESTINATION",
+                    "SKIP_COMPILE",
+                }
+            )
+            chosen = sections.get("PACKAGE_DIR") or sections[""]
+            directory = cmake.expand(chosen[0], command) if chosen else None
+            if not chosen or directory is None or directory.startswith(("/", "..")):
+                continue
+            path = cmake.path_of(directory)
+            init = f"{path}/__init__.py"
+            line = command.location.line
+            if not package.has_directory(path):
+                message = f"the Python package folder {path}/ does not exist: CMake stops"
+                yield self.report(chosen[0], message)
+            elif not package.has(init):
+                fix = Fix(f"create {init}", (CreateFile(init, ""),))
+                message = f"missing, but CMakeLists.txt, line {line} installs {path}/: CMake stops"
+                yield self.report(package.start_of(init), message, fix)
