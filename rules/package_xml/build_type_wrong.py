@@ -1,0 +1,304 @@
+"""PX011: the manifest has one build type that exists and fits the files, and what it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api.cmake import uses_ament
+from scaffold.api.manifest import ConditionError, holds
+
+KNOWN = ("ament_cmake", "ament_python", "cmake", "catkin", "ament_cargo", "python")
+_MANIFEST = (
+    '<package format="3">\n  <export>\n    <build_type>ament_cmake</build_type>\n'
+    "    <build_type{}>ament_python</build_type>\n  </export>\n</package>\n"
+)
+_CMAKE_PACKAGE = "find_package(ament_cmake REQUIRED)\nament_package()\n"
+_MANIFEST_FILES = (
+    '<package format="3">\n  <name>talker</name>\n'
+    "  <export>\n    <build_type>{}</build_type>\n  </export>\n</package>\n"
+)
+_FILES = {"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"}
+FILES = {"ament_cmake": "CMakeLists.txt", "cmake": "CMakeLists.txt", "ament_python": "setup.py"}
+_MANIFEST_TOOL = (
+    '<package format="3">\n  <name>talker</name>\n{}'
+    "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n"
+)
+_DEPEND = "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+_LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n"
+
+
+class BuildTypeWrong(Rule):
+    """``<build_type>`` is missing, repeated, unknown or of other files, or ament_cmake undeclared.
+
+    **Why.** Without one, colcon takes the package for one of ROS 1, of build type catkin: it is
+    built without the hooks of ament, and ``ros2 run`` answers ``Package 'talker' not found``. For
+    one that does not exist it has no task; two make it ignore the package. Where the files do not
+    fit, the build stops: ``does not appear to contain CMakeLists.txt``. On a clean machine CMake
+    stops without a declaration: ``Could not find a package configuration file provided by
+    "ament_cmake"``.
+
+    **Fix.** Write one ``<build_type>``, ``ament_cmake``, ``ament_python`` or ``cmake``, as the
+    files are, and ``<buildtool_depend>ament_cmake</buildtool_depend>``.
+
+    **Source.** REP-149, ``<build_type>``: the default is catkin; ``<buildtool_depend>``;
+    ``colcon_ros/package_identification/ros.py``; ``colcon_ros/task``.
+    """
+
+    code = "PX011"
+    name = "build-type-wrong"
+    effect = Effect.STOPS_BUILD
+    examples = (
+        Example(
+            "a misspelled one",
+            {
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_pyton</build_type>\n"
+                "</export></package>\n",
+                "setup.py": "",
+            },
+            Report(
+                "package.xml:2:15",
+                "unknown build type 'ament_pyton': colcon skips the package; "
+                "closest: 'ament_python'",
+                fix="write ament_python",
+            ),
+            fixed={
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_python</build_type>\n"
+                "</export></package>\n"
+            },
+        ),
+        Example(
+            "two, one of them for ROS 1",
+            {
+                "package.xml": _MANIFEST.format(' condition="$ROS_VERSION == 1"'),
+                "setup.py": "",
+                "CMakeLists.txt": "project(talker)\n",
+            },
+        ),
+        Example(
+            "two at once",
+            {
+                "package.xml": _MANIFEST.format(""),
+                "setup.py": "",
+                "CMakeLists.txt": "project(talker)\n",
+            },
+            Report(
+                "package.xml:4:5",
+                "a second build type, after the one in line 3: colcon ignores the package",
+            ),
+        ),
+        Example(
+            "a setup.py and ament_python",
+            {
+                "package.xml": "<package><export><build_type>ament_python</build_type></export>"
+                "</package>\n",
+                "setup.py": "",
+            },
+        ),
+        Example(
+            "a setup.py, and no build type",
+            {"package.xml": "<package>\n  <name>talker</name>\n</package>\n", "setup.py": ""},
+            Report(
+                "package.xml:1:2",
+                "no <build_type>: colcon treats the package as catkin; write "
+                "<build_type>ament_python</build_type> in <export>",
+                fix="declare ament_python",
+            ),
+            fixed={
+                "package.xml": "<package>\n"
+                "  <name>talker</name>\n"
+                "  <export>\n"
+                "    <build_type>ament_python</build_type>\n"
+                "  </export>\n"
+                "</package>\n"
+            },
+        ),
+        Example(
+            "an export for something else",
+            {
+                "package.xml": "<package>\n  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+                "  <export>\n    <other/>\n  </export>\n</package>\n",
+                "CMakeLists.txt": _CMAKE_PACKAGE,
+            },
+            Report(
+                "package.xml:3:4",
+                "no <build_type>: colcon treats the package as catkin; write "
+                "<build_type>ament_cmake</build_type> in <export>",
+                fix="declare ament_cmake",
+            ),
+            fixed={
+                "package.xml": "<package>\n"
+                "  <buildtool_depend>ament_cmake</buildtool_depend>\n  <export>\n"
+                "    <build_type>ament_cmake</build_type>\n    <other/>\n  </export>\n</package>\n"
+            },
+        ),
+        Example(
+            "a setup.py and ament_cmake",
+            {
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_cmake</build_type>\n"
+                "</export></package>\n",
+                "setup.py": "",
+            },
+            Report(
+                "package.xml:2:15",
+                "build type ament_cmake needs a CMakeLists.txt, which the package "
+                "does not have; its setup.py belongs to ament_python",
+                fix="write ament_python",
+            ),
+            fixed={
+                "package.xml": "<package><export>\n"
+                "  <build_type>ament_python</build_type>\n"
+                "</export></package>\n"
+            },
+        ),
+        Example(
+            "ament_python, with its files",
+            {"package.xml": _MANIFEST_FILES.format("ament_python"), **_FILES},
+        ),
+        Example(
+            "catkin, for files of ament_python",
+            {"package.xml": _MANIFEST_FILES.format("catkin"), **_FILES},
+            Report(
+                "package.xml:4:5",
+                "build type catkin, but the files are those of ament_python",
+                fix="write ament_python",
+            ),
+            fixed={"package.xml": _MANIFEST_FILES.format("ament_python")},
+        ),
+        Example(
+            "ament_cmake undeclared",
+            {"package.xml": _MANIFEST_TOOL.format(""), "CMakeLists.txt": _LISTS},
+            Report(
+                "package.xml:1:2",
+                "nothing declares ament_cmake, which CMakeLists.txt finds",
+                fix="declare it",
+            ),
+            fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND)},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_spelling(package)
+        yield from self._check_number(package)
+        yield from self._check_missing(package)
+        yield from self._check_files(package)
+        yield from self._check_tool(package)
+
+    def _check_spelling(self, package: Package) -> Iterator[Diagnostic]:
+        for element in package.manifest.build_type_elements:
+            closest = get_close_matches(element.text, KNOWN, n=1, cutoff=0.75)
+            if element.text in KNOWN or not closest:
+                continue
+            message = (
+                f"unknown build type {element.text!r}: colcon skips the package; closest: "
+                f"{closest[0]!r}"
+            )
+            edit = Edit("package.xml", *element.text_span, closest[0])
+            yield self.report(element.text_location, message, Fix(f"write {closest[0]}", (edit,)))
+
+    def _check_number(self, package: Package) -> Iterator[Diagnostic]:
+        active = []
+        for element in package.manifest.build_type_elements:
+            condition = element.get("condition")
+            try:
+                if condition is None or holds(condition):
+                    active.append(element)
+            except ConditionError:
+                return
+        for element in active[1:]:
+            line = active[0].location.line
+            message = (
+                f"a second build type, after the one in line {line}: colcon ignores the package"
+            )
+            yield self.report(element, message)
+
+    def _check_missing(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        if manifest.build_type_elements or "catkin" in manifest.declared_names:
+            return
+        if package.has("CMakeLists.txt"):
+            uses_ament = any(name.startswith("ament_") for name in manifest.declared_names) or any(
+                command.name.startswith("ament_") for command in package.cmake.commands
+            )
+            if not uses_ament:
+                return
+            build_type = "ament_cmake"
+        elif package.has("setup.py"):
+            build_type = "ament_python"
+        else:
+            return
+        export = manifest.one("export")
+        line = f"<build_type>{build_type}</build_type>"
+        newline = manifest.source.newline
+        if export is None:
+            close = manifest.root.close_start
+            text = f"  <export>{newline}    {line}{newline}  </export>{newline}"
+            at, edit = manifest.root.name_location, Edit("package.xml", close, close, text)
+        else:
+            inside = export.open_end
+            at = export.name_location
+            edit = Edit("package.xml", inside, inside, f"{newline}    {line}")
+        message = f"no <build_type>: colcon treats the package as catkin; write {line} in <export>"
+        fix = Fix(f"declare {build_type}", (edit,)) if export is None or export.children else None
+        yield self.report(at, message, fix)
+
+    def _check_files(self, package: Package) -> Iterator[Diagnostic]:
+        for diagnostic in self._check_ros1(package):
+            yield diagnostic
+            return
+        for element in package.manifest.build_type_elements:
+            wanted = FILES.get(element.text)
+            if wanted is None or package.has(wanted) or element.get("condition"):
+                continue
+            message = f"build type {element.text} needs a {wanted}, which the package does not have"
+            other = "ament_cmake" if wanted == "setup.py" else "ament_python"
+            if not package.has(FILES[other]):
+                yield self.report(element.text_location, message)
+                continue
+            edit = Edit("package.xml", *element.text_span, other)
+            message += f"; its {FILES[other]} belongs to {other}"
+            yield self.report(element.text_location, message, Fix(f"write {other}", (edit,)))
+
+    def _check_ros1(self, package: Package) -> Iterator[Diagnostic]:
+        """Report ``catkin`` and ``cmake`` where the files are those of ament."""
+        manifest = package.manifest
+        elements = [x for x in manifest.root.descendants() if x.tag == "build_type"]
+        given = manifest.build_type or ""
+        if given not in {"catkin", "cmake"} or len(elements) != 1 or elements[0].get("condition"):
+            return
+        wanted = _ament_type(package)
+        if wanted:
+            element = elements[0]
+            start = manifest.source.text.find(given, element.start)
+            edit = Edit("package.xml", start, start + len(given), wanted)
+            message = f"build type {given}, but the files are those of {wanted}"
+            yield self.report(element, message, Fix(f"write {wanted}", (edit,)))
+
+    def _check_tool(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        if manifest.build_type != "ament_cmake" or not package.cmake.finds("ament_cmake"):
+            return
+        # Whatever builds something may bring ament_cmake along.
+        if any("ament" in name or name.endswith("_cmake") for name in manifest.build_names):
+            return
+        if any(dependency.kind == "buildtool_depend" for dependency in manifest.dependencies):
+            return
+        fix = Fix("declare it", (manifest.insert("buildtool_depend", "ament_cmake"),))
+        message = "nothing declares ament_cmake, which CMakeLists.txt finds"
+        at = manifest.root.name_location
+        yield self.report(at, message, fix, cause="dependency ament_cmake")
+
+
+def _ament_type(package: Package) -> str:
+    """Return the build type that the files belong to; empty if they are not of ament."""
+    if package.has("CMakeLists.txt"):
+        try:
+            is_ament = uses_ament(package) and "catkin" not in package.cmake.source.text
+        except ViewError:
+            return ""
+        return "ament_cmake" if is_ament else ""
+    return "ament_python" if package.has("setup.py") else ""
