@@ -4,22 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.parameters import parameter_file, parameter_paths
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api.formats import Scalar, Sequence
+from scaffold.api.launch import nodes_for
+from scaffold.api.parameters import (
+    declared_by,
+    mixed,
+    parameter_file,
+    parameter_paths,
+    place_of,
+    scalar_type,
+)
+from scaffold.api.python import is_handled
+from scaffold.api.rclpy import NodeClass, NodeDefinition, ParameterRead
 
 _FILE = "talker:\n  ros__parameters:\n    rate: {}\n"
+_FILE_LISTS = "talker:\n  ros__parameters:\n    gains: {}\n"
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('names', ['a'])\n"
+    "        self.names = self.{}.value\n"
+)
+_FILE_EMPTY = "talker:\n  ros__parameters:\n    names: {}\n"
 
 
 class ValueRefused(Rule):
-    """A parameter file is valid YAML, but contains a value that rcl rejects.
+    """A parameter file is valid YAML, but contains a value or a list that rcl does not take.
 
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
-    file ... No value at line 3``, ``Will not support aliasing``, ``Sequences cannot be key``,
-    ``There are no node names before ros__parameters``.
+    file ... No value at line 3``, ``Will not support aliasing``, ``Sequence should be of same
+    type``, ``Sequences cannot be key``, ``There are no node names before ros__parameters``. A
+    parameter with an empty list counts as unset, also where it has a default:
+    ``ParameterUninitializedException``.
 
-    **Fix.** Write every value out, without aliases; flatten lists of lists.
+    **Fix.** Write every value out, without aliases; flatten lists of lists; write ``1.0`` among
+    doubles, and quote words that YAML reads as another type. Remove an empty list, or write
+    ``['']`` and have the node skip empty names.
 
-    **Source.** ``rcl_yaml_param_parser/src/parse.c``.
+    **Source.** ``rcl_yaml_param_parser/src/parse.c``; ``rclpy/node.py``, ``get_parameter``.
     """
 
     code = "PF007"
@@ -51,10 +74,115 @@ class ValueRefused(Rule):
             Report("a.yaml:1:1", "no node name above 'ros__parameters': rcl rejects the file"),
             Report("b.yaml:2:3", "no parameters under 'ros__parameters': rcl rejects the file"),
         ),
+        Example("items of the same type", {"config/a.yaml": _FILE_LISTS.format("[1.0, 2.5]")}),
+        Example(
+            "integers among doubles",
+            {"config/a.yaml": _FILE_LISTS.format("[1, 2.5, -3]")},
+            Report(
+                "3:16",
+                "list 'gains' mixes integer (1) and double (2.5): rcl rejects the file",
+                fix="write all as doubles",
+            ),
+            fixed={"config/a.yaml": _FILE_LISTS.format("[1.0, 2.5, -3.0]")},
+        ),
+        Example(
+            "a word that YAML reads as a boolean",
+            {"config/a.yaml": _FILE_LISTS.format("[left, right, off]")},
+            Report("3:26", "list 'gains' mixes string (left) and bool (off): rcl rejects the file"),
+        ),
+        Example(
+            "a list with items",
+            {
+                "talker.py": _NODE.format("get_parameter('names')"),
+                "a.yaml": _FILE_EMPTY.format("[b]"),
+            },
+        ),
+        Example(
+            "an empty list, and a node that handles it",
+            {
+                "talker.py": _NODE.format("get_parameter_or('names')"),
+                "a.yaml": _FILE_EMPTY.format("[]"),
+            },
+        ),
+        Example(
+            "an empty list",
+            {
+                "talker.py": _NODE.format("get_parameter('names')"),
+                "a.yaml": _FILE_EMPTY.format("[]"),
+            },
+            Report(
+                "a.yaml:3:12",
+                "empty list leaves 'names' unset, and talker.py:8 reads it: "
+                "ParameterUninitializedException",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_values(package)
+        yield from self._check_lists(package)
+        yield from self._check_empty(package)
+
+    def _check_values(self, package: Package) -> Iterator[Diagnostic]:
         for path in parameter_paths(package):
             file = parameter_file(package, path)
             for refused in file.refused if file else ():
                 yield self.report(refused.location, refused.message)
+
+    def _check_lists(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                for entry in section.entries:
+                    mixture = mixed(entry.value)
+                    if mixture is None or not isinstance(entry.value, Sequence):
+                        continue
+                    first, kind, other, other_kind = mixture
+                    message = (
+                        f"list {entry.name!r} mixes {kind} ({first.text}) and {other_kind} "
+                        f"({other.text}): rcl rejects the file"
+                    )
+                    yield self.report(other, message, self._fix(path, entry.value))
+
+    def _fix(self, path: str, value: Sequence) -> Fix | None:
+        scalars = [item for item in value.items if isinstance(item, Scalar)]
+        kinds = [scalar_type(item) for item in scalars]
+        if set(kinds) != {"integer", "double"}:
+            return None
+        whole = [item for item, kind in zip(scalars, kinds, strict=True) if kind == "integer"]
+        if not all(item.text.lstrip("+-").isdecimal() for item in whole):
+            return None
+        edits = tuple(Edit(path, item.end, item.end, ".0") for item in whole)
+        return Fix("write all as doubles", edits)
+
+    def _check_empty(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            for section in file.sections if file else ():
+                for entry in section.entries:
+                    if not isinstance(entry.value, Sequence) or entry.value.items:
+                        continue
+                    for owner in nodes_for(package, path, section):
+                        read = _read(owner.definition(package), entry.name)
+                        if read is None or not declared_by(owner, package).types.get(entry.name):
+                            continue
+                        where = place_of(owner.package, read.location, package)
+                        message = (
+                            f"empty list leaves {entry.name!r} unset, and "
+                            f"{where} reads it: ParameterUninitializedException"
+                        )
+                        yield self.report(entry.value, message)
+                        break
+
+
+def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
+    """Return a place where the node fails when a parameter has no value."""
+    current: NodeDefinition | None = owner
+    while current is not None:
+        for read in current.parameter_reads:
+            if read.name == name and read.method == "get_parameter":
+                module = current.facts.module
+                if not is_handled(module, read.call, "ParameterUninitializedException"):
+                    return read
+        current = current.base if isinstance(current, NodeClass) else None
+    return None
