@@ -1,15 +1,22 @@
-"""ND054: node constructors call Node's constructor with a name, first."""
+"""ND001: node classes inherit from Node, and call its constructor with a name, first."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has
 
-_MISSPELLED = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
 _NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        {}\n"
+    "        self.create_timer(1.0, print)\n"
+)
+_MISSPELLED = frozenset({"_init_", "__init", "_init__", "__init_", "init", "__int__", "__intit__"})
+_NODE_CONSTRUCTOR = (
     "from rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
     "    def {}(self):\n"
@@ -17,56 +24,145 @@ _NODE = (
     "        self.create_timer(1.0, print)\n"
 )
 _INIT = "        super().__init__('talker')\n"
+_CREATES = ("create_publisher", "create_subscription", "create_timer", "declare_parameter")
+_NODE_BASE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker{}:\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n"
+)
 
 
 class NodeNotConstructed(RclpyRule):
-    """A node constructor passes no name, calls Node's constructor too late, or is misspelled.
+    """A node class does not inherit from Node, or does not call its constructor first, with a name.
 
-    **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``,
-    or ``AttributeError: 'Talker' object has no attribute '_Node__...'`` when the node is used.
+    **Why.** ``TypeError: Node.__init__() missing 1 required positional argument: 'node_name'``, or
+    ``AttributeError`` at the first use of the node: ``'Talker' object has no attribute
+    '_Node__...'``, without the base ``'create_timer'``.
 
-    **Fix.** Start ``def __init__(self):`` with ``super().__init__('talker')``.
+    **Fix.** Write ``class Talker(Node):``, and start ``def __init__(self):`` with
+    ``super().__init__('talker')``.
 
-    **Source.** ``rclpy/node.py``, ``Node.__init__``; Python documentation, ``super``.
+    **Source.** ``rclpy/node.py``, ``Node.__init__``; ROS 2 documentation, "Writing a simple
+    publisher and subscriber (Python)".
     """
 
-    code = "ND054"
+    code = "ND001"
     name = "node-not-constructed"
+    other_severities = {Severity.WARNING: "nothing in the file uses it as a node"}
     examples = (
-        Example("called first", {"talker.py": _NODE.format("__init__", _INIT)}),
+        Example("called", {"talker.py": _NODE.format("super().__init__('talker')")}),
         Example(
-            "without a name",
-            {"talker.py": _NODE.format("__init__", _INIT.replace("'talker'", ""))},
+            "called later",
+            {
+                "talker.py": _NODE.format("self.count = 0")
+                + "\n    def main(self):\n        super().__init__('talker')\n"
+            },
+        ),
+        Example(
+            "not called",
+            {"talker.py": _NODE.format("self.count = 0")},
+            Report("5:9", "Talker.__init__() does not call super().__init__(): AttributeError"),
+        ),
+        Example(
+            "a class that never is the node",
+            {
+                "talker.py": _NODE.format("self.node = node")
+                .replace("(self)", "(self, node)")
+                .replace("self.create", "self.node.create")
+                + "\n\ndef main(node):\n    talker = Talker(node)\n    print(talker.node)\n"
+            },
+            Report(
+                "5:9",
+                "Talker.__init__() does not call super().__init__(): AttributeError "
+                "as soon as it is used as a node",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "the class above Node",
+            {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
+            Report("6:9", "this super() skips the constructor of Node; write super()"),
+        ),
+        Example(
+            "an unbound super",
+            {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
+            Report("6:9", "super() with only a class is unbound; write super()"),
+        ),
+        Example(
+            "self twice",
+            {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
+            Report("6:9", "super() already passes self; the first argument is the node name"),
+        ),
+        Example(
+            "called without a name",
+            {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("'talker'", ""))},
             Report("6:9", "Node.__init__() is called without a node name: TypeError"),
         ),
         Example(
-            "without parentheses",
-            {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "super"))},
+            "super without parentheses",
+            {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("super()", "super"))},
             Report("6:9", "'super' is not called: TypeError; write super().__init__(...)"),
         ),
         Example(
-            "too late",
-            {"talker.py": _NODE.format("__init__", "") + _INIT},
+            "called too late",
+            {"talker.py": _NODE_CONSTRUCTOR.format("__init__", "") + _INIT},
             Report(
                 "6:9", "self.create_timer is used before Node.__init__() in line 7: AttributeError"
             ),
         ),
         Example(
-            "misspelled",
-            {"talker.py": _NODE.format("_init_", _INIT)},
+            "__init__ misspelled",
+            {"talker.py": _NODE_CONSTRUCTOR.format("_init_", _INIT)},
             Report("5:9", "'_init_' is never called as a constructor; did you mean '__init__'?"),
         ),
         Example(
-            "without self",
-            {"talker.py": _NODE.format("__init__", _INIT.replace("super()", "Node"))},
+            "__init__ without self",
+            {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("super()", "Node"))},
             Report(
                 "6:9",
                 "Node.__init__() is called without self: TypeError; write super().__init__(...)",
             ),
         ),
+        Example(
+            "a mixin for nodes",
+            {"talker.py": _NODE_BASE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
+        ),
+        Example(
+            "a node without a base class",
+            {"talker.py": _NODE_BASE.format("")},
+            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+        ),
+        Example(
+            "object as base class",
+            {"talker.py": _NODE_BASE.format("(object)")},
+            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_call(file)
+        yield from self._check_constructor(file)
+        yield from self._check_base(file)
+
+    def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.classes:
+            skipped = _skipping(file, node)
+            if skipped is not None:
+                yield self.report(file.module.location(skipped[0]), skipped[1])
+                continue
+            if node.calls_super_init or node.constructor is None or node.is_made_later:
+                continue
+            at = file.module.name_location(node.constructor)
+            message = f"{node.name}.__init__() does not call super().__init__(): AttributeError"
+            if not _is_used_as_node(file, node):
+                message += " as soon as it is used as a node"
+                yield self.report(at, message, severity=Severity.WARNING)
+                continue
+            yield self.report(at, message)
+
+    def _check_constructor(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
             yield from self._check(file, node)
 
@@ -92,6 +188,57 @@ class NodeNotConstructed(RclpyRule):
             message = f"self.{used.attr} is used before Node.__init__() in line {at.line}"
             yield self.report(file.module.location(used), f"{message}: AttributeError")
 
+    def _check_base(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for class_ in file.module.classes.values():
+            if _lacks_base(file, class_.node):
+                message = f"class {class_.name!r} uses methods of Node; inherit from Node"
+                yield self.report(class_, message)
+
+
+def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
+    """Return a use of ``super`` that does not reach the constructor of Node, and why."""
+    for call in file.calls_in(node.constructor) if node.constructor else ():
+        match call:
+            case ast.Call(func=ast.Name(id="super"), args=[ast.Name() as first, _]):
+                if file.module.qualified_name(first) == "rclpy.node.Node":
+                    return call, "this super() skips the constructor of Node; write super()"
+            case ast.Call(func=ast.Name(id="super"), args=[ast.Name()]):
+                return call, "super() with only a class is unbound; write super()"
+            case ast.Call(
+                func=ast.Attribute(attr="__init__", value=ast.Call(func=ast.Name(id="super"))),
+                args=[ast.Name(id="self"), *_],
+            ):
+                return call, "super() already passes self; the first argument is the node name"
+    return None
+
+
+def _is_used_as_node(file: RclpyFile, node: NodeClass) -> bool:
+    """Tell whether code asks an object of a class for what Node has, or hands the object on."""
+    own = defined_by(node)
+    made_here = [
+        call
+        for call in file.module.walk(ast.Call)
+        if file.evaluator.named_class(call.func) is node.node
+    ]
+    if not made_here:
+        return True
+    for name in file.module.walk(ast.Name):
+        value = file.evaluator.self_class(name)
+        if value is None:
+            made = file.evaluator.single_value(name)
+            value = file.evaluator.named_class(made.func) if isinstance(made, ast.Call) else None
+        if value is not node.node or not isinstance(name.ctx, ast.Load):
+            continue
+        parent = file.module.parent(name)
+        if not isinstance(parent, ast.Attribute):
+            return True
+        if parent.attr not in own and has(NODE, parent.attr):
+            return True
+    return any(
+        not isinstance(file.module.parent(call), ast.Assign | ast.Expr | ast.Attribute)
+        for call in made_here
+    )
+
 
 def _is_text(nodes: list[ast.expr]) -> bool:
     return any(isinstance(node, ast.Constant) and isinstance(node.value, str) for node in nodes)
@@ -113,3 +260,27 @@ def _used_before(file: RclpyFile, node: NodeClass, call: ast.Call) -> list[ast.A
             if is_self and has(NODE, func.attr) and not file.is_conditional(call):
                 return [func]
     return []
+
+
+def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
+    """Return whether a class without bases treats itself as a node."""
+    bases = [base.id if isinstance(base, ast.Name) else "?" for base in class_.bases]
+    if [base for base in bases if base != "object"] or class_.keywords or class_.decorator_list:
+        return False
+    text = file.module.source.text
+    if class_.name in {base for other in file.module.walk(ast.ClassDef) for base in _bases(other)}:
+        return False
+    own = {*file.module.index.bindings(class_)}
+    return any(
+        f"self.{name}(" in text
+        and name not in own
+        and any(
+            file.evaluator.self_class(use.value) is class_ and not file.evaluator.stores(name)
+            for use in file.module.index.attributes(name)
+        )
+        for name in _CREATES
+    )
+
+
+def _bases(class_: ast.ClassDef) -> list[str]:
+    return [base.id for base in class_.bases if isinstance(base, ast.Name)]

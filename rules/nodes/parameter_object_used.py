@@ -1,11 +1,13 @@
-"""ND017: the value of a parameter is used, not the Parameter."""
+"""ND017: the value of a parameter is used as it is, not the Parameter, a call or a field of it."""
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
-from scaffold.api.rclpy import RclpyFile, objects_used
+from scaffold.api.python import is_handled
+from scaffold.api.rclpy import FIELDS, PARAMETER, RclpyFile, class_of, objects_used
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -25,17 +27,35 @@ _OTHERS = (
     "            is_loud = not self.get_parameter('topic'){}\n"
     "        self.create_publisher(String, topic, 10 if is_loud else 1)\n"
 )
+_NODE_CALL = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.rate = self.get_parameter('rate').{}\n"
+)
+_NODE_FIELD = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+    "        self.rate = self.get_parameter('rate'){}.double_value\n"
+)
 
 
 class ParameterObjectUsed(RclpyRule):
-    """A Parameter object is used in arithmetic, comparisons or calls instead of its value.
+    """A Parameter object is used instead of its value, or the value is called or asked for a field.
 
-    **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'``. A condition
-    is always true, a comparison with a value never is, and a str shows the address of the object.
+    **Why.** ``TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'``, ``'float'
+    object is not callable``, ``AttributeError: 'float' object has no attribute 'double_value'``. A
+    condition is always true, a comparison with a value never is, and a str shows the address of the
+    object.
 
-    **Fix.** Append ``.value``.
+    **Fix.** ``self.get_parameter('rate').value``, without parentheses or a field after it; the
+    field is one of ``get_parameter_value()``.
 
-    **Source.** ROS 2 documentation, "Using parameters in a class (Python)".
+    **Source.** ROS 2 documentation, "Using parameters in a class (Python)"; ``rclpy/parameter.py``;
+    ``rcl_interfaces/msg/ParameterValue.msg``.
     """
 
     code = "ND017"
@@ -43,7 +63,7 @@ class ParameterObjectUsed(RclpyRule):
     examples = (
         Example("the value", {"talker.py": _NODE.format(".value")}),
         Example(
-            "the object",
+            "the object in arithmetic",
             {"talker.py": _NODE.format("")},
             Report(
                 "8:16",
@@ -68,9 +88,34 @@ class ParameterObjectUsed(RclpyRule):
             ),
             fixed={"talker.py": _OTHERS.format(".value", ".value", ".value")},
         ),
+        Example(
+            "the value called",
+            {"talker.py": _NODE_CALL.format("value()")},
+            Report(
+                "8:21", "'value' is a property of Parameter, not a method: TypeError; remove the ()"
+            ),
+        ),
+        Example(
+            "a field of the message called",
+            {"talker.py": _NODE_CALL.format("get_parameter_value().double_value()")},
+            Report("8:21", "'double_value' is a field, not a method: TypeError; remove the ()"),
+        ),
+        Example(
+            "a field of the message", {"talker.py": _NODE_FIELD.format(".get_parameter_value()")}
+        ),
+        Example(
+            "a field of the value",
+            {"talker.py": _NODE_FIELD.format(".value")},
+            Report("8:21", "'.value' is the value itself, without 'double_value': AttributeError"),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_object(file)
+        yield from self._check_call(file)
+        yield from self._check_field(file)
+
+    def _check_object(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for read, use in objects_used(file):
             _, end = file.module.span(read.call)
             fix = Fix("append .value", (Edit(file.module.path, end, end, ".value"),))
@@ -78,3 +123,40 @@ class ParameterObjectUsed(RclpyRule):
             where = "" if line == read.location.line else f" (used in line {line})"
             message = f"this is the Parameter{where}, not its value; append .value"
             yield self.report(read, message, fix)
+
+    def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            problem = _problem(file, call.func)
+            if problem:
+                message = f"{problem}: TypeError; remove the ()"
+                yield self.report(file.module.location(call), message)
+
+    def _check_field(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for field in FIELDS:
+            for attribute in file.module.index.attributes(field):
+                match file.evaluator.single_value(attribute.value):
+                    case ast.Attribute(attr="value", value=parameter):
+                        is_parameter = class_of(file, parameter) == PARAMETER
+                    case _:
+                        continue
+                if is_parameter and not is_handled(file.module, attribute, "AttributeError"):
+                    message = f"'.value' is the value itself, without {field!r}: AttributeError"
+                    yield self.report(file.module.location(attribute), message)
+
+
+def _problem(file: RclpyFile, called: ast.expr) -> str:
+    """Return the problem with calling an expression."""
+    match called:
+        case ast.Attribute(attr="value", value=owner) if class_of(file, owner) == PARAMETER:
+            return "'value' is a property of Parameter, not a method"
+        case ast.Attribute(attr=name, value=owner) if name in FIELDS and _is_message(file, owner):
+            return f"{name!r} is a field, not a method"
+    return ""
+
+
+def _is_message(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether an expression is the result of ``get_parameter_value()``."""
+    match file.evaluator.single_value(node):
+        case ast.Call(func=ast.Attribute(attr="get_parameter_value", value=parameter)):
+            return class_of(file, parameter) == PARAMETER
+    return False

@@ -1,0 +1,228 @@
+"""ND018: loggers get text, severities for levels, and each statement has one severity."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.python import UNKNOWN, is_handled, is_known
+from scaffold.api.rclpy import LOG_METHODS, RclpyFile, is_of_rclpy, log_calls
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def tick(self):\n"
+    "        self.get_logger().info({})\n"
+)
+_NODE_SEVERITY = (
+    "from rclpy.node import Node\n\n\nclass Talker(Node):\n    def tick(self, bad):\n{}"
+)
+_BRANCHES = (
+    "        if bad:\n            self.get_logger().error('bad')\n"
+    "        else:\n            self.get_logger().info('good')\n"
+)
+_CHOICE = (
+    "        log = self.get_logger().error if bad else self.get_logger().info\n"
+    "        log('done')\n"
+)
+_SEVERITIES = frozenset({0, 10, 20, 30, 40, 50})
+_SET = "rclpy.logging.set_logger_level"
+_NODE_LEVEL = (
+    "from rclpy.logging import LoggingSeverity, set_logger_level\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.get_logger().set_level({0})\n"
+    "        set_logger_level('talker', {0})\n"
+)
+
+
+class LoggerMisused(RclpyRule):
+    """A logger gets what is not a str, a level that is no severity, or varying severities.
+
+    **Why.** rclpy does not convert a message, nor does Python add a number to a str: ``TypeError``
+    when the line is reached. It remembers the severity of each place: ``ValueError: Logger severity
+    cannot be changed between calls``. A level is an enumeration: ``'debug' is not a valid
+    LoggingSeverity``.
+
+    **Fix.** Write ``str(...)`` or an f-string, a separate call for each severity, and
+    ``LoggingSeverity.DEBUG`` from ``rclpy.logging``.
+
+    **Source.** ``rclpy/impl/rcutils_logger.py``; ``rclpy/logging.py``; rclpy issue 1199.
+    """
+
+    code = "ND018"
+    name = "logger-misused"
+    examples = (
+        Example("a str", {"talker.py": _NODE.format("f'{1}'")}),
+        Example(
+            "another logger",
+            {
+                "talker.py": _NODE.format("'%d', 42")
+                + "\n    def get_logger(self):\n        return self.log\n"
+            },
+        ),
+        Example(
+            "a number as message",
+            {"talker.py": _NODE.format("42")},
+            Report("6:32", "log message is not a str: TypeError", fix="convert it to a str"),
+            fixed={"talker.py": _NODE.format("str(42)")},
+        ),
+        Example(
+            "arguments to format",
+            {"talker.py": _NODE.format("'%d', 42")},
+            Report("6:38", "loggers do not format arguments: TypeError; use an f-string"),
+        ),
+        Example(
+            "a number added",
+            {"talker.py": _NODE.format("'heard ' + 1")},
+            Report("6:32", "a number is added to a str: TypeError; use an f-string"),
+        ),
+        Example("a call for each severity", {"talker.py": _NODE_SEVERITY.format(_BRANCHES)}),
+        Example(
+            "two names of one severity, and a severity that is chosen once",
+            {
+                "talker.py": _NODE_SEVERITY.format(
+                    "        log = self.get_logger()\n"
+                    "        warn = log.warning if hasattr(log, 'warning') else log.warn\n"
+                    "        warn('done')\n"
+                    "\n\nlogger = rclpy.logging.get_logger('a')\n"
+                    "log = logger.debug if DEBUG else logger.info\n"
+                ),
+            },
+        ),
+        Example(
+            "a method that depends on a condition",
+            {"talker.py": _NODE_SEVERITY.format(_CHOICE)},
+            Report("6:15", "log statement with two severities: ValueError; write two calls"),
+        ),
+        Example(
+            "a severity for the level", {"talker.py": _NODE_LEVEL.format("LoggingSeverity.DEBUG")}
+        ),
+        Example("the number of a severity", {"talker.py": _NODE_LEVEL.format("10")}),
+        Example(
+            "the level of another logger",
+            {
+                "talker.py": "import rclpy\n\n\nclass Log:\n    def get_logger(self):\n"
+                "        return self\n\n    def start(self):\n"
+                "        self.get_logger().set_level('debug')\n"
+            },
+        ),
+        Example(
+            "a str for the level",
+            {"talker.py": _NODE_LEVEL.format("'debug'")},
+            Report("8:37", "'debug' is not a LoggingSeverity: ValueError"),
+            Report("9:36", "'debug' is not a LoggingSeverity: ValueError"),
+        ),
+        Example(
+            "a number for the level",
+            {"talker.py": _NODE_LEVEL.format("1")},
+            Report("8:37", "1 is not a LoggingSeverity: ValueError"),
+            Report("9:36", "1 is not a LoggingSeverity: ValueError"),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_message(file)
+        yield from self._check_severity(file)
+        yield from self._check_level(file)
+
+    def _check_message(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in log_calls(file):
+            if not call.args:
+                continue
+            message = call.args[0]
+            if isinstance(message, ast.BinOp) and _adds_number(file, message):
+                problem = "a number is added to a str: TypeError; use an f-string"
+                yield self.report(file.module.location(message), problem)
+            if len(call.args) > 1 and not isinstance(message, ast.Starred):
+                at = file.module.location(call.args[1])
+                yield self.report(at, "loggers do not format arguments: TypeError; use an f-string")
+            elif self._is_not_str(file, message):
+                start, end = file.module.span(message)
+                path = file.module.path
+                edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
+                at = file.module.location(message)
+                problem = "log message is not a str: TypeError"
+                yield self.report(at, problem, Fix("convert it to a str", edits))
+
+    def _is_not_str(self, file: RclpyFile, node: ast.expr) -> bool:
+        if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):
+            return True
+        if isinstance(node, ast.Call):
+            return file.module.qualified_name(node.func) in {"len", "int", "float", "sum", "list"}
+        if isinstance(node, ast.Attribute) and file.is_number(node):
+            return True
+        value = file.evaluator.evaluate(node)
+        return value is not UNKNOWN and isinstance(value, int | float | list | tuple | dict)
+
+    def _check_severity(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        module = file.module
+        for node in module.walk(ast.IfExp):
+            if module.enclosing_function(node) is None:
+                continue  # chosen once, for the whole run
+            chosen = {self._severity(branch) for branch in (node.body, node.orelse)}
+            if None not in chosen and len(chosen) > 1:
+                message = "log statement with two severities: ValueError; write two calls"
+                yield self.report(module.location(node), message)
+
+    def _severity(self, node: ast.expr) -> str | None:
+        match node:
+            case ast.Attribute(value=ast.Call(func=ast.Attribute(attr="get_logger"))):
+                method = node.attr
+            case ast.Attribute(value=ast.Name(id=name)) if "log" in name.lower():
+                method = node.attr
+            case _:
+                return None
+        if method not in LOG_METHODS:
+            return None
+        return "warning" if method == "warn" else method
+
+    def _check_level(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call, level in _levels(file):
+            value = file.evaluator.evaluate(level)
+            is_severity = type(value) is int and value in _SEVERITIES
+            if (
+                is_known(value)
+                and not is_severity
+                and not is_handled(file.module, call, "ValueError")
+            ):
+                message = f"{value!r} is not a LoggingSeverity: ValueError"
+                yield self.report(file.module.location(level), message)
+
+
+def _adds_number(file: RclpyFile, node: ast.BinOp) -> bool:
+    if not isinstance(node.op, ast.Add):
+        return False
+    left = file.evaluator.evaluate(node.left)
+    right = file.evaluator.evaluate(node.right)
+    is_number = type(right) in {int, float} or (
+        isinstance(node.right, ast.Attribute) and file.is_number(node.right)
+    )
+    return isinstance(left, str) and is_number
+
+
+def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
+    """Yield the levels that rclpy loggers are set to."""
+    for attribute in file.module.index.attributes("set_level"):
+        call = file.module.parent(attribute)
+        if not isinstance(call, ast.Call) or call.func is not attribute or len(call.args) != 1:
+            continue
+        if _is_logger(file, file.evaluator.single_value(attribute.value)):
+            yield call, call.args[0]
+    for call in file.module.walk(ast.Call):
+        if file.module.qualified_name(call.func) == _SET and len(call.args) > 1:
+            yield call, call.args[1]
+
+
+def _is_logger(file: RclpyFile, node: ast.expr) -> bool:
+    """Return whether an expression gets a logger from a node or from rclpy itself."""
+    match node:
+        case ast.Call(func=ast.Attribute(value=owner, attr="get_logger") as method):
+            is_node = file.owner_of(owner) is not None and is_of_rclpy(file, method)
+            return is_node or file.module.qualified_name(method) == "rclpy.logging.get_logger"
+        case ast.Call(func=ast.Name() as function):
+            return file.module.qualified_name(function) == "rclpy.logging.get_logger"
+    return False
