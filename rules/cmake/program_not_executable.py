@@ -1,28 +1,52 @@
-"""CM014: installed scripts are executable in the source tree, too."""
+"""CM014: installed scripts have the executable bit, and say what runs them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Fix, MakeExecutable, Package, Report, Rule
-from scaffold.api.cmake import is_only_imported, programs
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    MakeExecutable,
+    Package,
+    Report,
+    Rule,
+    Safety,
+)
+from scaffold.api.cmake import Install, is_only_imported, programs, runs_with_python
+from scaffold.api.install import paths_imported_by
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _NODE = "#!/usr/bin/env python3\n"
-
 _COPIED = ("RENAME", "PERMISSIONS", "CONFIGURATIONS", "COMPONENT")
 """With one of these CMake itself installs the file, and sets the bit."""
+_NODE_KIND = (
+    "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
+)
+_LISTS_KIND = (
+    "project(talker)\ninstall({} talker/node.py DESTINATION lib/${{PROJECT_NAME}})\n"
+    "ament_package()\n"
+)
+SHEBANG = "#!/usr/bin/env python3"
+ENV_WORDS = 2
+"""``/usr/bin/env python3``."""
 
 
 class ProgramNotExecutable(Rule):
-    """An installed script has no executable bit.
+    """An installed script is not executable, is installed as a file, or lacks its first line.
 
-    **Why.** ``colcon build --symlink-install`` links to the file as it is: ``No executable
-    found``, or ``Permission denied``.
+    **Why.** Only ``PROGRAMS`` keeps the executable bit, and ``colcon build --symlink-install``
+    links to the file as it is: ``No executable found``, or ``Permission denied``. Without a first
+    line the shell runs Python as shell script: ``Exec format error``. ``python`` without the 3 does
+    not exist on Ubuntu, and a byte order mark or a blank line in front hides the line.
 
-    **Fix.** ``chmod +x``.
+    **Fix.** ``chmod +x``, ``install(PROGRAMS ...)``, and ``#!/usr/bin/env python3`` in the first
+    line.
 
-    **Source.** ``ros2pkg.api.get_executable_paths`` asks for the bit; pyrobosim issue 182.
+    **Source.** ``ros2pkg.api.get_executable_paths`` asks for the bit; CMake documentation,
+    ``install``; PEP 394; ``execve(2)``; ``ros2run`` starts the file itself; pyrobosim issue 182.
     """
 
     code = "CM014"
@@ -64,9 +88,133 @@ class ProgramNotExecutable(Rule):
             ),
             fixed={"talker/node.py": _NODE},
         ),
+        Example(
+            "installed as a program",
+            {"CMakeLists.txt": _LISTS_KIND.format("PROGRAMS"), "talker/node.py": _NODE_KIND},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "not installed as a program, but run by CMake itself",
+            {
+                "CMakeLists.txt": _LISTS_KIND.format("FILES"),
+                "cmake/generate.cmake": "set(SCRIPT ${talker_DIR}/../../../lib/talker/node.py)\n",
+                "talker/node.py": _NODE_KIND,
+            },
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "a module with a demo, next to the program that imports it",
+            {
+                "CMakeLists.txt": _LISTS_KIND.format("FILES").replace(
+                    "ament_p", "install(PROGRAMS talker/run.py DESTINATION lib/talker)\nament_p"
+                ),
+                "talker/node.py": _NODE_KIND,
+                "talker/run.py": "#!/usr/bin/env python3\nfrom node import Node\n\nNode()\n",
+            },
+            executable=("talker/node.py", "talker/run.py"),
+        ),
+        Example(
+            "installed as a file",
+            {"CMakeLists.txt": _LISTS_KIND.format("FILES"), "talker/node.py": _NODE_KIND},
+            Report(
+                "CMakeLists.txt:2:15",
+                "install(FILES) drops the executable bit of talker/node.py: `ros2 "
+                "run` finds no executable; install it with PROGRAMS",
+                fix="write PROGRAMS",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_KIND.format("PROGRAMS")},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "installed with its directory",
+            {
+                "CMakeLists.txt": _LISTS_KIND.format("DIRECTORY").replace("/node.py", ""),
+                "talker/node.py": _NODE_KIND,
+            },
+            Report(
+                "CMakeLists.txt:2:19",
+                "install(DIRECTORY) drops the executable bit of talker/node.py: "
+                "`ros2 run` finds no executable; install it with PROGRAMS",
+            ),
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "with its first line",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "a generator that CMake gives to Python",
+            {
+                "CMakeLists.txt": _LISTS,
+                "cmake/talker-extras.cmake": "execute_process(\n"
+                "  COMMAND ${Python3_EXECUTABLE} ${talker_DIR}/node.py)\n",
+                "talker/node.py": "import rclpy\n",
+            },
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "without its first line",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "import rclpy\n"},
+            Report(
+                "talker/node.py:1:1",
+                "installed as a program, but does not begin with #!/usr/bin/env python3",
+                fix="begin with #!/usr/bin/env python3",
+            ),
+            fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "the Python of long ago",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/usr/bin/env python\nimport rclpy\n"},
+            Report(
+                "talker/node.py:1:1",
+                "'#!/usr/bin/env python' names a Python that ROS 2 does not have",
+                fix="begin with #!/usr/bin/env python3",
+            ),
+            fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "after a byte order mark",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": f"\ufeff{SHEBANG}\nimport rclpy\n"},
+            Report(
+                "talker/node.py:1:1",
+                "a byte order mark comes before the shebang: the kernel does not recognize it",
+                fix="begin with #!/usr/bin/env python3",
+            ),
+            fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "line ends of Windows",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\r\nimport rclpy\r\n"},
+            Report(
+                "talker/node.py:1:1",
+                "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends",
+            ),
+            executable=("talker/node.py",),
+        ),
+        Example(
+            "the Python of one machine",
+            {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/opt/bin/python3\nimport rclpy\n"},
+            Report(
+                "talker/node.py:1:1",
+                "'#!/opt/bin/python3' does not exist on other machines; write "
+                "#!/usr/bin/env python3",
+                fix="begin with #!/usr/bin/env python3",
+            ),
+            fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
+            executable=("talker/node.py",),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_bit(package)
+        yield from self._check_kind(package)
+        yield from self._check_shebang(package)
+
+    def _check_bit(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         wanted = f"lib/{cmake.project_name}"
         reported: set[str] = set()
@@ -90,3 +238,109 @@ class ProgramNotExecutable(Rule):
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
             yield self.report(package.start_of(path), message, fix, cause="not executable")
+
+    def _check_kind(self, package: Package) -> Iterator[Diagnostic]:
+        programs = {
+            item.path
+            for install in package.cmake.installs
+            if install.kind == "PROGRAMS"
+            for item in install.items
+            if item.path
+        }
+        imported = tuple(f"/{path}" for path in paths_imported_by(package, programs))
+        for install in package.cmake.installs:
+            if not self._loses_bits(package, install):
+                continue
+            for item in install.items:
+                path = self._script(package, item.path or "", install.kind)
+                is_module = path in programs or f"/{path}".endswith(imported)
+                if path and not is_module and not _is_run_by_cmake(package, path):
+                    message = (
+                        f"install({install.kind}) drops the executable bit of {path}: `ros2 run` "
+                        "finds no executable; install it with PROGRAMS"
+                    )
+                    yield self.report(item, message, self._fix(install))
+
+    def _loses_bits(self, package: Package, install: Install) -> bool:
+        target = (install.destination or "").rstrip("/")
+        keeps = {"PERMISSIONS", "FILE_PERMISSIONS", "USE_SOURCE_PERMISSIONS"}
+        return (
+            install.kind in {"FILES", "DIRECTORY"}
+            and target == f"lib/{package.cmake.project_name}"
+            and not keeps & set(install.command.values)
+        )
+
+    def _script(self, package: Package, path: str, kind: str) -> str:
+        """Return the node that a path is, or the first in a directory."""
+        paths = [path]
+        if kind == "DIRECTORY":
+            paths = [file for file in package.files if file.startswith(f"{path}/")]
+        for item in paths:
+            if item in package.python_files and not item.endswith("__init__.py"):
+                module = package.module(item)
+                if module.is_script and module.has_main_guard:
+                    return item
+        return ""
+
+    def _fix(self, install: Install) -> Fix | None:
+        if install.kind != "FILES" or len(install.items) != 1:
+            return None
+        for argument in install.command.arguments:
+            if argument.raw == "FILES":
+                edit = Edit("CMakeLists.txt", argument.start, argument.end, "PROGRAMS")
+                return Fix("write PROGRAMS", (edit,), Safety.SAFE)
+        return None
+
+    def _check_shebang(self, package: Package) -> Iterator[Diagnostic]:
+        for path in sorted({program.path for program in programs(package)}):
+            if not path.endswith(".py") or path.endswith("__init__.py") or not package.has(path):
+                continue
+            if is_only_imported(package, path) or runs_with_python(package, path):
+                continue
+            source = package.editable(path)
+            line = source.lines[0]
+            end = len(line)
+            if line.startswith("\ufeff"):
+                end = 1
+                what = (
+                    "a byte order mark comes before the shebang: the kernel does not recognize it"
+                )
+            elif not line.startswith("#!"):
+                end = 0
+                what = f"installed as a program, but does not begin with {SHEBANG}"
+            elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
+                what = f"{line.strip()!r} names a Python that ROS 2 does not have"
+            elif source.text.partition("\n")[0].endswith("\r"):
+                end = 0
+                what = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
+            elif not _starts_python(line.strip()):
+                what = f"{line.strip()!r} does not exist on other machines; write {SHEBANG}"
+            else:
+                continue
+            text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline
+            fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
+            is_crlf = what.startswith("CRLF")
+            yield self.report(package.start_of(path), what, None if is_crlf else fix)
+
+
+def _is_run_by_cmake(package: Package, path: str) -> bool:
+    """Tell whether a file of CMake names a script where it is installed, to run it itself."""
+    place = f"/{package.cmake.project_name}/{path.rpartition('/')[2]}"
+    return any(
+        place in package.source(file).text
+        for file in package.files
+        if file.endswith((".cmake", ".cmake.in"))
+    )
+
+
+def _starts_python(line: str) -> bool:
+    """Tell whether a shebang starts Python 3 wherever ROS 2 is installed."""
+    words = line.removeprefix("#!").split()
+    if words[:1] == ["/usr/bin/env"] and len(words) > 1:
+        if words[1] == "-S":
+            return len(words) > ENV_WORDS and words[2].startswith("python3")
+        # The kernel passes everything after the first space as one argument.
+        return words[1] in {"python3", "python3.12"} and len(words) == ENV_WORDS
+    if words[:1] == ["/bin/env"]:
+        return words[1:] == ["python3"]
+    return words[:1] in (["/usr/bin/python3"], ["/usr/bin/python3.12"], ["/bin/python3"])

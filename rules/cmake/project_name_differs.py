@@ -1,30 +1,67 @@
-"""CM001: the project is named like the package."""
+"""CM001: there is a ``project()``, named like the package, with languages that CMake knows."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, closest_name
+from scaffold.api.cmake import uses_ament
 from scaffold.api.manifest import name_used_elsewhere
 
+_LISTS = (
+    "cmake_minimum_required(VERSION 3.8)\n{}find_package(ament_cmake REQUIRED)\nament_package()\n"
+)
+_LISTS_LANGUAGE = "project(talker {})\nament_package()\n"
+_LANGUAGES = frozenset(
+    {"NONE", "ASM", "ASM-ATT", "ASM_MARMASM", "ASM_MASM", "ASM_NASM", "C", "CSharp", "CUDA", "CXX"}
+    | {"Fortran", "HIP", "ISPC", "Java", "OBJC", "OBJCXX", "RC", "Swift"}
+)
+_MEANT = {"C++": "CXX", "CPP": "CXX", "PYTHON": "NONE"}
+_ONE_VALUE = frozenset({"VERSION", "COMPAT_VERSION", "DESCRIPTION", "HOMEPAGE_URL"})
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n</package>\n'
 
 
 class ProjectNameDiffers(Rule):
-    """``project()`` does not name the package of package.xml.
+    """``project()`` is missing, has another name than the package, or an unknown language.
 
-    **Why.** ``ament_package()`` stops the build: the names must be the same.
+    **Why.** ``ament_package()`` stops the build: the names must be the same, and without a call
+    CMake invents ``Project``. A language such as Python stops it too: ``Could not find cmake module
+    file: CMakeDeterminePYTHONCompiler.cmake``.
 
-    **Fix.** Write the name of package.xml in ``project()``.
+    **Fix.** Write ``project(<name in package.xml>)`` after ``cmake_minimum_required``; ``NONE`` is
+    the language of a package of Python alone, ``CXX`` that of C++.
 
-    **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``.
+    **Source.** ``ament_cmake_core/cmake/core/ament_package_xml.cmake``; CMake documentation,
+    ``project`` and ``enable_language``.
     """
 
     code = "CM001"
     name = "project-name-differs"
     effect = Effect.STOPS_BUILD
     examples = (
-        Example("one name", {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"}),
+        Example(
+            "not named",
+            {"CMakeLists.txt": _LISTS.format("")},
+            Report("1:1", "no project(): CMake stops at ament_package()"),
+        ),
+        Example(
+            "a language", {"CMakeLists.txt": _LISTS_LANGUAGE.format("VERSION 1.0 LANGUAGES C CXX")}
+        ),
+        Example("no language, in short", {"CMakeLists.txt": _LISTS_LANGUAGE.format("NONE")}),
+        Example(
+            "a language in a variable",
+            {"CMakeLists.txt": _LISTS_LANGUAGE.format("LANGUAGES ${LANGUAGES}")},
+        ),
+        Example(
+            "an unknown language",
+            {"CMakeLists.txt": _LISTS_LANGUAGE.format("DESCRIPTION Talk LANGUAGES CPP PYTHON")},
+            Report("1:43", "CMake has no language 'CPP': it stops; closest: 'CXX'"),
+            Report("1:47", "CMake has no language 'PYTHON': it stops; closest: 'NONE'"),
+        ),
+        Example(
+            "the name of the package",
+            {"package.xml": _MANIFEST, "CMakeLists.txt": "project(talker)\n"},
+        ),
         Example(
             "one of two",
             {
@@ -46,6 +83,33 @@ class ProjectNameDiffers(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_call(package)
+        yield from self._check_language(package)
+        yield from self._check_name(package)
+
+    def _check_call(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if cmake.project is None and cmake.commands and not cmake.find("include"):
+            if not uses_ament(package):
+                return
+            message = f"no project({package.name}): CMake stops at ament_package()"
+            yield self.report(cmake.commands[0].name_location, message)
+
+    def _check_language(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.find("project"):
+            is_value = False
+            for argument in command.arguments[1:]:
+                if is_value or argument.value in _ONE_VALUE:
+                    is_value = not is_value
+                elif argument.value not in {*_LANGUAGES, "LANGUAGES"} and "$" not in argument.value:
+                    closest = _MEANT.get(argument.value.upper(), "") or closest_name(
+                        package, argument.value, _LANGUAGES, 0.6
+                    )
+                    hint = f"; closest: {closest!r}" if closest else ""
+                    message = f"CMake has no language {argument.value!r}: it stops{hint}"
+                    yield self.report(argument, message)
+
+    def _check_name(self, package: Package) -> Iterator[Diagnostic]:
         name = package.manifest.name
         written = package.cmake.project_name
         at = package.cmake.project_name_location

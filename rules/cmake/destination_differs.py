@@ -1,0 +1,224 @@
+"""CM010: programs, launch files and modules are installed where they are looked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api.cmake import Command, Install
+from scaffold.api.launch import DATA_DIRECTORIES
+
+_LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
+_RIGHT = "lib/${PROJECT_NAME}"
+DIRECTORIES = ("launch", *DATA_DIRECTORIES)
+_WANTED = "share/${PROJECT_NAME}"
+_LISTS_SHARE = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
+_FILES = {"launch/talk.launch.py": ""}
+_LISTS_ABSOLUTE = "project(talker)\ninstall(DIRECTORY launch DESTINATION {})\n"
+_LISTS_PYTHON = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
+
+
+class DestinationDiffers(Rule):
+    """``install`` has a destination where nobody looks for the files.
+
+    **Why.** ``ros2 run`` looks in ``lib/<package>`` alone: ``No executable found``; ``ros2 launch``
+    and ``get_package_share_directory`` in ``share/<package>``: ``file 'talk.launch.py' was not
+    found in the share directory of package 'talker'``. Modules below another version of Python are
+    not imported. An absolute path leaves the workspace: the build needs rights that it should not
+    have, and a Debian package cannot be made.
+
+    **Fix.** ``lib/${PROJECT_NAME}`` for programs, ``share/${PROJECT_NAME}`` for launch files and
+    their data, ``ament_python_install_package(${PROJECT_NAME})`` for modules.
+
+    **Source.** ``ros2pkg.api.get_executable_paths``; ``ros2launch/api/api.py``; CMake
+    documentation, ``install``; ``ament_cmake_python``: ``PYTHON_INSTALL_DIR``.
+    """
+
+    code = "CM010"
+    name = "destination-differs"
+    examples = (
+        Example(
+            "programs where ros2 run looks",
+            {"CMakeLists.txt": _LISTS.format(_RIGHT), "talker/node.py": "import rclpy\n"},
+        ),
+        Example(
+            "programs to bin, as for others",
+            {"CMakeLists.txt": _LISTS.format("bin"), "talker/node.py": "import rclpy\n"},
+            Report(
+                "CMakeLists.txt:2:45",
+                "installs to bin; `ros2 run talker` looks in lib/talker",
+                fix="install to lib/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
+        ),
+        Example(
+            "programs to a path without the braces",
+            {
+                "CMakeLists.txt": _LISTS.format("lib/PROJECT_NAME"),
+                "talker/node.py": "import rclpy\n",
+            },
+            Report(
+                "CMakeLists.txt:2:45",
+                "installs to lib/PROJECT_NAME; `ros2 run talker` looks in lib/talker",
+                fix="install to lib/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format(_RIGHT)},
+        ),
+        Example(
+            "launch files below share", {"CMakeLists.txt": _LISTS_SHARE.format(_WANTED), **_FILES}
+        ),
+        Example(
+            "launch files to share, without the package",
+            {"CMakeLists.txt": _LISTS_SHARE.format("share"), **_FILES},
+            Report(
+                "CMakeLists.txt:2:38",
+                "installs to share/; `ros2 launch` and launch files look in share/talker/",
+                fix="install to share/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_SHARE.format(_WANTED)},
+        ),
+        Example(
+            "launch files with the programs",
+            {"CMakeLists.txt": _LISTS_SHARE.format("lib/${PROJECT_NAME}"), **_FILES},
+            Report(
+                "CMakeLists.txt:2:38",
+                "installs to lib/talker/; `ros2 launch` and launch files look in share/talker/",
+                fix="install to share/${PROJECT_NAME}",
+            ),
+            fixed={"CMakeLists.txt": _LISTS_SHARE.format(_WANTED)},
+        ),
+        Example("relative", {"CMakeLists.txt": _LISTS_ABSOLUTE.format("share/${PROJECT_NAME}")}),
+        Example(
+            "absolute only if somebody asks for it",
+            {
+                "CMakeLists.txt": "project(talker)\nif(INSTALL_UDEV_RULES)\n"
+                "  install(FILES talker.rules DESTINATION /etc/udev/rules.d)\nendif()\n"
+            },
+        ),
+        Example(
+            "absolute",
+            {"CMakeLists.txt": _LISTS_ABSOLUTE.format("/opt/talker/share")},
+            Report("2:38", "installs to /opt/talker/share, outside of the workspace"),
+        ),
+        Example(
+            "modules, by the variable",
+            {"CMakeLists.txt": _LISTS_PYTHON.format("${PYTHON_INSTALL_DIR}")},
+        ),
+        Example(
+            "modules below a version of Python",
+            {"CMakeLists.txt": _LISTS_PYTHON.format("lib/python3.8/site-packages")},
+            Report(
+                "2:38",
+                "installs Python modules to lib/python3.8/site-packages, which only "
+                "that version of Python searches",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_programs(package)
+        yield from self._check_share(package)
+        yield from self._check_absolute(package)
+        yield from self._check_python(package)
+
+    def _check_programs(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        wanted = f"lib/{cmake.project_name}"
+        for install in cmake.installs:
+            argument = install.destination_argument
+            if install.kind != "PROGRAMS" or install.destination is None or argument is None:
+                continue
+            given = install.destination.rstrip("/")
+            if given == wanted or not self._is_meant_for_run(package, install, given):
+                continue
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, _RIGHT)
+            fix = Fix(f"install to {_RIGHT}", (edit,)) if not given.startswith("/") else None
+            message = f"installs to {given}; `ros2 run {cmake.project_name}` looks in {wanted}"
+            yield self.report(argument, message, fix)
+
+    def _is_meant_for_run(self, package: Package, install: Install, given: str) -> bool:
+        """Tell a node from a helper that is rightly elsewhere, such as an environment hook."""
+        if given.startswith(("include", "etc", "/")) or "python" in given:
+            return False
+        paths = [item.path for item in install.items if item.path and package.has(item.path)]
+        if given.startswith("share/") or (given.startswith("lib/") and given != "lib/PROJECT_NAME"):
+            programs = bool(paths) and all(self._is_program(package, path) for path in paths)
+            return programs or self._is_near(package, given)
+        return any(self._is_node(package, path) for path in paths)
+
+    def _is_program(self, package: Package, path: str) -> bool:
+        """Tell whether a file is a node that is started, and installed nowhere else."""
+        if not self._is_node(package, path):
+            return False
+        module = package.module(path)
+        places = [
+            install
+            for install in package.cmake.installs
+            for item in install.items
+            if item.path == path
+        ]
+        is_node = "rclpy" in module.imports_by_root and module.is_script and module.has_main_guard
+        return is_node and not module.in_tests and len(places) == 1
+
+    def _is_near(self, package: Package, given: str) -> bool:
+        name = given.removeprefix("lib/")
+        return name.lower().replace("-", "_") == (package.cmake.project_name or "").lower()
+
+    def _is_node(self, package: Package, path: str) -> bool:
+        return path in package.python_files and "rclpy" in package.source(path).text
+
+    def _check_share(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        right = f"share/{cmake.project_name}"
+        placed = {
+            item.path
+            for install in cmake.installs
+            for item in install.items
+            if (install.destination or "").startswith(right)
+        }
+        for install in cmake.installs:
+            argument = install.destination_argument
+            given = (install.destination or "").rstrip("/")
+            if install.kind != "DIRECTORY" or argument is None or not given:
+                continue
+            if given.startswith((right, "/", "$", ".")) or not self._holds_data(install, placed):
+                continue
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, _WANTED)
+            message = f"installs to {given}/; `ros2 launch` and launch files look in {right}/"
+            yield self.report(argument, message, Fix(f"install to {_WANTED}", (edit,)))
+
+    def _holds_data(self, install: Install, placed: set[str | None]) -> bool:
+        """Tell whether all that is installed is data for launching, and installed only here."""
+        paths = [item.path for item in install.items]
+        return bool(paths) and all(path in DIRECTORIES and path not in placed for path in paths)
+
+    def _check_absolute(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            argument = install.destination_argument
+            if argument is None or not (install.destination or "").startswith("/"):
+                continue
+            if package.build_type == "ament_cmake" and not _is_asked_for(install.command):
+                message = f"installs to {install.destination}, outside of the workspace"
+                yield self.report(argument, message)
+
+    def _check_python(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            argument = install.destination_argument
+            where = install.destination or ""
+            if argument is None or not re.search(r"python\d[\d.]*/|(site|dist)-packages", where):
+                continue
+            if "$" not in argument.raw:
+                message = (
+                    f"installs Python modules to {where}, which only that version of "
+                    "Python searches"
+                )
+                yield self.report(argument, message)
+
+
+def _is_asked_for(command: Command) -> bool:
+    """Tell whether a condition opts in, such as one for Debian packages."""
+    at = command.parent
+    while at is not None and at.name != "if":
+        at = at.parent
+    return at is not None
