@@ -177,3 +177,12 @@ def test_an_annotation_that_is_not_evaluated(
         "talker/later.py": "warning",
         "talker/now.py": "error",
     }
+
+
+def test_a_file_that_is_too_large_to_read_may_name_a_script(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "talker" / "talk_old.py", UNDEFINED)
+    assert severities(capsys, "F821") == {"talker/talk_old.py": "warning"}
+    write(package / "config" / "map.yaml", "- 0\n" * 400_000)
+    assert severities(capsys, "F821") == {"talker/talk_old.py": "error"}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
 from scaffold.model.python.module import is_in_tests
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -81,10 +82,15 @@ def _is_named(package: Package, path: str, stem: str) -> bool:
         for item in package.files
         if item != path and (item.endswith(_NAMING) or item.startswith("scripts/"))
     )
-    return any(_is_in_code(package.data(item), stem) for item in others)
+    return any(_is_in_code(package, item, stem) for item in others)
 
 
-def _is_in_code(data: bytes, name: str) -> bool:
+def _is_in_code(package: Package, path: str, name: str) -> bool:
+    """Tell whether a file may have a name outside of comments; one too large to read may."""
+    try:
+        data = package.data(path)
+    except ViewError:
+        return True
     return _mentions(data, name) and _mentions(without_comments(data), name)
 
 
