@@ -52,6 +52,18 @@ _HINT = (
     "        for logger in [self.get_logger()]:\n"
     "            logger.{}('hello')\n"
 )
+_HOMING = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Homing(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('homing')\n"
+    "        self.client = self.create_client(Trigger, 'home')\n\n"
+    "    async def ask(self):\n"
+    "        return await self.client.call_async(Trigger.Request())\n\n"
+    "    async def home(self):\n"
+    "        answer = {}\n"
+    "        print(answer.{})\n"
+)
 _ODOMETRY = "class Odometry:\n    def reset(self):\n        self.x = 0.0\n"
 _DRIVE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n"
@@ -105,6 +117,7 @@ _SECONDS = frozenset({"sec", "secs", "seconds", "to_sec", "total_seconds"})
 _NANOSECONDS = frozenset({"nanosec", "nsec", "nsecs", "nanosecs", "to_nsec"})
 """What other libraries, messages and ROS 1 call the parts of a time."""
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
+_COROUTINE = "a coroutine"
 _METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
 """Matches a method that is not called."""
 _OF_MOCKS = re.compile(
@@ -508,6 +521,18 @@ class AttributeMissing(TypeRule):
             Report("4:1", "std_msgs.msg.String has no 'text': AttributeError; it has data"),
         ),
         Example(
+            "awaited; kept as a coroutine",
+            {
+                "home.py": _HOMING.format("await self.ask()", "success")
+                + "        waiting = self.ask()\n        waiting.close()\n"
+            },
+        ),
+        Example(
+            "not awaited",
+            {"home.py": _HOMING.format("self.ask()", "success")},
+            Report("15:15", "a coroutine has no 'success': AttributeError; await it"),
+        ),
+        Example(
             "an attribute that the distribution removed",
             {"hint.py": _HINT.format("warn")},
             Report(
@@ -563,6 +588,8 @@ def _instead(shown: str, name: str, method: str) -> str:
     """Return what to write instead, where it is not another name of the same object."""
     if method:
         return f"; write {method}()"
+    if shown == _COROUTINE:
+        return "; await it"
     if shown == "rclpy.task.Future":
         return "; what the future brings is in result()"
     if shown in _TIMES and name in _SECONDS:
@@ -593,6 +620,8 @@ def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None
     method = _METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
     if method is not None:
         return f"{full_name(method[1])}.{method[2]}", frozenset()
+    if owner.startswith("CoroutineType["):
+        return _COROUTINE, frozenset()
     return (with_article(owner), frozenset()) if owner in _PLAIN else None
 
 

@@ -34,7 +34,7 @@ _DIFFERENT = frozenset(
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _NAMELESS = re.compile(
-    r"Object of type `(?:str|int|float|bool|bytes)` has no attribute `\w+`"
+    r"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\])` has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
     r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
 )
