@@ -16,6 +16,12 @@ _LAUNCH = (
     "        Node(package='talker', executable='talk',\n"
     "             parameters=[os.path.join(share, {})]),\n    ])\n"
 )
+_NODE = (
+    "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n\n"
+    "share = get_package_share_directory('talker')\n"
+    "with open(os.path.join(share, 'config', '{}')) as stream:\n"
+    "    words = stream.read()\n"
+)
 _FILES = {
     "package.xml": '<package format="3"><name>talker</name>'
     "<export><build_type>ament_python</build_type></export></package>\n",
@@ -28,10 +34,10 @@ _FILES = {
 
 
 class SharePathMissing(Rule):
-    """A launch file names a file of a share directory that is not there after installation.
+    """A launch file or a node names a file of a share directory that is not there when installed.
 
     **Why.** ``ros2 launch`` stops with ``No such file or directory``; for a parameter file it
-    only warns, and the node runs with its defaults.
+    only warns, and the node runs with its defaults. A node ends with ``FileNotFoundError``.
 
     **Fix.** Write the path that the build file installs, or install the file.
 
@@ -140,6 +146,24 @@ class SharePathMissing(Rule):
                 "launch/a.launch.py:12:26",
                 "share/talker/tests/a.test does not exist: setup.py of talker does not install "
                 "tests/a.test",
+            ),
+        ),
+        Example(
+            "a node that reads what is installed, and makes a file of its own",
+            {
+                **_FILES,
+                "talker/talk.py": _NODE.format("talker.yaml")
+                + "with open(os.path.join(share, 'config', 'made.yaml'), 'w') as stream:\n"
+                "    stream.write(words)\n",
+            },
+        ),
+        Example(
+            "a node",
+            {**_FILES, "talker/talk.py": _NODE.format("talk.yaml")},
+            Report(
+                "talker/talk.py:6:11",
+                "share/talker/config/talk.yaml does not exist: talker has no such "
+                "file; closest: config/talker.yaml",
             ),
         ),
         Example(

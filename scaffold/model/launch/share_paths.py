@@ -27,6 +27,11 @@ _OF_MADE_FILES = frozenset(
 )
 """Functions that make, remove or ask for a file that need not be there."""
 
+_READING = re.compile(
+    r"(?i:(?:im|safe_|full_)?(?:read|load)\w*|parse|fromfile|from_file|loadtxt|genfromtxt)"
+)
+"""Matches functions that read a file."""
+
 
 class NamedPath(NamedTuple):
     """A path below the share directory of a package, named in a launch file."""
@@ -48,10 +53,60 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
                 continue
             if not _is_written(launch, share_path.node):
                 yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
+    yield from _paths_of_nodes(package)
     for file in markup_files(package):
         for path in file.paths:
             if path.path:
                 yield NamedPath(path.package, path.path, path.location)
+
+
+def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
+    """Yield the paths that the modules of a package read, and nothing else."""
+    of_launch = {launch.path for launch in LaunchFile.of_package(package)}
+    for module in package.modules(mentioning=["get_package_share_"]):
+        if module.path in of_launch or _is_of_tests(module.path):
+            continue
+        file = LaunchFile.of(package, module.path)
+        for share_path in file.share_paths:
+            node = share_path.node
+            if not file.is_optional(node) and _is_only_read(file, node):
+                yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
+
+
+def _is_of_tests(path: str) -> bool:
+    *directories, name = path.split("/")
+    return not {"test", "tests", "launch"}.isdisjoint(directories) or name == "setup.py"
+
+
+def _is_only_read(file: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a path is opened for reading, and no function that may write it gets it."""
+    module = file.module
+    holder = module.parent(node)
+    targets = holder.targets if isinstance(holder, ast.Assign) else ()
+    texts = {module.text(target) for target in targets} or {module.text(node)}
+    calls = [
+        call
+        for call in module.walk(ast.Call)
+        if not texts.isdisjoint(map(module.text, (*call.args, *_owner(call))))
+    ]
+    return bool(calls) and all(map(_reads, calls))
+
+
+def _owner(call: ast.Call) -> Iterator[ast.expr]:
+    """Yield what a method is called of: the path in ``path.read_text()``."""
+    if isinstance(call.func, ast.Attribute):
+        yield call.func.value
+
+
+def _reads(call: ast.Call) -> bool:
+    """Tell whether a call reads the file that it is given."""
+    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+    if name != "open":
+        return _READING.fullmatch(name) is not None
+    modes = [*call.args[1:2], *(item.value for item in call.keywords if item.arg == "mode")]
+    return all(
+        isinstance(mode, ast.Constant) and not {*"wax+"} & {*str(mode.value)} for mode in modes
+    )
 
 
 def _is_next_to_source(package: Package, launch: LaunchFile, path: SharePath) -> bool:
