@@ -15,6 +15,7 @@ from scaffold.api.rclpy import (
     Subscription,
     Synchronizer,
     Timer,
+    alternatives,
     class_of,
     numbers_taken,
 )
@@ -27,6 +28,10 @@ _NODE = (
     "        self.create_subscription(String, 'chatter', self.hear, 10)\n\n"
     "    def hear(self{}):\n"
     "        pass\n"
+)
+_TABLE = (
+    "        for topic, callback in [('a', self.hear), ('b', self.log)]:\n"
+    "            self.create_subscription(String, topic, callback, 10)\n\n"
 )
 _ASKING = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -109,6 +114,38 @@ class CallbackArity(RclpyRule):
                 "11:34", "callback 'end' takes 3 arguments, but a future passes itself: TypeError"
             ),
         ),
+        Example(
+            "chosen by a condition, or out of a table",
+            {
+                "listener.py": _NODE.format(", message")
+                .replace("self.hear,", "self.hear if self.verbose else self.log,")
+                .replace(
+                    "    def hear",
+                    _TABLE + "    def log(self, message):\n        pass\n\n    def hear",
+                )
+            },
+        ),
+        Example(
+            "chosen by a condition, or out of a table, with no parameter",
+            {
+                "listener.py": _NODE.format("")
+                .replace("self.hear,", "self.hear if self.verbose else self.log,")
+                .replace(
+                    "    def hear",
+                    _TABLE + "    def log(self, message):\n        pass\n\n    def hear",
+                )
+            },
+            Report(
+                "8:53",
+                "callback 'hear' takes 0 arguments, but a subscription passes the "
+                "message: RuntimeError",
+            ),
+            Report(
+                "10:39",
+                "callback 'hear' takes 0 arguments, but a subscription passes the "
+                "message: RuntimeError",
+            ),
+        ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
         Example(
             "no parameter",
@@ -181,7 +218,7 @@ def _given_callbacks(file: RclpyFile) -> Iterator[tuple[tuple[tuple[int, ...], s
     for entity, callback in file.callbacks:
         given = _given(entity)
         if given is not None:
-            yield given, callback
+            yield from ((given, item) for item in alternatives(file, callback))
     for attribute in file.module.index.attributes("add_done_callback"):
         match file.module.parent(attribute):
             case ast.Call(func=func, args=[passed], keywords=[]) if func is attribute:

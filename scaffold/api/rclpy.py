@@ -21,7 +21,7 @@ from scaffold.model.rclpy.attributes import (
     names_of_bases,
     used_by_classes,
 )
-from scaffold.model.rclpy.callbacks import numbers_taken
+from scaffold.model.rclpy.callbacks import alternatives, numbers_taken
 from scaffold.model.rclpy.changed_calls import changed_calls
 from scaffold.model.rclpy.changed_names import ChangedUse, changed_uses, is_asked_for, is_tried
 from scaffold.model.rclpy.entities import (
@@ -107,6 +107,7 @@ __all__ = [
     "Subscription",
     "Synchronizer",
     "Timer",
+    "alternatives",
     "buffer_made",
     "buffers_in",
     "callback_arguments",

@@ -109,6 +109,46 @@ def _returns_function(function: FunctionNode | ast.Lambda) -> bool:
     )
 
 
+def alternatives(file: RclpyFile, callback: Callback) -> Sequence[Callback]:
+    """Return the callbacks that a variable or a condition chooses from, or the one that is given.
+
+    All are passed in the same place: each has to take what is passed there.
+    """
+    if callback.function is not None or callback.is_called:
+        return [callback]
+    chosen = [resolve(file, node) for node in _chosen_from(file, callback.node)]
+    return [item for item in chosen if item.function is not None]
+
+
+def _chosen_from(file: RclpyFile, node: ast.expr, depth: int = 0) -> Sequence[ast.expr]:
+    """Return the expressions that an expression is one of; nothing if that is not known."""
+    if isinstance(node, ast.IfExp):
+        return [node.body, node.orelse]
+    lookup = file.module.index.lookup(node.id, node) if isinstance(node, ast.Name) else None
+    result: list[ast.expr] = []
+    for binding in lookup[1] if lookup is not None and not depth else ():
+        if binding.kind == "assignment" and binding.value is not None:
+            result += _chosen_from(file, binding.value, 1) or [binding.value]
+        elif binding.kind in {"loop", "other"}:
+            result += _column(file, binding.node)
+    return result
+
+
+def _column(file: RclpyFile, target: ast.AST) -> Sequence[ast.expr]:
+    """Return what a variable of a loop is in each row of a table."""
+    parent = file.module.parent(target)
+    at = (
+        parent.elts.index(target) if isinstance(parent, ast.Tuple) and target in parent.elts else -1
+    )
+    loop = file.module.parent(parent) if at >= 0 and parent is not None else parent
+    if not isinstance(loop, ast.For):
+        return ()
+    rows = [item.node for item in file.evaluator.elements(loop.iter).items]
+    if at < 0:
+        return rows
+    return [row.elts[at] for row in rows if isinstance(row, ast.Tuple) and at < len(row.elts)]
+
+
 def numbers_taken(callback: Callback) -> range | None:
     """Return the numbers of positional arguments that a callback takes; ``None``: not known."""
     function = callback.function
