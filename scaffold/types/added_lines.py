@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from scaffold.record import NamedTuple
 from scaffold.types.passed import Passed
@@ -25,23 +25,28 @@ class Extended(NamedTuple):
         return 0 if is_added else line - place
 
 
-def with_lines(text: str, lines: Mapping[int, Sequence[str]]) -> Extended:
+def with_lines(
+    text: str, lines: Mapping[int, Sequence[str]], stretches: Iterable[tuple[int, int, str]] = ()
+) -> Extended:
     """Return a text with more lines.
 
     Args:
         text: The text.
         lines: What to put before the line that starts at a place; of several lines, as it is.
+        stretches: Where something else is to be written, within a line, and what.
     """
     parts: list[str] = []
     added: list[int] = []
     at, number = 0, 1
-    for place in sorted(lines):
-        parts.append(text[at:place])
-        number += text.count("\n", at, place)
-        new = "".join(f"{line}\n" for line in lines[place])
-        count = new.count("\n")
-        added += range(number, number + count)
-        number += count
-        parts.append(new)
-        at = place
+    edits = [(place, place, "".join(f"{line}\n" for line in lines[place])) for place in lines]
+    for start, end, new in sorted([*edits, *stretches]):
+        parts += text[at:start], new
+        number += text.count("\n", at, start)
+        if start == end:
+            count = new.count("\n")
+            added += range(number, number + count)
+            number += count
+        else:
+            number += text.count("\n", start, end)
+        at = end
     return Extended("".join([*parts, text[at:]]).encode(), added)

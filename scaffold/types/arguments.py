@@ -9,9 +9,10 @@ the author says about the type of the parameter is left out then: no call has to
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
+from scaffold.types import containers, makers
 from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.callbacks import arguments_of, function_body
 from scaffold.types.passed import Passed, own_names, places
@@ -74,9 +75,23 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
     for function in _functions(text):
         annotations += _follow(text, function, calls.get(function.name, ()), lines)
     passed = [*_passed(text, data, module, lines)]
+    stretches = [(start, end, " " * (end - start)) for start, end in annotations]
+    for kept in containers.kept_values(text):
+        stretches += kept.stretches
+        _add(lines, kept.lines)
+    is_kept = len(stretches) > len(annotations)
+    heads = makers.generic_heads(text)
+    _add(lines, heads)
     if not lines:
         return Extended(data, ())
-    return with_lines(_without(text, annotations), lines)._replace(passed=passed)
+    extended = with_lines(text, lines, stretches)
+    end = containers.definitions() * is_kept + makers.definitions() * bool(heads)
+    return extended._replace(data=extended.data + end.encode(), passed=passed)
+
+
+def _add(lines: dict[int, list[str]], more: Mapping[int, Sequence[str]]) -> None:
+    for place, added in more.items():
+        lines.setdefault(place, []).extend(added)
 
 
 def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) -> Iterator[Passed]:
@@ -104,16 +119,6 @@ def _keep(text: str, place: int, values: Mapping[str, str], lines: dict[int, lis
     lines.setdefault(place, []).append(f"{indent}global {', '.join(values)}; {kept}")
 
 
-def _without(text: str, stretches: Iterable[tuple[int, int]]) -> str:
-    """Return a text with spaces in place of some stretches."""
-    parts: list[str] = []
-    at = 0
-    for start, end in sorted(stretches):
-        parts += text[at:start], " " * (end - start)
-        at = end
-    return "".join([*parts, text[at:]])
-
-
 def _follow(
     text: str, function: _Function, received: Sequence[Passed], lines: dict[int, list[str]]
 ) -> Iterator[tuple[int, int]]:
@@ -127,9 +132,9 @@ def _follow(
     if not (calls or received):
         return
     parameters = _Parameters(function)
-    for number, (place, words) in enumerate(calls):
+    for number, (place, words, is_partial) in enumerate(calls):
         kept: dict[str, str] = {}
-        for parameter, value in parameters.given(words).items():
+        for parameter, value in parameters.given(words, is_partial=is_partial).items():
             source = f"[{value}]"
             if not _CONSTANT.fullmatch(value):
                 kept[f"{_GIVEN}_{function.start}_{number}_{parameter}"] = value
@@ -207,17 +212,31 @@ def _decorator(text: str, start: int) -> str:
     return line[1:] if line.startswith("@") else line if line == ")" else ""
 
 
-def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, str]]]:
-    """Yield the calls of a function: where their statements begin, and their arguments."""
+def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, str], bool]]:
+    """Yield the calls of a function: where their statements begin, and their arguments.
+
+    The third value tells that there will be more of these: ``partial(self.on_pose, name)``.
+    """
+    yield from _calls_as(text, function, function.called, is_partial=False)
+    if "partial(" in text:
+        called = f"partial({function.called.removesuffix('(')},"
+        yield from _calls_as(text, function, called, is_partial=True)
+
+
+def _calls_as(
+    text: str, function: _Function, called: str, *, is_partial: bool
+) -> Iterator[tuple[int, Mapping[str, str], bool]]:
     body: tuple[int, int] | None = None
-    at = text.find(function.called, *function.segment)
+    at = text.find(called, *function.segment)
     while at >= 0:
-        start, at = at, text.find(function.called, at + 1, function.segment[1])
-        if text[start - 1 : start].isalnum() or text[start - 1 : start] in {"_", "."}:
+        start, at = at, text.find(called, at + 1, function.segment[1])
+        if is_partial and text[start - 1 : start] == ".":
+            start -= len("functools.") if text.endswith("functools.", 0, start) else 0
+        elif text[start - 1 : start].isalnum() or text[start - 1 : start] in {"_", "."}:
             continue
         if text.endswith(("def ", "class "), 0, start):
             continue
-        words, end = _arguments(text, start + len(function.called))
+        words, end = _arguments(text, text.find(called, start) + len(called))
         place = statement_around(text, start, end) if words else -1
         if place < 0:
             continue
@@ -227,7 +246,7 @@ def _calls(text: str, function: _Function) -> Iterator[tuple[int, Mapping[str, s
             head = function.start - 1
             body = head, head + len(function_body(text, head, head))
         if not body[0] <= start < body[1]:
-            yield place, words
+            yield place, words, is_partial
 
 
 def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
@@ -280,8 +299,11 @@ class _Parameters:
         if function.is_method:
             del self._positional[:1]
 
-    def given(self, words: Mapping[str, str]) -> Mapping[str, str]:
-        """Return what a call gives the parameters, by name; nothing if that is not sure."""
+    def given(self, words: Mapping[str, str], *, is_partial: bool = False) -> Mapping[str, str]:
+        """Return what a call gives the parameters, by name; nothing if that is not sure.
+
+        One that is partial leaves the other parameters to a later call.
+        """
         result: dict[str, str] = {}
         for key, value in words.items():
             if value.startswith("*"):
@@ -302,5 +324,7 @@ class _Parameters:
             for name, value in result.items()
             if name in self._defaults and not _OTHER_SCOPE.search(value)
         }
+        if is_partial:
+            return kept
         is_worth = kept or (not result and {*defaults.values()} != {"None"})
         return kept | defaults if is_worth else {}

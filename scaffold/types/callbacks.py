@@ -6,9 +6,15 @@ is called with, as plainly as an annotation. What is added is on the line of the
 
 from __future__ import annotations
 
+import ast
 import re
+from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import accumulate
+
+from scaffold.types.registrations import registrations, targets
 
 _WORDS = (
     b"create_subscription(",
@@ -41,6 +47,7 @@ _REBOUND = (
     r"|\b(?:for|as)[ \t]+{0}\b|\b{0}[ \t]*:="
 )
 """Matches what gives a name another value; not a keyword argument on a line of its own."""
+_Registered = tuple[str, tuple[str, ...]]
 _GOAL_HANDLE = "_Ros2ServerGoalHandle"
 _FUTURE = "_Ros2Future"
 _ACCEPTED = "_Ros2ClientGoalHandle"
@@ -74,6 +81,8 @@ _CALLBACKS = {
     ),
 }
 """Where each function takes the type, and where it takes callbacks besides by name."""
+_FUNCTIONS = frozenset({*_CALLBACKS, "add_done_callback"})
+_LINES_BACK = 40
 
 
 def with_callback_types(data: bytes) -> bytes:
@@ -86,23 +95,65 @@ def with_callback_types(data: bytes) -> bytes:
         return data
     segments = _SEGMENT.split(text)
     is_of_ros = _OTHER_FUTURES.search(text) is None
-    result = "".join(_annotated(segment, is_of_ros) for segment in segments)
+    registered = [[*_registered(segment)] for segment in segments]
+    if any(item is None for items in registered for item in items):
+        _add_indirect(text, segments, registered)
+    result = "".join(map(partial(_annotated, has_ros_futures=is_of_ros), segments, registered))
     imports = [line for name, line in _IMPORTS.items() if name in result]
     return "".join([result, *imports]).encode()
 
 
-def _annotated(segment: str, has_ros_futures: bool) -> str:  # noqa: FBT001  its name says it
+def _add_indirect(
+    text: str, segments: Sequence[str], registered: Sequence[list[_Registered | None]]
+) -> None:
+    """Add what is registered in other ways than by its name, class by class."""
+    starts = [*accumulate((segment.count("\n") for segment in segments), initial=1)]
+    lines = text.split("\n")
+    for item in registrations(text, _FUNCTIONS):
+        at = bisect_right(starts, item.line) - 1
+        before = "\n".join([*lines[max(item.line - _LINES_BACK, 0) : item.line - 1], ""])
+        before += lines[item.line - 1].encode()[: item.column].decode(errors="ignore")
+        for keyword, given in _types_given(item.function, item.arguments, before):
+            for target in targets(item.arguments[keyword], len(given)):
+                registered[min(at, len(segments) - 1)].append(
+                    (target.name, tuple(given[n] if n >= 0 else "" for n in target.order))
+                )
+
+
+def _types_given(
+    function: str, arguments: Mapping[str, ast.expr], before: str
+) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the arguments that are callbacks, with the types of what these get."""
+    if function == "add_done_callback":
+        text, dot, _ = before.rpartition(".")
+        brings = f"[{_ACCEPTED}]" if _is_of_goal(text + dot, len(text + dot)) else ""
+        if isinstance(arguments.get("0"), ast.Lambda | ast.Call):
+            yield "0", (_FUTURE + brings,)
+        return
+    place, callbacks = _CALLBACKS[function]
+    type_ = arguments.get(str(place))
+    written = ast.unparse(type_) if isinstance(type_, ast.Name | ast.Attribute) else ""
+    if not _TYPE.fullmatch(written):
+        return
+    for keyword, position in callbacks.items():
+        for key in (keyword, str(position)):
+            if key in arguments:
+                yield key, _given(function, keyword, written)
+
+
+def _annotated(
+    segment: str, registered: Sequence[_Registered | None], *, has_ros_futures: bool
+) -> str:
     """Return a class, or what is outside of classes, with what its callbacks get."""
     types: dict[str, tuple[str, ...]] = {}
-    for name, given in _registered(segment):
-        if given[0].startswith(_FUTURE) and not has_ros_futures:
+    for name, given in filter(None, registered):
+        if any(item.startswith(_FUTURE) for item in given) and not has_ros_futures:
             continue
         types[name] = () if types.get(name, given) != given else given
     for definition in reversed(_defined_once(segment)) if any(types.values()) else ():
-        registered = types.get(definition[2])
-        if registered:
+        if given := types.get(definition[2], ()):
             start, end = definition.span()
-            typed = _typed(definition, registered, function_body(segment, start, end))
+            typed = _typed(definition, given, function_body(segment, start, end))
             segment = f"{segment[:start]}{typed}{segment[end:]}"
     return segment
 
@@ -144,32 +195,49 @@ def _name(parameter: str) -> str:
     return parameter.partition(":")[0].rstrip()
 
 
-def _registered(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the callbacks that are registered, with the types of their arguments."""
+def _registered(segment: str) -> Iterator[_Registered | None]:
+    """Yield the callbacks that are registered, with the types of their arguments.
+
+    ``None`` stands for one that is not named there.
+    """
     if "registerCallback(" in segment:
         yield from _synchronized(segment)
     for call in _CALL.finditer(segment):
         function = call[1]
         arguments = arguments_of(segment, call.end())[0]
-        if function.endswith("_set_parameters_callback"):
-            callback = _CALLBACK.fullmatch(arguments.get("0", arguments.get("callback", "")))
-            if callback is not None:
-                yield callback[1], (f"list[{_PARAMETER_OBJECT}]",)
+        if function in _CALLBACKS:
+            yield from _of_typed(segment, function, arguments)
             continue
         if function == "add_done_callback":
-            callback = _CALLBACK.fullmatch(arguments.get("0", ""))
-            if callback is not None:
-                brings = f"[{_ACCEPTED}]" if _is_of_goal(segment, call.start()) else ""
-                yield callback[1], (_FUTURE + brings,)
-            continue
-        place, callbacks = _CALLBACKS[function]
-        type_ = arguments.get(str(place), "")
-        if not _TYPE.fullmatch(type_):
-            continue
-        for keyword, position in callbacks.items():
-            callback = _CALLBACK.fullmatch(arguments.get(keyword, arguments.get(str(position), "")))
-            if callback is not None:
-                yield callback[1], _given(function, keyword, type_)
+            brings = f"[{_ACCEPTED}]" if _is_of_goal(segment, call.start()) else ""
+            given = _FUTURE + brings
+        else:
+            given = f"list[{_PARAMETER_OBJECT}]"
+        argument = arguments.get("0", arguments.get("callback", ""))
+        callback = _CALLBACK.fullmatch(argument)
+        if callback is not None:
+            yield callback[1], (given,)
+        elif argument:
+            yield None
+
+
+def _of_typed(
+    segment: str, function: str, arguments: Mapping[str, str]
+) -> Iterator[_Registered | None]:
+    """Yield the callbacks of a call with a type; ``None`` for one that is not named there."""
+    place, callbacks = _CALLBACKS[function]
+    type_ = arguments.get(str(place), "")
+    if not _TYPE.fullmatch(type_):
+        if type_.isidentifier():
+            yield None
+        return
+    for keyword, position in callbacks.items():
+        argument = arguments.get(keyword, arguments.get(str(position), ""))
+        callback = _CALLBACK.fullmatch(argument)
+        if callback is not None:
+            yield callback[1], _given(function, keyword, type_)
+        if argument and (callback is None or f"def {callback[1]}(" not in segment):
+            yield None
 
 
 def _synchronized(segment: str) -> Iterator[tuple[str, tuple[str, ...]]]:

@@ -12,6 +12,8 @@ _DEEPEST = 20
 """Names, attributes, elements and calls that one value comes from."""
 _MOST_FUNCTIONS = 4
 """Functions that hand it on."""
+_HANDING_ON = frozenset({"enumerate", "iter", "list", "next", "reversed", "sorted", "tuple", "zip"})
+_PUTTING = frozenset({"append", "appendleft", "insert", "setdefault"})
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 
 
@@ -23,10 +25,14 @@ def is_of_several(module: PythonModule, node: ast.AST) -> bool:
     """
     for origin in _origins(module, node):
         match origin:
-            case ast.Subscript(slice=ast.Constant(value=str())):
-                return True
+            case ast.Subscript(slice=ast.Constant(value=str())) as entry:
+                if len(_contents_of(module, entry.value)) != 1:
+                    return True
             case ast.Attribute(value=ast.Name(id="self"), attr=name):
-                if len(_sources_of(module, name)) > 1:
+                if len(_sources_of(module, name)) > 1 or len(_contents_of(module, origin)) > 1:
+                    return True
+            case ast.Name():
+                if len(_contents_of(module, origin)) > 1:
                     return True
     return False
 
@@ -46,17 +52,78 @@ def _origins(module: PythonModule, node: ast.AST, depth: int = 0) -> Iterator[as
         match node:
             case ast.Attribute(value=value) | ast.Subscript(value=value):
                 node = value
+            case ast.Call(func=ast.Name(id=name), args=[first, *_]) if name in _HANDING_ON:
+                node = first
             case ast.Call(func=func):
                 node = func
             case ast.Name():
                 looped = _looped_over(module, node)
                 if looped is None:
-                    for value in arguments_for(module, node):
+                    for value in (*arguments_for(module, node), *_assigned(module, node)):
                         yield from _origins(module, value, depth + 1)
                     return
                 node = looped
             case _:
                 return
+
+
+def _assigned(module: PythonModule, name: ast.Name) -> Iterator[ast.expr]:
+    """Yield the entries of containers that a variable is given."""
+    lookup = module.index.lookup(name.id, name)
+    for binding in lookup[1] if lookup is not None else ():
+        statement = module.parent(binding.node)
+        if not isinstance(statement, ast.Assign) or binding.node not in statement.targets:
+            continue
+        if isinstance(statement.value, ast.Subscript | ast.Call):
+            yield statement.value
+
+
+def _contents_of(module: PythonModule, container: ast.expr) -> set[str]:
+    """Return what makes the values that are put into a variable or an attribute of ``self``."""
+    text = module.text(container)
+    sources: set[str] = set()
+    if not isinstance(container, ast.Name | ast.Attribute):
+        return sources
+    for name in module.index.names(text) if isinstance(container, ast.Name) else ():
+        sources |= _put_into(module, name)
+    for attribute in module.index.attributes(text.rpartition(".")[2]):
+        if module.text(attribute) == text:
+            sources |= _put_into(module, attribute)
+    return sources
+
+
+def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
+    """Return what makes the value that a statement puts into a container, or several at once."""
+    parent = module.parent(container)
+    above = module.parent(parent) if parent is not None else None
+    values: Sequence[ast.expr] = ()
+    match parent, above:
+        case ast.Subscript(), ast.Assign(value=value):
+            values = [value] if parent in above.targets else ()
+        case ast.Attribute(attr=name), ast.Call(args=arguments) if name in _PUTTING:
+            values = arguments[-1:]
+        case ast.Assign(value=ast.Dict(values=items) | ast.List(elts=items)), _:
+            values = items
+    return {
+        _source(module, value)
+        for value in values
+        if not (isinstance(value, ast.Constant) and value.value is None)
+    }
+
+
+def _source(module: PythonModule, value: ast.expr) -> str:
+    """Return what makes a value: a call with the classes that it is given, or an expression."""
+    if isinstance(value, ast.Call):
+        classes = [module.text(item) for item in value.args if _is_class(item)]
+        classes += [module.text(item.value) for item in value.keywords if _is_class(item.value)]
+        return f"{module.text(value.func)}({', '.join(classes)})"
+    function = module.enclosing_function(value) if isinstance(value, ast.Name) else None
+    return f"{module.text(value)} of {function.name if function else ''}"
+
+
+def _is_class(value: ast.expr) -> bool:
+    name = value.attr if isinstance(value, ast.Attribute) else getattr(value, "id", "")
+    return name[:1].isupper()
 
 
 def arguments_for(module: PythonModule, name: ast.Name) -> Sequence[ast.expr]:

@@ -9,13 +9,15 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
+from collections.abc import Iterator
 
 from scaffold.types.callbacks import function_body
 
 _ANY = "_Ros2Any"
 _IMPORT = f"\nfrom typing import Any as {_ANY}\n"
 _FUNCTION = re.compile(
-    r"^([ \t]*)def ([^\W\d]\w*)(\((?:[^()]|\([^()]*\)){0,800}\))([ \t]*):[ \t]*(?:#[^\n]*)?$",
+    r"^(?P<indent>[ \t]*)def (?P<name>[^\W\d]\w*)"
+    r"(?P<parameters>\((?:[^()]|\([^()]*\)){0,800}\))(?P<end>[ \t]*):[ \t]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
 """Matches the head of a function that has no annotation of its result."""
@@ -59,21 +61,35 @@ def with_result_types(data: bytes) -> bytes:
 def _annotated(text: str) -> str:
     parts: list[str] = []
     at = 0
-    count = Counter(_NAMED.findall(text))
-    for match in _FUNCTION.finditer(text):
-        if _is_decorated(text, match.start()):
-            continue
-        if match[1] and count[match[2]] > 1:
-            continue  # a class may have another method of this name
-        type_ = _result(match[3], function_body(text, match.start(2), match.end()))
+    for match in functions(text):
+        type_ = _result(match["parameters"], body_of(text, match))
         if type_:
-            end = match.end(4)
+            end = match.end("end")
             parts += text[at:end], f' -> "{type_}"'
             at = end
     text = "".join([*parts, text[at:]])
     imports = [line for _, name, line in _KNOWN if f'"{name}"' in text]
     text += "".join(f"\n{line}\n" for line in imports)
     return text + _IMPORT if _ANY in text else text
+
+
+def functions(text: str) -> Iterator[re.Match[str]]:
+    """Yield the heads of functions without decorators and without annotations of their results.
+
+    They have ``indent``, ``name`` and ``parameters``, these with their brackets.
+    """
+    count = Counter(_NAMED.findall(text))
+    for match in _FUNCTION.finditer(text):
+        if _is_decorated(text, match.start()):
+            continue
+        if match["indent"] and count[match["name"]] > 1:
+            continue  # a class may have another method of this name
+        yield match
+
+
+def body_of(text: str, function: re.Match[str]) -> str:
+    """Return what a function consists of besides its head."""
+    return function_body(text, function.start("name"), function.end())
 
 
 def _is_decorated(text: str, start: int) -> bool:
@@ -83,14 +99,24 @@ def _is_decorated(text: str, start: int) -> bool:
 
 def _result(parameters: str, body: str) -> str:
     """Return the type of all that a function returns; empty if it is not plain."""
-    if "return" not in body or _has_other_scopes(body):
-        return ""
-    types: set[str] = set()
-    for match in _RETURN.finditer(body):
-        value = _expression(body, match.end())
-        if value not in {"", "None"}:
-            types.add(_type(value, parameters, body))
+    types = {_type(value) for value in returned(parameters, body)}
     return types.pop() if len(types) == 1 else ""
+
+
+def returned(parameters: str, body: str) -> list[ast.expr | None]:
+    """Return what a function returns besides ``None``; a local variable as the value that it gets.
+
+    There is nothing for a generator and for a function with others inside, and ``None`` for what
+    is not plain.
+    """
+    if "return" not in body or _has_other_scopes(body):
+        return []
+    values = (expression_at(body, match.end()) for match in _RETURN.finditer(body))
+    nodes = [_parsed(value) for value in values if value not in {"", "None"}]
+    return [
+        _parsed(_made(node.id, parameters, body)) if isinstance(node, ast.Name) else node
+        for node in nodes
+    ]
 
 
 def _has_other_scopes(body: str) -> bool:
@@ -100,7 +126,7 @@ def _has_other_scopes(body: str) -> bool:
     return _OTHER_SCOPES.search(body) is not None
 
 
-def _expression(text: str, start: int) -> str:
+def expression_at(text: str, start: int) -> str:
     """Return an expression up to the end of its line, or of its brackets."""
     open_: list[str] = []
     quote = ""
@@ -126,15 +152,12 @@ def _expression(text: str, start: int) -> str:
     return text[start:at].strip()
 
 
-def _type(value: str, parameters: str, body: str) -> str:
+def _type(node: ast.expr | None) -> str:
     """Return the type of an expression: of a tuple, or of what a class makes; else empty."""
-    node = _parsed(value)
     if isinstance(node, ast.Tuple):
         is_plain = not any(isinstance(item, ast.Starred) for item in node.elts)
         items = ", ".join([_ANY] * len(node.elts))
         return f"tuple[{items}]" if is_plain and len(node.elts) >= _FEWEST else ""
-    if isinstance(node, ast.Name):
-        node = _parsed(_made(node.id, parameters, body))
     class_ = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
     for called, name, _ in _KNOWN:
         if called.fullmatch(class_):
@@ -159,4 +182,4 @@ def _made(name: str, parameters: str, body: str) -> str:
     values = [*plain.finditer(body)]
     if len(values) != 1 or len(re.findall(bound, body)) != 1 or re.search(others, body):
         return ""
-    return _expression(body, values[0].end())
+    return expression_at(body, values[0].end())

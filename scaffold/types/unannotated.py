@@ -51,7 +51,7 @@ def without_annotations(data: bytes) -> bytes | None:
 
 def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
     """Yield the annotations to replace, each with what it is of."""
-    handed_over = _handed_over(index)
+    handed_over, referred_to = _handed_over(index), _referred_to(index)
     functions: list[ast.FunctionDef | ast.AsyncFunctionDef] = [
         *index.all_of(ast.FunctionDef),
         *index.all_of(ast.AsyncFunctionDef),
@@ -60,8 +60,11 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
         if function.returns is not None:
             yield "result", function.returns
         kept = _never_rebound(function) if function.name in handed_over else set()
+        written = _never_rebound(function) if function.name in referred_to else set()
         for argument in _arguments(function.args):
-            if argument.annotation is not None and argument.arg not in kept:
+            if argument.annotation is None or argument.arg in kept:
+                continue
+            if argument.arg not in written or not _is_text(argument.annotation):
                 yield "parameter", argument.annotation
     for variable in index.all_of(ast.AnnAssign):
         yield "declaration" if variable.value is None else "variable", variable.annotation
@@ -93,6 +96,28 @@ def _name(node: ast.expr) -> str:
         case ast.Attribute(attr=name) | ast.Name(id=name):
             return name
     return ""
+
+
+def _referred_to(index: ScopeIndex) -> set[str]:
+    """Return the names of functions in tables, lambdas and the like.
+
+    These keep what is written as callbacks are annotated by this tool: in quotes.
+    """
+    callees = {
+        id(call.func)
+        for call in index.all_of(ast.Call)
+        if not isinstance(index.parent(call), ast.Lambda)
+    }
+    names = {
+        node.attr
+        for node in index.all_of(ast.Attribute)
+        if isinstance(node.ctx, ast.Load) and id(node) not in callees
+    }
+    return names | {node.id for node in index.all_of(ast.Name) if id(node) not in callees}
+
+
+def _is_text(annotation: ast.expr) -> bool:
+    return isinstance(annotation, ast.Constant) and isinstance(annotation.value, str)
 
 
 def _never_rebound(function: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:

@@ -1,0 +1,206 @@
+"""What is kept in dictionaries and lists that are made empty, for a type checker.
+
+``self.latest = {}`` says nothing about what is in it; ``self.latest[name] = msg`` does. A line
+before it keeps the value under a global name, and the empty dictionary becomes one of such values.
+If anything else may put something into it, it stays as it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from scaffold.record import NamedTuple
+from scaffold.types.callbacks import arguments_of, function_body
+from scaffold.types.results import expression_at
+from scaffold.types.statements import statement_around
+
+_MADE = re.compile(
+    r"^(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
+    r"\{\}|\[\]|dict\(\)|list\(\)|(?:collections\.)?deque\([^()\n]{0,80}\)"
+    r"|\{[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
+    re.MULTILINE,
+)
+_HELPERS = {"{": "_ros2_dict", "d": "_ros2_dict", "[": "_ros2_list", "l": "_ros2_list"}
+_DEFINITIONS = """
+from collections import deque as _Ros2Deque
+from collections.abc import Sequence as _Ros2Sequence
+from typing import Any as _Ros2Any, TypeVar as _Ros2TypeVar
+_Ros2Element = _Ros2TypeVar("_Ros2Element")
+def _ros2_dict(*_: _Ros2Sequence[_Ros2Element]) -> dict[_Ros2Any, _Ros2Element]: ...
+def _ros2_list(*_: _Ros2Sequence[_Ros2Element]) -> list[_Ros2Element]: ...
+def _ros2_deque(*_: _Ros2Sequence[_Ros2Element]) -> _Ros2Deque[_Ros2Element]: ...
+"""
+_ADDING = {"append": "0", "appendleft": "0", "setdefault": "1", "insert": "1"}
+"""Methods that put something into a container, and which argument that is."""
+_METHOD = re.compile(r"\.(\w+)\(")
+_READING = frozenset(
+    {"get", "items", "values", "keys", "pop", "popitem", "popleft", "clear", "copy", "remove"}
+    | {"index", "count", "sort", "reverse", "rotate"}
+)
+_SET = re.compile(r"[ ]*=(?!=)[ ]*")
+_CHANGED = re.compile(r"[ ]*(?:[-+*/|&%^@]|//|\*\*|<<|>>)=|[ ]*,[^\n=]*=(?!=)")
+_READ = re.compile(
+    r"(?:\b(?:in|not|if|elif|while|and|or|return)[ ]+"
+    r"|\b(?:len|sorted|sum|min|max|any|all|list|tuple|set|enumerate|reversed|zip|str|iter|next)\("
+    r"|\{)$"
+)
+_MOST_ADDED = 12
+_KEPT = "_ros2_kept"
+_OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
+
+
+class Kept(NamedTuple):
+    """A container, and what is put into it."""
+
+    stretches: Sequence[tuple[int, int, str]]
+    """Where it is made, and what to write there."""
+    lines: Mapping[int, Sequence[str]]
+    """The lines to add, by the place that they go before."""
+
+
+def kept_values(text: str) -> Iterator[Kept]:
+    """Yield the containers of a file that are made without what they are for."""
+    made: dict[tuple[str, int, int], list[re.Match[str]]] = {}
+    starts = [*_segment_starts(text), len(text)]
+    at = 0
+    for match in _MADE.finditer(text):
+        while starts[at] <= match.start():
+            at += 1
+        name = match["name"]
+        stretch = (starts[at - 1] if at else 0, starts[at])
+        if not name.startswith("self."):
+            stretch = _function_around(text, match.start("name"), len(match["indent"]))
+        if stretch[1]:
+            made.setdefault((name, *stretch), []).append(match)
+    for number, ((name, start, end), matches) in enumerate(made.items()):
+        if len({_helper(match) for match in matches}) > 1:
+            continue
+        added = _added(text, name, start, end)
+        if added and len(added) <= _MOST_ADDED:
+            yield _kept(text, number, matches, added)
+
+
+def definitions() -> str:
+    """Return what is added at the end of a file with such containers."""
+    return _DEFINITIONS
+
+
+def _helper(match: re.Match[str]) -> str:
+    value = match["value"]
+    return "_ros2_deque" if "deque" in value else _HELPERS[value[0]]
+
+
+def _kept(
+    text: str,
+    number: int,
+    matches: Sequence[re.Match[str]],
+    added: Sequence[tuple[int, str]],
+) -> Kept:
+    lines: dict[int, list[str]] = {}
+    sources: list[str] = []
+    for at, (place, value) in enumerate(added):
+        name = f"{_KEPT}_{number}_{at}"
+        indent = re.compile("[ ]*").match(text, place)
+        lines.setdefault(place, []).append(
+            f"{indent[0] if indent else ''}global {name}; {name} = [{value}]"
+        )
+        sources.append(name)
+    stretches = []
+    for match in matches:
+        call = f"{_helper(match)}({', '.join(sources)})"
+        value = match["value"]
+        if value[0] == "{" and value != "{}":
+            call = f"{value[:-1].rstrip().rstrip(',')}, **{call}}}"
+        stretches.append((*match.span("value"), call))
+    return Kept(stretches, lines)
+
+
+def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
+    """Return what is put into a container, and where the statements begin.
+
+    There is nothing if that is not sure, or if what is put into it has no name of its own.
+    """
+    result: list[tuple[int, str]] = []
+    for match in re.compile(rf"(?<![\w.]){re.escape(name)}\b").finditer(text, start, end):
+        found = _addition(text, match)
+        if found is None:
+            return []
+        if not found[1]:
+            continue
+        place = statement_around(text, match.start(), match.end())
+        if place < 0 or _OTHER_SCOPE.search(found[1]):
+            return []
+        result.append((place, found[1]))
+    if any(re.search(rf"\b{re.escape(name)}\b", value) for _, value in result):
+        return []
+    return result if name.startswith("self.") or result else []
+
+
+def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
+    """Return where a value ends that is put into a container and the value, empty for a reading.
+
+    ``None`` for what may be anything.
+    """
+    end = match.end()
+    method = _METHOD.match(text, end)
+    if method is not None:
+        if method[1] in _ADDING:
+            arguments, stop = arguments_of(text, method.end())
+            value = arguments.get(_ADDING[method[1]], "")
+            return (stop, value) if value and not value.startswith("*") else None
+        return (end, "") if method[1] in _READING else None
+    after = text[end : end + 1]
+    if after == "[":
+        end = _closed(text, end)
+        if not end or _CHANGED.match(text, end):
+            return None
+        set_ = _SET.match(text, end)
+        return (end, expression_at(text, set_.end()) if set_ else "")
+    line = text.rfind("\n", 0, match.start()) + 1
+    before = text[line : match.start()]
+    if not before.strip() and _SET.match(text, end):
+        return end, ""
+    is_read = after in {"}", "!"} or _READ.search(before) is not None
+    return (end, "") if is_read and after != "." else None
+
+
+def _closed(text: str, start: int) -> int:
+    """Return where a bracket is closed; 0 if that is not in its line."""
+    depth = 0
+    for at in range(start, min(len(text), start + 200)):
+        character = text[at]
+        if character in "([{":
+            depth += 1
+        elif character in ")]}":
+            depth -= 1
+            if not depth:
+                return at + 1
+        elif character in "\n'\"#" and character in "\n#":
+            return 0
+    return 0
+
+
+def _segment_starts(text: str) -> Iterator[int]:
+    yield from (match.start() for match in re.finditer(r"^class ", text, re.MULTILINE))
+
+
+def _function_around(text: str, place: int, indent: int) -> tuple[int, int]:
+    """Return where the function of a statement begins and ends; twice 0 if there is none."""
+    heads = re.compile(r"^([ ]*)(?:async )?def \w+\(", re.MULTILINE)
+    best: re.Match[str] | None = None
+    line = text.rfind("\n", 0, place)
+    while line > 0:
+        previous = text.rfind("\n", 0, line) + 1
+        head = heads.match(text, previous)
+        if head is not None and len(head[1]) < indent:
+            best = head
+            break
+        first = re.compile(r"[ ]*[^\s#]").match(text, previous, line)
+        if first is not None and first.end() - previous == 1 and text[previous] not in ")]}":
+            break
+        line = previous - 1
+    if best is None:
+        return 0, 0
+    start = best.start()
+    return start, best.end() + len(function_body(text, best.end(1), best.end()))

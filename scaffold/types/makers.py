@@ -1,0 +1,70 @@
+"""Functions that return an object of a class that they are given, for a type checker.
+
+``def make(kind): return kind()`` returns a Pose if it is given Pose. A head before the function,
+as of an overload, says so; the function itself stays as it is.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Mapping
+
+from scaffold.types import results
+
+_MADE = "_Ros2Made"
+_CALLABLE = "_Ros2Callable"
+_OVERLOAD = "_ros2_overload"
+_DEFINITIONS = f"""
+from collections.abc import Callable as {_CALLABLE}
+from typing import TypeVar as _Ros2MadeVar
+{_MADE} = _Ros2MadeVar("{_MADE}")
+"""
+_PARAMETER = re.compile(r"(?:^\(|,)\s*([^\W\d]\w*)")
+_CALLED = r"\breturn[ \t]+{0}\(|=[ \t]*{0}\("
+
+
+def generic_heads(text: str) -> Mapping[int, list[str]]:
+    """Return the heads to add, by the place that they go before."""
+    result: dict[int, list[str]] = {}
+    for function in results.functions(text):
+        names = [name for name in _PARAMETER.findall(function["parameters"]) if name != "self"]
+        body = ""
+        for name in names:
+            if f"{name}(" not in text:
+                continue
+            body = body or results.body_of(text, function)
+            if re.search(_CALLED.format(name), body) and _makes(name, function, body):
+                result[function.start()] = [_head(function, name)]
+    return result
+
+
+def definitions() -> str:
+    """Return what is added at the end of a file with such heads."""
+    return _DEFINITIONS
+
+
+def _makes(name: str, function: re.Match[str], body: str) -> bool:
+    """Tell whether all that a function returns is what a parameter makes when it is called."""
+    if re.search(rf"(?<![\w.]){name}[ \t]*(?::[^=\n]*)?=(?!=)|\b(?:for|as)[ \t]+{name}\b", body):
+        return False
+    values = results.returned(function["parameters"], body)
+    return bool(values) and all(
+        isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id == name
+        for value in values
+    )
+
+
+def _head(function: re.Match[str], name: str) -> str:
+    indent = function["indent"]
+    parameters = re.sub(
+        rf"(?<=[(,\s]){name}\b(?:\s*:[^,=)]*)?",
+        f'{name}: "{_CALLABLE}[..., {_MADE}]"',
+        function["parameters"],
+        count=1,
+    )
+    return (
+        f"{indent}from typing import overload as {_OVERLOAD}\n"
+        f"{indent}@{_OVERLOAD}\n"
+        f'{indent}def {function["name"]}{parameters} -> "{_MADE}": ...'
+    )

@@ -1,0 +1,200 @@
+"""Callbacks that are not named where they are registered: out of tables, lambdas and partials.
+
+``for topic, kind, callback in [('odom', Odometry, self.on_odom), ...]`` with
+``self.create_subscription(kind, topic, callback, 10)`` registers ``on_odom`` as plainly as a call
+of its own.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from scaffold.record import NamedTuple
+
+_MOST_ROWS = 60
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+class Registration(NamedTuple):
+    """A call that may register a callback, with the values of the loops around it."""
+
+    line: int
+    column: int
+    """Of its function, in bytes."""
+    function: str
+    arguments: Mapping[str, ast.expr]
+    """By keyword or number."""
+
+
+class Target(NamedTuple):
+    """A function or method that is called back."""
+
+    name: str
+    order: Sequence[int]
+    """What it gets, by the place in what is passed; -1 for something else."""
+
+
+class _Place(NamedTuple):
+    """Where a node is: in which class and function, and in which loops."""
+
+    node: ast.AST
+    class_: ast.AST | None
+    function: ast.AST | None
+    loops: Sequence[ast.For]
+
+
+def registrations(text: str, functions: Collection[str]) -> Iterator[Registration]:
+    """Yield the calls of some functions, once for each row of the tables that loops run over."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return
+    values: dict[tuple[ast.AST | None, str], list[ast.expr]] = {}
+    calls: list[tuple[ast.Call, str, _Place]] = []
+    for place in _places(tree):
+        node = place.node
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                values.setdefault(_key(place, target), []).append(node.value)
+        elif isinstance(node, ast.Call):
+            function = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            if function in functions:
+                calls.append((node, function, place))
+    for call, function, place in calls:
+        arguments = {str(at): value for at, value in enumerate(call.args)}
+        arguments.update({item.arg: item.value for item in call.keywords if item.arg})
+        end = call.func.end_lineno or 0, call.func.end_col_offset or 0
+        for row in _rows(place, values):
+            given = {key: _replaced(value, row, place, values) for key, value in arguments.items()}
+            yield Registration(*end, function, given)
+
+
+def targets(value: ast.expr, count: int) -> Iterator[Target]:
+    """Yield what is called back with some arguments.
+
+    Args:
+        value: What is registered.
+        count: How many arguments are passed.
+    """
+    match value:
+        case ast.Attribute(value=ast.Name(id="self"), attr=name) | ast.Name(id=name):
+            yield Target(name, range(count))
+        case ast.IfExp(body=body, orelse=orelse):
+            yield from targets(body, count)
+            yield from targets(orelse, count)
+        case ast.Lambda(args=parameters, body=ast.Call(func=called, args=given)):
+            names = [item.arg for item in (*parameters.posonlyargs, *parameters.args)][:count]
+            order = [_number(item, names) for item in given]
+            for target in targets(called, len(order)):
+                yield Target(target.name, [order[at] if at >= 0 else -1 for at in target.order])
+        case ast.Call(func=ast.Name(id="partial") | ast.Attribute(attr="partial")):
+            bound = len(value.args) - 1
+            for target in targets(value.args[0], count) if bound >= 0 else ():
+                yield Target(target.name, [*[-1] * bound, *target.order])
+
+
+def _number(value: ast.expr, names: Sequence[str]) -> int:
+    return names.index(value.id) if isinstance(value, ast.Name) and value.id in names else -1
+
+
+def _places(tree: ast.Module) -> Iterator[_Place]:
+    pending = [_Place(tree, None, None, ())]
+    while pending:
+        place = pending.pop()
+        yield place
+        node, class_, function, loops = place
+        if isinstance(node, ast.ClassDef):
+            class_, function, loops = node, None, ()
+        elif isinstance(node, _FUNCTIONS):
+            function, loops = node, ()
+        elif isinstance(node, ast.For):
+            loops = (*loops, node)
+        pending += (_Place(child, class_, function, loops) for child in ast.iter_child_nodes(node))
+
+
+def _key(place: _Place, target: ast.expr) -> tuple[ast.AST | None, str]:
+    """Return what a variable or an attribute of ``self`` is known by."""
+    if isinstance(target, ast.Name):
+        return place.function, target.id
+    is_own = isinstance(target, ast.Attribute) and isinstance(target.value, ast.Name)
+    return (place.class_, ast.unparse(target)) if is_own else (None, "")
+
+
+def _rows(
+    place: _Place, values: Mapping[tuple[ast.AST | None, str], list[ast.expr]]
+) -> Iterator[Mapping[str, ast.expr]]:
+    """Yield what the variables of the loops around a place are, for each row."""
+    rows: list[dict[str, ast.expr]] = [{}]
+    for loop in place.loops:
+        bound = [_bound(loop.target, row) for row in _table(loop.iter, place, values)]
+        rows = [{**row, **more} for row in rows for more in bound] or rows
+        if len(rows) > _MOST_ROWS:
+            return
+    yield from rows
+
+
+def _table(
+    iterated: ast.expr,
+    place: _Place,
+    values: Mapping[tuple[ast.AST | None, str], list[ast.expr]],
+) -> list[ast.expr]:
+    """Return the rows that a loop runs over, as far as they are written down."""
+    method = ""
+    match iterated:
+        case ast.Call(func=ast.Attribute(value=value, attr="items" | "values" as method), args=[]):
+            iterated = value
+    if isinstance(iterated, ast.Name | ast.Attribute):
+        known = values.get(_key(place, iterated), [])
+        if not known and isinstance(iterated, ast.Name):
+            known = values.get((None, iterated.id), [])
+        if len(known) != 1:
+            return []
+        iterated = known[0]
+    match iterated:
+        case ast.Dict(keys=keys, values=entries) if method and None not in keys:
+            pairs = zip(keys, entries, strict=True)
+            return [
+                ast.Tuple([key, entry], ast.Load()) if method == "items" else entry
+                for key, entry in pairs
+                if key is not None
+            ]
+        case ast.List(elts=entries) | ast.Tuple(elts=entries) if not method:
+            return entries
+    return []
+
+
+def _bound(target: ast.expr, value: ast.expr) -> dict[str, ast.expr]:
+    """Return what each variable of a loop is in one row."""
+    if isinstance(target, ast.Name):
+        return {target.id: value}
+    result: dict[str, ast.expr] = {}
+    match target, value:
+        case (
+            ast.Tuple(elts=names) | ast.List(elts=names),
+            ast.Tuple(elts=entries) | ast.List(elts=entries),
+        ) if len(names) == len(entries):
+            for name, entry in zip(names, entries, strict=True):
+                result.update(_bound(name, entry))
+    return result
+
+
+def _replaced(
+    value: ast.expr,
+    row: Mapping[str, ast.expr],
+    place: _Place,
+    values: Mapping[tuple[ast.AST | None, str], list[ast.expr]],
+) -> ast.expr:
+    """Return an argument with the value of a variable in its place."""
+    match value:
+        case ast.Name(id=name) if name in row:
+            return row[name]
+        case ast.Name():
+            known = values.get(_key(place, value), [])
+            return known[0] if place.function is not None and len(known) == 1 else value
+        case ast.Call(func=func, args=[first, *rest]):
+            return ast.Call(func, [_replaced(first, row, place, values), *rest], value.keywords)
+        case ast.Lambda(args=parameters, body=ast.Call(func=ast.Name() as called) as body):
+            called_ = _replaced(called, row, place, values)
+            return ast.Lambda(parameters, ast.Call(called_, body.args, body.keywords))
+    return value
