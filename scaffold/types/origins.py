@@ -104,11 +104,13 @@ def _put_into(module: PythonModule, container: ast.expr) -> set[str]:
             values = arguments[-1:]
         case ast.Assign(value=ast.Dict(values=items) | ast.List(elts=items)), _:
             values = items
-    return {
-        _source(module, value)
-        for value in values
-        if not (isinstance(value, ast.Constant) and value.value is None)
-    }
+    sources: set[str] = set()
+    for value in values:
+        if isinstance(value, ast.Subscript):
+            sources |= {f"{module.text(value)} in line {value.lineno}", "another container"}
+        elif not (isinstance(value, ast.Constant) and value.value is None):
+            sources.add(_source(module, value))
+    return sources
 
 
 def _source(module: PythonModule, value: ast.expr) -> str:
