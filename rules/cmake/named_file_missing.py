@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from scaffold.api import (
     CreateFile,
@@ -22,16 +22,19 @@ from scaffold.api.workspace import is_untracked
 _INSTALL = "project(talker)\ninstall({} DESTINATION share/${{PROJECT_NAME}})\n"
 _ENDINGS = (".cpp", ".cc", ".cxx", ".c", ".py")
 _MAKERS = (
-    "configure_file",
-    "file",
-    "add_custom_command",
-    "add_custom_target",
-    "execute_process",
-    "externalproject_add",
-    "fetchcontent_declare",
-    "include",
-    "generate_parameter_library",
+    *("configure_file", "file", "execute_process", "externalproject_add"),
+    *("fetchcontent_declare", "include"),
 )
+"""Commands after which there may be more files than git has."""
+_MAKERS_OF_SOURCES = (
+    *_MAKERS,
+    *("add_custom_command", "add_custom_target", "generate_parameter_library"),
+)
+_MAKERS_OF_DIRECTORIES = (*_MAKERS, "fetchcontent_makeavailable")
+_KEYWORDS = frozenset(
+    {"PACKAGE_DIR", "VERSION", "SETUP_CFG", "DESTINATION", "SCRIPTS_DESTINATION", "SKIP_COMPILE"}
+)
+"""Those of ament_python_install_package."""
 _LISTS = "project(talker)\nadd_executable(talker {})\n"
 _LISTS_SUBDIRECTORIES = "project(talker)\nadd_subdirectory({})\n"
 _TESTING = ("ament_add_pytest_test", "add_launch_test", "add_ros_test")
@@ -247,8 +250,7 @@ class NamedFileMissing(Rule):
             return self._directory_problem(package, path)
         if package.has(path):
             return None
-        closest = closest_name(package, path, package.files, 0.8)
-        hint = f"; closest: {closest}" if closest else ""
+        hint = _closest(package, path, package.files, 0.8)
         return f"installs {path}, which does not exist: the build stops{hint}"
 
     def _directory_problem(self, package: Package, path: str) -> str | None:
@@ -264,7 +266,7 @@ class NamedFileMissing(Rule):
 
     def _check_sources(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        if cmake.find(*_MAKERS):
+        if cmake.find(*_MAKERS_OF_SOURCES):
             return
         for command in cmake.find("add_executable", "add_library"):
             if command.blocks:
@@ -276,22 +278,12 @@ class NamedFileMissing(Rule):
                 path = cmake.path_of(value)
                 if package.has(path) or path.startswith(("/", "..")) or is_untracked(package, path):
                     continue
-                closest = closest_name(package, path, package.files, 0.8)
-                hint = f"; closest: {closest}" if closest else ""
-                message = f"there is no file {path}: CMake stops{hint}"
-                yield self.report(argument, message)
+                hint = _closest(package, path, package.files, 0.8)
+                yield self.report(argument, f"there is no file {path}: CMake stops{hint}")
 
     def _check_subdirectories(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
-        made = cmake.find(
-            "configure_file",
-            "file",
-            "execute_process",
-            "externalproject_add",
-            "fetchcontent_declare",
-            "fetchcontent_makeavailable",
-            "include",
-        )
+        made = cmake.find(*_MAKERS_OF_DIRECTORIES)
         for command in cmake.find("add_subdirectory"):
             if made or command.blocks or not command.arguments:
                 continue
@@ -322,8 +314,7 @@ class NamedFileMissing(Rule):
             path = cmake.path_of(value)
             if package.has(path) or package.has_directory(path):
                 continue
-            closest = closest_name(package, path, package.python_files, 0.7)
-            hint = f"; closest: {closest}" if closest else ""
+            hint = _closest(package, path, package.python_files, 0.7)
             yield self.report(argument, f"there is no test file {path}{hint}")
 
     def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
@@ -347,16 +338,7 @@ class NamedFileMissing(Rule):
     def _check_package(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         for command in cmake.find("ament_python_install_package"):
-            sections = command.sections(
-                {
-                    "PACKAGE_DIR",
-                    "VERSION",
-                    "SETUP_CFG",
-                    "DESTINATION",
-                    "SCRIPTS_DESTINATION",
-                    "SKIP_COMPILE",
-                }
-            )
+            sections = command.sections(_KEYWORDS)
             chosen = sections.get("PACKAGE_DIR") or sections[""]
             directory = cmake.expand(chosen[0], command) if chosen else None
             if not chosen or directory is None or directory.startswith(("/", "..")):
@@ -371,3 +353,8 @@ class NamedFileMissing(Rule):
                 fix = Fix(f"create {init}", (CreateFile(init, ""),))
                 message = f"missing, but CMakeLists.txt, line {line} installs {path}/: CMake stops"
                 yield self.report(package.start_of(init), message, fix)
+
+
+def _closest(package: Package, path: str, files: Collection[str], cutoff: float) -> str:
+    closest = closest_name(package, path, files, cutoff)
+    return f"; closest: {closest}" if closest else ""
