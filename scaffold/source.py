@@ -128,6 +128,10 @@ class EncodingError(ParseError):
     """A file is not text of its encoding; not everybody who reads it minds."""
 
 
+class UnreadEndError(ParseError):
+    """What is wrong is outside of the element that those who read the file look for."""
+
+
 class TooLargeError(ParseError):
     """A file that is too large to be read; reported once, as SC004."""
 

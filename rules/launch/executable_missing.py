@@ -97,7 +97,8 @@ class ExecutableMissing(Rule):
             closest = get_close_matches(name, programs.sources, 1, 0.7)
             hint = f"; closest: {closest[0]!r}" if closest else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
-            yield self.report(use.executable_location, message)
+            cause = "" if programs.sources else f"programs of {use.name}"
+            yield self.report(use.executable_location, message, cause=cause)
 
     def _is_script(self, package: Package, name: str) -> bool:
         """Tell whether the package has such a script: another rule reports that it is missing."""

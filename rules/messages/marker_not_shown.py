@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
 from scaffold.api.messages import MessageTypes
-from scaffold.api.python import is_known
+from scaffold.api.python import PythonModule, is_known
 
 _MARKER = "visualization_msgs/msg/Marker"
 _ADDING = frozenset({"Marker.ADD", "Marker.MODIFY", "0"})
@@ -110,6 +110,33 @@ class MarkerNotShown(MessageRule):
                 "        marker = shown(place)\n"
                 "        marker.color.a = 1.0\n"
                 "        array.markers.append(marker)\n"
+            },
+        ),
+        Example(
+            "completed by loops over the list that keeps them, or by its users",
+            {
+                "item.py": "from visualization_msgs.msg import Marker\n\n\n"
+                "class Item:\n"
+                "    def __init__(self, count):\n"
+                "        self.parts = []\n"
+                "        for _ in range(count):\n"
+                "            marker = Marker()\n"
+                "            marker.action = Marker.ADD\n"
+                "            self.parts.append(marker)\n\n"
+                "    def paint(self):\n"
+                "        for number, marker in enumerate(self.parts):\n"
+                "            marker.id = number\n"
+                "            marker.color.a = 1.0\n",
+                "shape.py": "from visualization_msgs.msg import Marker\n\n\n"
+                "class Shape:\n"
+                "    def __init__(self, count):\n"
+                "        self.parts = []\n"
+                "        for _ in range(count):\n"
+                "            marker = Marker()\n"
+                "            marker.action = Marker.ADD\n"
+                "            self.parts.append(marker)\n\n"
+                "    def get(self):\n"
+                "        return self.parts\n",
             },
         ),
         Example(
@@ -229,11 +256,54 @@ def _uses(types: MessageTypes, name: ast.Name) -> Sequence[ast.Attribute] | None
 def _is_sending(types: MessageTypes, node: ast.AST | None, use: ast.expr) -> bool:
     """Tell whether a marker is appended, published, or returned to what does that."""
     match node:
-        case ast.Call(func=ast.Attribute(attr="append" | "publish"), args=[only]):
+        case ast.Call(func=ast.Attribute(attr="append", value=kept), args=[only]):
+            return only is use and not _may_be_completed(types, kept)
+        case ast.Call(func=ast.Attribute(attr="publish"), args=[only]):
             return only is use
         case ast.Return():
             return bool(_calls_appended(types, node))
     return isinstance(node, ast.List)
+
+
+def _may_be_completed(types: MessageTypes, kept: ast.expr) -> bool:
+    """Tell whether code of the file takes markers out of a list again, and changes them there."""
+    module = types.module
+    name = module.text(kept)
+    for use in module.walk(type(kept)):
+        if not isinstance(use, ast.expr) or use is kept or module.text(use) != name:
+            continue
+        above = module.parent(use)
+        match above:
+            case ast.Return() if isinstance(kept, ast.Attribute):
+                return True  # the list of an object, which goes on to others
+            case ast.Subscript(value=value) if value is use:
+                if isinstance(module.parent(above), ast.Attribute):
+                    return True
+        if any(_changes(loop) for loop in _loops_over(module, use)):
+            return True
+    return False
+
+
+def _loops_over(module: PythonModule, items: ast.expr) -> Iterator[ast.For]:
+    """Yield the loop over a list, or over what ``enumerate`` or ``zip`` makes of it."""
+    above = module.parent(items)
+    if isinstance(above, ast.Call) and items in above.args:
+        items, above = above, module.parent(above)
+    if isinstance(above, ast.For) and above.iter is items:
+        yield above
+
+
+def _changes(loop: ast.For) -> bool:
+    """Tell whether a loop sets fields of what it is over."""
+    names = {node.id for node in ast.walk(loop.target) if isinstance(node, ast.Name)}
+    for node in ast.walk(loop):
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            start: ast.expr = node
+            while isinstance(start, ast.Attribute):
+                start = start.value
+            if isinstance(start, ast.Name) and start.id in names:
+                return True
+    return False
 
 
 def _calls_appended(types: MessageTypes, node: ast.AST) -> Sequence[ast.Call]:

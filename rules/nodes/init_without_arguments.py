@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import RclpyFile
 
 _PARSERS = frozenset({"argparse", "click", "docopt", "optparse", "typer"})
@@ -26,7 +27,10 @@ class InitWithoutArguments(RclpyRule):
 
     code = "ND006"
     name = "init-without-arguments"
-    other_severities = {Severity.WARNING: "the program reads its command line itself"}
+    other_severities = {
+        Severity.WARNING: "the program reads its command line itself, or its caller decides: "
+        "the function has other required arguments"
+    }
     examples = (
         Example("the command line", {"talker.py": _MAIN.format("args=args")}),
         Example(
@@ -52,6 +56,15 @@ class InitWithoutArguments(RclpyRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "an empty list, for a process that gets all it needs from another",
+            {"talker.py": _MAIN.format("args=[]").replace("args=None", "configuration, queue")},
+            Report(
+                "5:21",
+                "an empty list replaces the command line: --ros-args have no effect",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -71,5 +84,14 @@ class InitWithoutArguments(RclpyRule):
             is_meant = any(
                 item.module.partition(".")[0] in _PARSERS for item in file.module.imports
             )
-            severity = Severity.WARNING if is_meant else Severity.ERROR
+            is_given = call.function is not None and _is_given_more(call.function)
+            severity = Severity.WARNING if is_meant or is_given else Severity.ERROR
             yield self.report(file.module.location(given[0]), message, fix, severity=severity)
+
+
+def _is_given_more(function: FunctionNode) -> bool:
+    """Tell whether a function needs more than the command line, so that no program starts in it."""
+    arguments = function.args
+    names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
+    required = names[: len(names) - len(arguments.defaults)]
+    return not {*required} <= {"self", "cls", "args", "argv"}

@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, ViewError
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
+from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import uses_ament
 from scaffold.api.manifest import ConditionError, holds
 
@@ -26,6 +38,7 @@ _MANIFEST_TOOL = (
     "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n</package>\n"
 )
 _DEPEND = "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
+_RCLCPP = "  <depend>rclcpp</depend>\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n"
 
 
@@ -49,6 +62,7 @@ class BuildTypeWrong(Rule):
     code = "PX011"
     name = "build-type-wrong"
     effect = Effect.STOPS_BUILD
+    other_severities = {Severity.WARNING: "a dependency brings the ament_cmake that is undeclared"}
     examples = (
         Example(
             "a misspelled one",
@@ -179,6 +193,17 @@ class BuildTypeWrong(Rule):
             ),
             fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND)},
         ),
+        Example(
+            "ament_cmake undeclared, which rclcpp brings along",
+            {"package.xml": _MANIFEST_TOOL.format(_RCLCPP), "CMakeLists.txt": _LISTS},
+            Report(
+                "package.xml:1:2",
+                "nothing declares ament_cmake, which CMakeLists.txt finds",
+                severity=Severity.WARNING,
+                fix="declare it",
+            ),
+            fixed={"package.xml": _MANIFEST_TOOL.format(_DEPEND + _RCLCPP)},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -290,7 +315,10 @@ class BuildTypeWrong(Rule):
         fix = Fix("declare it", (manifest.insert("buildtool_depend", "ament_cmake"),))
         message = "nothing declares ament_cmake, which CMakeLists.txt finds"
         at = manifest.root.name_location
-        yield self.report(at, message, fix, cause="dependency ament_cmake")
+        is_brought = "ament_cmake" in transitive_dependencies(manifest.build_names)
+        severity = Severity.WARNING if is_brought else Severity.ERROR
+        cause = "dependency ament_cmake"
+        yield self.report(at, message, fix, severity=severity, cause=cause)
 
 
 def _ament_type(package: Package) -> str:

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError, fact
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    fact,
+)
 from scaffold.api.install import moved_to
 from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
@@ -46,6 +57,9 @@ class EntryPointUnusable(Rule):
 
     code = "SP001"
     name = "entry-point-unusable"
+    other_severities = {
+        Severity.WARNING: "no function is named, but the module runs its node when it is imported"
+    }
     examples = (
         Example(
             "one script", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}
@@ -67,6 +81,21 @@ class EntryPointUnusable(Rule):
                 "5:9",
                 "console script 'talker = talker.node': no function is named: name "
                 "= module:function",
+            ),
+        ),
+        Example(
+            "no function, of a module that runs when it is imported",
+            {
+                "setup.py": _SETUP.format("        'talker = talker.node',\n"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import rclpy\n\nrclpy.init()\n"
+                "rclpy.spin(rclpy.create_node('talker'))\n",
+            },
+            Report(
+                "setup.py:5:9",
+                "console script 'talker = talker.node': no function is named: name "
+                "= module:function",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -182,7 +211,10 @@ class EntryPointUnusable(Rule):
                 message = "missing comma after this console script: it is joined to the next"
                 yield self.report(at, message)
             elif entry.malformed:
-                yield self.report(entry, f"console script {entry.text!r}: {entry.malformed}")
+                message = f"console script {entry.text!r}: {entry.malformed}"
+                is_running = not entry.function and _runs_when_imported(package, entry.module)
+                severity = Severity.WARNING if is_running else Severity.ERROR
+                yield self.report(entry, message, severity=severity)
 
     def _check_names(self, package: Package) -> Iterator[Diagnostic]:
         seen: dict[str, EntryPoint] = {}
@@ -312,3 +344,20 @@ def _closest_module(package: Package, name: str) -> str:
             if item and _file_of(package, item):
                 return item
     return ""
+
+
+def _runs_when_imported(package: Package, name: str) -> bool:
+    """Tell whether a module spins, or calls one of its functions, at its top level."""
+    path = f"{name.replace('.', '/')}.py"
+    if not name or not package.has(path):
+        return False
+    module = package.module(path)
+    for statement in module.tree.body:
+        match statement:
+            case ast.Expr(value=ast.Call(func=ast.Name(id=function))):
+                if function in module.functions:
+                    return True
+            case ast.Expr(value=ast.Call(func=called)):
+                if (module.qualified_name(called) or "").startswith("rclpy.spin"):
+                    return True
+    return False

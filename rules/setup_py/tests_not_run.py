@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.distributions import target
 from scaffold.api.setup_py import IniFile, IniOption, SetupPy, setup_edit
 
@@ -43,6 +43,7 @@ class TestsNotRun(Rule):
 
     code = "SP012"
     name = "tests-not-run"
+    effect = Effect.DECLARED_WRONG
     is_fixed_for_all = True
     is_deprecation = True
     other_severities = {

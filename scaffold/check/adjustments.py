@@ -130,7 +130,7 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
         return False
     return any(
         only_while_stopping(module, name) or is_unevaluated(module, name)
-        for name in module.walk(ast.Name)
+        for name in (*module.walk(ast.Name), *module.walk(ast.Constant))
         if (name.lineno, name.col_offset + 1) == (at.line, at.column)
     )
 

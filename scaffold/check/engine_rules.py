@@ -36,7 +36,8 @@ class UnparsableFile(_Internal):
     effect = Effect.STOPS_BUILD
     other_severities: ClassVar[dict[Severity, str]] = {
         Severity.WARNING: "the file is not UTF-8, which CMake and compilers do not mind: "
-        "only this tool cannot check it"
+        "only this tool cannot check it; or it is wrong outside of the <robot> element of a URDF "
+        "file, where robot_state_publisher does not look"
     }
 
 

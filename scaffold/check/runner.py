@@ -18,7 +18,14 @@ from scaffold.files.tree import MANIFEST
 from scaffold.model.facts import Fact
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
-from scaffold.source import EncodingError, Location, ParseError, TooLargeError, ViewError
+from scaffold.source import (
+    EncodingError,
+    Location,
+    ParseError,
+    TooLargeError,
+    UnreadEndError,
+    ViewError,
+)
 
 if TYPE_CHECKING:
     from scaffold.check.cache.facts import Settled
@@ -206,5 +213,6 @@ def _diagnostic(error: ParseError) -> Diagnostic:
     if isinstance(error, TooLargeError):
         return FileTooLarge().report(error.location, error.message)
     is_read = isinstance(error, EncodingError) and error.location.path.endswith(_OF_ANY_ENCODING)
+    is_read = is_read or isinstance(error, UnreadEndError)
     severity = Severity.WARNING if is_read else None
     return UnparsableFile().report(error.location, error.message, severity=severity)

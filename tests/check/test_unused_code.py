@@ -172,10 +172,12 @@ def test_an_annotation_that_is_not_evaluated(
     write(package / "talker" / "local.py", function.format("str", "Undefined"))
     write(package / "talker" / "later.py", later + function.format("Undefined", "str"))
     write(package / "talker" / "now.py", function.format("Undefined", "str"))
+    write(package / "talker" / "text.py", function.format("list['Undefined']", "str"))
     assert severities(capsys, "F821") == {
         "talker/local.py": "warning",
         "talker/later.py": "warning",
         "talker/now.py": "error",
+        "talker/text.py": "warning",
     }
 
 

@@ -127,10 +127,13 @@ def _expected_in(parent: ast.AST, child: ast.AST) -> set[str]:
 def is_unevaluated(module: PythonModule, node: ast.AST) -> bool:
     """Tell whether a name is in an annotation that Python does not evaluate, or for type checkers.
 
-    It never evaluates those of variables in functions.
+    It never evaluates those of variables in functions, and those that are text.
     """
     child = node
+    is_text = isinstance(node, ast.Constant)
     for parent in module.parents(node):
+        if is_text and _is_annotation(child, parent):
+            return True
         is_local = isinstance(parent, ast.AnnAssign) and parent.annotation is child
         if is_local and module.enclosing_function(parent) is not None:
             return True
@@ -145,16 +148,19 @@ def _is_never_evaluated(module: PythonModule, node: ast.AST, parent: ast.AST) ->
     match parent:
         case ast.If(test=ast.Name() | ast.Attribute() as test, body=body):
             return node in body and module.text(test).rpartition(".")[2] == "TYPE_CHECKING"
-        case ast.arg(annotation=written) | ast.AnnAssign(annotation=written):
-            is_annotation = written is node
-        case ast.FunctionDef(returns=written) | ast.AsyncFunctionDef(returns=written):
-            is_annotation = written is node
-        case _:
-            return False
-    return is_annotation and any(
+    return _is_annotation(node, parent) and any(
         item.module == "__future__" and any(name.name == "annotations" for name in item.names)
         for item in module.imports
     )
+
+
+def _is_annotation(node: ast.AST, parent: ast.AST) -> bool:
+    match parent:
+        case ast.arg(annotation=written) | ast.AnnAssign(annotation=written):
+            return written is node
+        case ast.FunctionDef(returns=written) | ast.AsyncFunctionDef(returns=written):
+            return written is node
+    return False
 
 
 def is_guarded_by(module: PythonModule, node: ast.AST, value: ast.expr) -> bool:

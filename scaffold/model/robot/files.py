@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from scaffold.formats import xml_reader
 from scaffold.model.install.share import share_of
+from scaffold.model.launch.files import launch_files
 from scaffold.record import NamedTuple
-from scaffold.source import ParseError
+from scaffold.source import ParseError, Source, UnreadEndError
 
 if TYPE_CHECKING:
     from scaffold.formats.xml import Element
@@ -80,9 +81,31 @@ def robot_file(package: Package, path: str) -> RobotFile | None:
                     "; xacro and urdfdom refuse the file: write "
                     'xmlns:xacro="http://www.ros.org/wiki/xacro" in its root element'
                 )
-            raise ParseError(error.location, message) from None
+            is_read = path.endswith(".urdf") and _is_read_by_urdfdom(package, path, error)
+            raise (UnreadEndError if is_read else ParseError)(error.location, message) from None
 
     return package.remember(("robot_file", path), read)
+
+
+def _is_read_by_urdfdom(package: Package, path: str, error: ParseError) -> bool:
+    """Tell whether a mistake is outside of the elements at the top, and nothing runs xacro on it.
+
+    urdfdom takes the first ``<robot>`` at the top (tinyxml2), whatever else is there; a needless
+    end tag ends the document for it. xacro refuses both.
+    """
+    source = xml_reader.decode(path, package.data(path))
+    at = source.offset(error.location.line, error.location.column)
+    before, after = source.text[:at], source.text[at:]
+    parts = [before] if after.startswith("</") else [before, f"<robots>{after}</robots>"]
+    try:
+        for part in parts:
+            xml_reader.parse(Source(path, part), has_namespaces=False)
+    except ParseError:
+        return False
+    name = posixpath.basename(path).encode()
+    return "<robot" in source.text and not any(
+        name in data and b"xacro" in data for data in map(package.data, launch_files(package))
+    )
 
 
 def source_of(package: Package, path: str) -> str:

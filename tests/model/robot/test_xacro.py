@@ -9,7 +9,7 @@ from scaffold.model.package import Package
 from scaffold.model.robot.expressions import evaluate, literal, truth
 from scaffold.model.robot.files import robot_file
 from scaffold.model.robot.robots import robots
-from scaffold.source import ParseError
+from scaffold.source import ParseError, UnreadEndError
 
 HEAD = '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 
@@ -132,3 +132,20 @@ def test_an_element_of_other_readers_needs_no_namespace_in_urdf() -> None:
     assert robot_file(files, "a.urdf") is not None
     with pytest.raises(ParseError, match='"drake:" is not declared'):
         robot_file(files, "a.xacro")
+
+
+@pytest.mark.parametrize(
+    ("text", "launch", "is_read"),
+    [
+        ('<robot name="a"><link name="a"/></robot>\n</robot>', "", True),
+        ('<property name="p"/>\n<robot name="a"><link name="a"/></robot>', "", True),
+        ('<robot name="a"><link name="a"/></robot>\n</robot>', "Command(['xacro a.urdf'])", False),
+        ('<robot name="a"><link name="a"></robot>', "", False),
+        ('<robot name="a"/><link><robot>', "", False),
+    ],
+)
+def test_urdfdom_does_not_look_outside_of_the_robot(text: str, launch: str, is_read: bool) -> None:
+    files = Package.of({"a.urdf": text, "launch/a.launch.py": launch})
+    with pytest.raises(ParseError) as raised:
+        robot_file(files, "a.urdf")
+    assert isinstance(raised.value, UnreadEndError) is is_read
