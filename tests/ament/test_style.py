@@ -456,6 +456,7 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     [
         (".cmake-format.py", 'with section("format"):\n    pass\n'),
         ("doc/conf.py", "tags.add('web')\n"),
+        ("stubs/dns/data.py", "class Data:\n    def plain(self) -> Plain:\n        ...\n"),
     ],
 )
 def test_a_name_in_a_file_that_another_program_runs_is_a_warning(path: str, text: str) -> None:

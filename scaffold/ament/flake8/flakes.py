@@ -62,6 +62,7 @@ CODES: Mapping[str, str] = {
     "RaiseNotImplemented": "F901",
 }
 """The codes that flake8 has for the messages of pyflakes; ``indirect_names`` judges F824."""
+_STUBS = frozenset({"stubs", "typings"})
 _GIVEN = {"conf.py": frozenset({"tags"})}
 """What Sphinx gives its configuration."""
 
@@ -147,7 +148,7 @@ def _is_made_when_run(text: PythonText, code: str, arguments: Sequence[object]) 
     if code == "F821":
         # A configuration such as .cmake-format.py is run by its program, with names from there.
         is_given = not _GIVEN.get(text.name, frozenset()).isdisjoint(arguments)
-        return text.name.startswith(".") or is_given or _executes_text(text)
+        return text.name.startswith(".") or is_given or _executes_text(text) or _is_stub(text)
     return code == "F822" and _has_getattr(text)
 
 
@@ -156,6 +157,22 @@ def _executes_text(text: PythonText) -> bool:
     return "exec" in text.text and any(
         isinstance(node.func, ast.Name) and node.func.id == "exec" and len(node.args) == 1
         for node in text.nodes(ast.Call)
+    )
+
+
+def _is_stub(text: PythonText) -> bool:
+    """Tell whether a file is for type checkers alone: in ``stubs``, and its functions say ``...``.
+
+    What ``mypy_path`` or pyright name is seldom imported, although it is not always ``.pyi``.
+    """
+    if _STUBS.isdisjoint(text.path.split("/")) or not text.functions:
+        return False
+    last = (function.body[-1] for function in text.functions)
+    return all(
+        isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and node.value.value is Ellipsis
+        for node in last
     )
 
 
