@@ -1,4 +1,4 @@
-"""UR001: the files that URDF and xacro files name exist after installation."""
+"""UR001: the files and packages that URDF and xacro files name exist after installation."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
 from scaffold.api.install import share_of
-from scaffold.api.launch import NamedPath, missing_in, why_missing
+from scaffold.api.launch import NamedPath, Reference, exists, meant_package, missing_in, why_missing
+from scaffold.api.manifest import declared, declaring
 from scaffold.api.robot import NamedFile, named_files, robot_paths
 from scaffold.api.workspace import is_untracked
 
@@ -35,25 +36,37 @@ _FILES = {
     "urdf/wheel.xacro": "<robot/>\n",
     "urdf/base.stl": "",
 }
+_MANIFEST_PACKAGES = (
+    '<package format="3">\n  <name>rover</name>\n'
+    "  <exec_depend>turret_description</exec_depend>\n</package>\n"
+)
+_ROBOT_PACKAGES = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:include filename="$(find {})/urdf/wheel.xacro"/>\n  <link name="base_link"/>\n'
+    "</robot>\n"
+)
 
 
 class FileNotThere(Rule):
-    """A URDF or xacro file names a file that is not there after installation.
+    """A URDF or xacro file names a file or a package that is not there after installation.
 
-    **Why.** xacro stops at an include with ``No such file or directory``, so the robot has no
-    description; for a mesh, RViz shows ``Could not load resource`` and Gazebo nothing.
+    **Why.** xacro stops at an include with ``No such file or directory`` or ``package 'robopy' not
+    found``, so the robot has no description; for a mesh, RViz shows ``Could not load resource`` and
+    Gazebo nothing.
 
-    **Fix.** Write the path that the build file installs, or install the file.
+    **Fix.** Write the path that the build file installs, or install the file; write the name that
+    is in package.xml, and declare the package.
 
-    **Source.** xacro, ``process_include``; resource_retriever resolves ``package://``.
+    **Source.** xacro, ``process_include`` and ``substitution_args.py``; resource_retriever resolves
+    ``package://``.
     """
 
     code = "UR001"
     name = "file-not-there"
     other_severities = {
         Severity.WARNING: "a mesh is missing next to others, and may be kept elsewhere; the "
-        "file is not installed, and may be copied to where it is used; or a "
-        "condition in xacro decides"
+        "file is not installed, and may be copied to where it is used; a condition in xacro "
+        "decides; or the package exists, but is not declared"
     }
     examples = (
         Example(
@@ -195,9 +208,52 @@ class FileNotThere(Rule):
                 "urdf/parts/laser.xacro does not exist: xacro stops with 'No such file'",
             ),
         ),
+        Example(
+            "a package that is declared; one that is not known",
+            {
+                "package.xml": _MANIFEST_PACKAGES,
+                "a.xacro": _ROBOT_PACKAGES.format("turret_description"),
+                "b.xacro": _ROBOT_PACKAGES.format("my_arm"),
+            },
+        ),
+        Example(
+            "a package that is not declared",
+            {
+                "package.xml": _MANIFEST_PACKAGES,
+                "a.xacro": _ROBOT_PACKAGES.format("realsense2_description"),
+            },
+            Report(
+                "a.xacro:2:28",
+                "needs 'realsense2_description', which no dependency in package.xml "
+                "provides; add <exec_depend>realsense2_description</exec_depend>",
+                fix="declare realsense2_description",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": _MANIFEST_PACKAGES.replace(
+                    "  <exec", "  <exec_depend>realsense2_description</exec_depend>\n  <exec", 1
+                )
+            },
+        ),
+        Example(
+            "a package with nearly the name of one that is declared",
+            {
+                "package.xml": _MANIFEST_PACKAGES,
+                "a.xacro": _ROBOT_PACKAGES.format("turet_description"),
+            },
+            Report(
+                "a.xacro:2:28",
+                "unknown package 'turet_description'; did you mean "
+                "'turret_description' (which package.xml declares)?",
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_files(package)
+        yield from self._check_packages(package)
+
+    def _check_files(self, package: Package) -> Iterator[Diagnostic]:
         for named in named_files(package):
             if named.package:
                 path = NamedPath(named.package, named.path, named.location)
@@ -216,6 +272,34 @@ class FileNotThere(Rule):
                 message = f"{named.path} does not exist: xacro stops with 'No such file'{hint}"
                 severity = _severity(package, named)
                 yield self.report(named, message, severity=severity, cause=f"missing {name}")
+
+    def _check_packages(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        there = declared(package, for_tests=False)
+        seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
+        for named in named_files(package):
+            if not named.package or not package.has("package.xml"):
+                continue
+            use = Reference(named.package, named.location, None, named.location)
+            meant = meant_package(package, use)
+            if meant is not None:
+                message = (
+                    f"unknown package {named.package!r}; did you mean {meant.name!r} "
+                    f"({meant.reason})?"
+                )
+                yield self.report(named, message)
+            elif named.package not in seen and exists(package, named.package):
+                seen.add(named.package)
+                tag = "exec_depend" if manifest.format > 1 else "run_depend"
+                needed = declaring(package, tag, named.package)
+                yield self.report(
+                    named,
+                    f"needs {named.package!r}, which no dependency in package.xml provides; "
+                    f"{needed.advice}",
+                    needed.fix,
+                    severity=Severity.WARNING,
+                    cause=f"dependency {named.package}",
+                )
 
 
 def _severity(package: Package, named: NamedFile) -> Severity:

@@ -1,11 +1,12 @@
-"""UR022: the links of a robot are a tree with one root."""
+"""UR022: the links of a robot, each with its own name, are a tree with one root."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
-from scaffold.api.robot import Expansion, Part, is_known, robots
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
 
 _ROBOT = (
     '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
@@ -21,17 +22,46 @@ _LOOP = (
     '  <joint name="ba" type="fixed">\n    <parent link="b"/>\n    <child link="a"/>\n  </joint>\n'
     "</robot>\n"
 )
+_ROBOT_NAMES = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <link name="{}"/>\n'
+    '  <joint name="axis" type="continuous">\n    <parent link="base_link"/>\n'
+    '    <child link="wheel"/>\n  </joint>\n'
+    '  <joint name="{}" type="continuous">\n    <parent link="base_link"/>\n'
+    '    <child link="{}"/>\n  </joint>\n</robot>\n'
+)
+_MACRO = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <link name="base_link"/>\n'
+    '  <xacro:macro name="wheel" params="name">\n    <link name="{}"/>\n'
+    '    <joint name="${{name}}_joint" type="continuous">\n      <parent link="base_link"/>\n'
+    '      <child link="{}"/>\n    </joint>\n  </xacro:macro>\n'
+    '  <xacro:wheel name="left"/>\n  <xacro:wheel name="right"/>\n</robot>\n'
+)
+_ROBOT_LINKS = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="continuous">\n    <parent link="{}"/>\n    <child link="{}"/>\n'
+    "  </joint>\n</robot>\n"
+)
+_MIMIC = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="continuous">\n    <parent link="base_link"/>\n'
+    '    <child link="wheel"/>\n    <mimic joint="{}"/>\n  </joint>\n</robot>\n'
+)
 
 
 class TreeBroken(Rule):
-    """The links of a robot do not hang together as a tree: two roots, two parents, or a loop.
+    """The links do not hang together as a tree, have the same name, or are not there.
 
-    **Why.** ``Two root links found: [base_link] and [camera]``: the parser of URDF refuses the
-    whole file, and robot_state_publisher ends.
+    **Why.** ``Two root links found: [base_link] and [camera]``, ``link 'wheel' is not unique``,
+    ``parent link [base] of joint [axis] not found``: the parser of URDF refuses the whole file, and
+    robot_state_publisher ends. Gazebo leaves out the sensors, plugins and friction of what is not
+    there, without a word.
 
-    **Fix.** Connect each link but the first to its parent, by one joint.
+    **Fix.** Connect each link but the first to its parent, by one joint; give each a name of its
+    own, in a macro one made of a parameter: ``${name}_link``.
 
-    **Source.** urdfdom, ``ModelInterface::initRoot``.
+    **Source.** urdfdom, ``ModelInterface::initTree`` and ``initRoot``, ``model.cpp``.
     """
 
     code = "UR022"
@@ -53,6 +83,11 @@ class TreeBroken(Rule):
         Example(
             "a link without a joint",
             {"robot.urdf": _ROBOT.format("wheel", "wheel2")},
+            Report(
+                "11:18",
+                "child 'wheel2' of joint 'mount' is not a link of this robot: "
+                "robot_state_publisher ends; closest: 'wheel'",
+            ),
         ),
         Example(
             "a loop",
@@ -63,20 +98,109 @@ class TreeBroken(Rule):
                 "leads to these links",
             ),
         ),
+        Example(
+            "a macro with a name for its link", {"robot.xacro": _MACRO.format("${name}", "${name}")}
+        ),
+        Example(
+            "a link twice",
+            {"robot.urdf": _ROBOT_NAMES.format("wheel", "shoulder", "arm")},
+            Report(
+                "4:15",
+                "a link 'wheel' is already defined in robot.urdf:3: urdfdom refuses the whole file",
+            ),
+            Report(
+                "11:18",
+                "child 'arm' of joint 'shoulder' is not a link of this robot: "
+                "robot_state_publisher ends",
+            ),
+        ),
+        Example(
+            "a joint twice",
+            {"robot.urdf": _ROBOT_NAMES.format("arm", "axis", "arm")},
+            Report(
+                "9:16",
+                "a joint 'axis' is already defined in robot.urdf:5: urdfdom refuses the whole file",
+            ),
+        ),
+        Example(
+            "a macro without a name for its link",
+            {"robot.xacro": _MACRO.format("wheel", "wheel")},
+            Report(
+                "4:17",
+                "a link 'wheel' is already defined in an earlier call of the macro: "
+                "urdfdom refuses the whole file",
+            ),
+            Report(
+                "5:6",
+                "link 'wheel' is the child of 'left_joint' and of 'right_joint': a "
+                "link has one parent",
+            ),
+        ),
+        Example("both links there", {"robot.urdf": _ROBOT_LINKS.format("base_link", "wheel")}),
+        Example(
+            "a gripper, which hangs on the arm of a file that includes it",
+            {
+                "gripper.xacro": '<robot name="gripper">\n  <link name="finger"/>\n'
+                '  <joint name="grip" type="fixed">\n    <parent link="wrist"/>\n'
+                '    <child link="finger"/>\n  </joint>\n</robot>\n'
+            },
+        ),
+        Example(
+            "a link that is not there",
+            {"robot.urdf": _ROBOT_LINKS.format("base", "wheel")},
+            Report(
+                "5:19",
+                "parent 'base' of joint 'axis' is not a link of this robot: "
+                "robot_state_publisher ends; closest: 'base_link'",
+            ),
+        ),
+        Example(
+            "a link with a name like no other",
+            {"robot.urdf": _ROBOT_LINKS.format("base_link", "camera")},
+            Report(
+                "6:18",
+                "child 'camera' of joint 'axis' is not a link of this robot: "
+                "robot_state_publisher ends",
+            ),
+        ),
+        Example(
+            "a gazebo element of an unknown link",
+            {
+                "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
+                    "</robot>",
+                    '  <gazebo reference="wheel"/>\n  <gazebo reference="axis"/>\n'
+                    '  <gazebo reference="wheels"/>\n  <gazebo/>\n</robot>',
+                )
+            },
+            Report(
+                "10:22",
+                "gazebo is about 'wheels', which is no link or joint of this robot: "
+                "Gazebo ignores it; closest: 'wheel'",
+            ),
+        ),
+        Example(
+            "a joint to mimic",
+            {"robot.urdf": _MIMIC.format("axle")},
+            Report("7:19", "'axis' mimics 'axle', which is not a joint of this robot"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             if robot.file.is_robot and robot.is_complete:
-                yield from self._check(package, robot)
+                yield from self._check_tree(package, robot)
+            if robot.file.is_robot and not robot.problems.undefined:
+                yield from self._check_names(package, robot)
+            if robot.file.is_robot and robot.is_complete and _has_root(robot):
+                yield from self._check_links(package, robot)
 
-    def _check(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
+    def _check_tree(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
         links = {part.get("name") or "": part for part in robot.root.all("link")}
         parents: dict[str, Part] = {}
         for joint in robot.root.all("joint"):
             child, parent = _end(joint, "child"), _end(joint, "parent")
             if child not in links or parent not in links or not is_known(child + parent):
-                return  # another rule reports it, or it is not known
+                return  # `_check_links` reports it, or it is not known
             other = parents.setdefault(child, joint)
             if other is joint or not (other.is_certain and joint.is_certain):
                 continue
@@ -104,6 +228,65 @@ class TreeBroken(Rule):
                 )
                 yield self.report(joint, message)
 
+    def _check_names(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
+        for tag in ("link", "joint"):
+            first: dict[str, Part] = {}
+            for part in robot.root.all(tag):
+                name = part.get("name")
+                if name is None or not part.is_certain:
+                    continue
+                other = first.setdefault(name, part)
+                if other is part or part.file.package is not package:
+                    continue
+                where = f"{other.location.path}:{other.location.line}"
+                if other.element is part.element:
+                    where = "an earlier call of the macro"
+                message = (
+                    f"a {tag} {_shown(name)!r} is already defined in {where}: urdfdom refuses "
+                    "the whole file"
+                )
+                yield self.report(part.at("name"), message)
+
+    def _check_links(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
+        links = [part.get("name") or "" for part in robot.root.all("link")]
+        joints = [part.get("name") or "" for part in robot.root.all("joint")]
+        for joint in robot.root.all("joint"):
+            name = joint.get("name")
+            for tag in ("parent", "child"):
+                end = joint.one(tag)
+                link = end.get("link") if end is not None else None
+                if end is None or link is None or _is_among(link, links) or not links:
+                    continue
+                hint = _hint(package, link, links)
+                message = (
+                    f"{tag} {link!r} of joint {name!r} is not a link of this robot: "
+                    f"robot_state_publisher ends{hint}"
+                )
+                if _is_here(package, end):
+                    yield self.report(end.at("link"), message)
+            yield from self._check_mimic(package, joint, joints)
+        for part in robot.root.all("gazebo"):
+            reference = part.get("reference")
+            if reference and links and not _is_among(reference, [*links, *joints]):
+                hint = _hint(package, reference, links)
+                message = (
+                    f"gazebo is about {reference!r}, which is no link or joint of this robot: "
+                    f"Gazebo ignores it{hint}"
+                )
+                if _is_here(package, part):
+                    yield self.report(part.at("reference"), message)
+
+    def _check_mimic(
+        self, package: Package, joint: Part, joints: Sequence[str]
+    ) -> Iterator[Diagnostic]:
+        mimic = joint.one("mimic")
+        other = mimic.get("joint") if mimic is not None else None
+        if mimic is not None and other and not _is_among(other, joints):
+            name, hint = joint.get("name"), _hint(package, other, joints)
+            message = f"{name!r} mimics {other!r}, which is not a joint of this robot{hint}"
+            if _is_here(package, mimic):
+                yield self.report(mimic.at("joint"), message)
+
 
 def _loops(parents: Mapping[str, Part]) -> Iterator[Part]:
     """Yield a joint of each loop, the last one of the file."""
@@ -125,3 +308,38 @@ def _end(joint: Part, tag: str) -> str:
     """Return the link at an end of a joint."""
     end = joint.one(tag)
     return (end.get("link") if end is not None else None) or ""
+
+
+def _shown(name: str) -> str:
+    return name.replace("\0", "")
+
+
+def _has_root(robot: Expansion) -> bool:
+    """Tell whether a link is no child of a joint; a part that others include hangs on theirs."""
+    links = {part.get("name") for part in robot.root.all("link")}
+    children = [joint.one("child") for joint in robot.root.all("joint")]
+    return not links or bool(links - {child.get("link") for child in children if child})
+
+
+def _is_here(package: Package, part: Part) -> bool:
+    return part.file.package is package
+
+
+def _hint(package: Package, name: str, names: Sequence[str]) -> str:
+    closest = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
+    return f"; closest: {closest!r}" if closest else ""
+
+
+def _is_among(name: str, names: Sequence[str]) -> bool:
+    """Tell whether a name may be among others; parts of each may be unknown."""
+    if name in names:
+        return True
+    if not is_known(name):
+        return True
+    patterns = (item for item in names if not is_known(item))
+    return any(re.fullmatch(_pattern(item), name) for item in patterns)
+
+
+def _pattern(name: str) -> str:
+    parts = name.split(UNKNOWN_MARK)
+    return ".*".join(re.escape(part) for part in parts[::2])

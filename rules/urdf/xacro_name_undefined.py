@@ -1,11 +1,11 @@
-"""UR030: the macros, properties and arguments that a xacro file uses are defined."""
+"""UR030: the macros, parameters, properties and arguments that a xacro file uses are defined."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
-from scaffold.api.robot import Undefined, is_argument_given, is_launched, robots
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api.robot import Misfit, Undefined, is_argument_given, is_launched, robots
 
 _ROBOT = (
     '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
@@ -31,13 +31,26 @@ def _robot(place: int, text: str) -> str:
     return _ROBOT.format(*_GOOD[:place], text, *_GOOD[place + 1 :])
 
 
+_ROBOT_CALLS = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:macro name="wheel" params="name y:=0 *origin">\n    <link name="${{name}}">\n'
+    '      <visual>\n        <xacro:insert_block name="origin"/>\n'
+    '        <geometry><sphere radius="0.1"/></geometry>\n'
+    "      </visual>\n    </link>\n  </xacro:macro>\n"
+    "  <xacro:wheel {}>{}</xacro:wheel>\n</robot>\n"
+)
+_ORIGIN = '<origin xyz="0 0 0"/>'
+
+
 class XacroNameUndefined(Rule):
-    """A xacro file uses a macro, a property, a block or an argument that nothing defines.
+    """A xacro file uses a name that nothing defines, or calls a macro with other parameters.
 
-    **Why.** xacro stops, ``unknown macro name: xacro:weel`` or ``name 'radus' is not defined``,
-    so the robot has no description. A macro without its prefix stays as it is, unread.
+    **Why.** xacro stops, ``unknown macro name: xacro:weel``, ``name 'radus' is not defined``,
+    ``Undefined parameters [y]`` or ``Invalid parameter "z"``, so the robot has no description. A
+    macro without its prefix stays as it is, unread.
 
-    **Fix.** Use a name that the file or one that it includes defines, above its use.
+    **Fix.** Use a name that the file or one that it includes defines, above its use; give each
+    parameter of a macro without a default, and no others.
 
     **Source.** xacro, ``handle_macro_call`` and ``eval_text``.
     """
@@ -120,9 +133,59 @@ class XacroNameUndefined(Rule):
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "", "left", "")},
             Report("12:4", "<wheel> is not expanded without its prefix: write <xacro:wheel>"),
         ),
+        Example(
+            "a call as the macro is defined",
+            {"robot.xacro": _ROBOT_CALLS.format('name="left" y="1"', _ORIGIN)},
+        ),
+        Example(
+            "a call without what has a default",
+            {"robot.xacro": _ROBOT_CALLS.format('name="left"', _ORIGIN)},
+        ),
+        Example(
+            "a default with a quote too many, which xacro reads",
+            {
+                "robot.xacro": _ROBOT_CALLS.format('name="left" y="1"', _ORIGIN).replace(
+                    "y:=0", "y:='''"
+                )
+            },
+        ),
+        Example(
+            "a parameter left out",
+            {"robot.xacro": _ROBOT_CALLS.format('y="1"', _ORIGIN)},
+            Report("10:4", "macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'"),
+        ),
+        Example(
+            "another parameter",
+            {"robot.xacro": _ROBOT_CALLS.format('name="left" z="1"', _ORIGIN)},
+            Report("10:28", "macro 'wheel' has no parameter 'z': xacro stops; it has name, y"),
+        ),
+        Example(
+            "no block",
+            {"robot.xacro": _ROBOT_CALLS.format('name="left"', "")},
+            Report("10:4", "macro 'wheel' needs an element for its block 'origin': xacro stops"),
+        ),
+        Example(
+            "a block too many",
+            {"robot.xacro": _ROBOT_CALLS.format('name="left"', f"{_ORIGIN}<limit/>")},
+            Report(
+                "10:50", "macro 'wheel' has no block for <limit>: xacro stops with 'Unused block'"
+            ),
+        ),
+        Example(
+            "a condition that is no truth",
+            {
+                "robot.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <link name="a"/>\n  <xacro:if value="yes"/>\n</robot>\n'
+            },
+            Report("3:20", "'yes' is no condition: xacro stops; write true, false, 0, 1 or ${...}"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_names(package)
+        yield from self._check_calls(package)
+
+    def _check_names(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             is_used_here = is_launched(package, robot.file.path)
             for undefined in robot.problems.undefined:
@@ -130,6 +193,12 @@ class XacroNameUndefined(Rule):
                 if message:
                     cause = "macros without a prefix" if undefined[0] == "tag" else ""
                     yield self.report(undefined, message, cause=cause)
+
+    def _check_calls(self, package: Package) -> Iterator[Diagnostic]:
+        for robot in robots(package).whole:
+            for misfit in robot.problems.misfits:
+                cause = f"calls of {misfit.macro}" if misfit.kind != "condition" else ""
+                yield self.report(misfit, _message_calls(package, misfit), cause=cause)
 
 
 def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
@@ -148,3 +217,18 @@ def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> s
     if kind == "argument" and not is_given and (closest or is_used_here):
         return f"argument {name!r} has no <xacro:arg>: xacro stops unless it is given{hint}"
     return messages.get(kind, "")
+
+
+def _message_calls(package: Package, misfit: Misfit) -> str:
+    kind, macro, name, _, names = misfit
+    if kind == "missing":
+        return f"macro {macro!r} needs {name!r}: xacro stops with 'Undefined parameters'"
+    if kind == "unknown":
+        closest = closest_name(package, name, names, 0.6)
+        hint = f"closest: {closest!r}" if closest else f"it has {listed_names(names, name)}"
+        return f"macro {macro!r} has no parameter {name!r}: xacro stops; {hint}"
+    if kind == "block missing":
+        return f"macro {macro!r} needs an element for its block {name!r}: xacro stops"
+    if kind == "block unused":
+        return f"macro {macro!r} has no block for <{name}>: xacro stops with 'Unused block'"
+    return f"{name!r} is no condition: xacro stops; write true, false, 0, 1 or ${{...}}"

@@ -1,4 +1,4 @@
-"""UR010: the elements of URDF and xacro have the attributes that their readers demand."""
+"""UR010: the elements of URDF and xacro have what their readers demand."""
 
 from __future__ import annotations
 
@@ -46,21 +46,29 @@ _OF_XACRO: Mapping[str, tuple[str, ...]] = {
     "xacro:attribute": ("name", "value"),
     "xacro:call": ("macro",),
 }
+_ROBOT_JOINTS = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="{}">\n    <parent link="base_link"/>\n{}  </joint>\n</robot>\n'
+)
+_CHILD = '    <child link="wheel"/>\n'
+_LIMIT = '    <limit lower="0" upper="1" effort="1" velocity="1"/>\n'
 
 
-class AttributeLeftOut(Rule):
-    """An element of URDF or xacro lacks an attribute without which nobody reads it.
+class ElementIncomplete(Rule):
+    """An element of URDF or xacro lacks an attribute or a child without which nobody reads it.
 
     **Why.** The parser of URDF refuses the whole file, and xacro stops: robot_state_publisher ends
-    with ``Failed to parse robot description``.
+    with ``Failed to parse robot description``, for a joint with ``Joint [axis] is of type REVOLUTE
+    but it does not specify limits``.
 
-    **Fix.** Write the attribute; ``<xacro:arg>`` needs a default as well.
+    **Fix.** Write the attribute or the element; ``<xacro:arg>`` needs a default as well, and a
+    wheel is ``continuous`` and needs no limits.
 
     **Source.** urdfdom, ``joint.cpp`` and ``link.cpp``; xacro, ``reqd_attrs``.
     """
 
     code = "UR010"
-    name = "attribute-left-out"
+    name = "element-incomplete"
     examples = (
         Example("complete", {"robot.urdf": _ROBOT.format("value")}),
         Example(
@@ -87,7 +95,7 @@ class AttributeLeftOut(Rule):
             },
         ),
         Example(
-            "another name",
+            "another name for an attribute",
             {"robot.urdf": _ROBOT.format("val")},
             Report(
                 "4:8", "<mass> has no 'value': urdfdom refuses the whole file; 'val' is not read"
@@ -103,10 +111,33 @@ class AttributeLeftOut(Rule):
             {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
             Report("1:2", "<robot> has no 'name': urdfdom refuses the whole file"),
         ),
-        Example("with one", {"robot.xacro": _XACRO.format(' default="false"')}),
+        Example(
+            "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
+        ),
+        Example(
+            "a wheel without limits", {"robot.urdf": _ROBOT_JOINTS.format("continuous", _CHILD)}
+        ),
+        Example(
+            "a joint without limits",
+            {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD)},
+            Report(
+                "4:4",
+                "joint 'axis' is revolute and has no <limit>: urdfdom refuses the "
+                "whole file; add effort, velocity, lower and upper",
+            ),
+        ),
+        Example(
+            "a joint without a child",
+            {"robot.urdf": _ROBOT_JOINTS.format("prismatic", _LIMIT)},
+            Report("4:4", "joint 'axis' has no <child>: urdfdom refuses the whole file"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_attributes(package)
+        yield from self._check_joints(package)
+
+    def _check_attributes(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             if robot.file.is_robot and robot.root.get("name") is None:
                 message = "<robot> has no 'name': urdfdom refuses the whole file"
@@ -128,6 +159,27 @@ class AttributeLeftOut(Rule):
                 for name in _missing(element):
                     message = f"<{element.tag}> has no {name!r}: xacro stops here"
                     yield self.report(element.name_location, message)
+
+    def _check_joints(self, package: Package) -> Iterator[Diagnostic]:
+        whole = {expansion.file.path for expansion in robots(package).whole}
+        for part in urdf_parts(package):
+            holder = part.holder
+            if part.tag != "joint" or holder is None or holder.tag != "robot" or not whole:
+                continue
+            if any(child.tag.startswith("xacro:") for child in part.element.children):
+                continue  # a macro or a condition may add it
+            name = part.get("name")
+            for tag in ("parent", "child"):
+                if part.one(tag) is None:
+                    message = f"joint {name!r} has no <{tag}>: urdfdom refuses the whole file"
+                    yield self.report(part, message)
+            type_ = part.get("type")
+            if type_ in {"revolute", "prismatic"} and part.one("limit") is None:
+                message = (
+                    f"joint {name!r} is {type_} and has no <limit>: urdfdom refuses the whole "
+                    "file; add effort, velocity, lower and upper"
+                )
+                yield self.report(part, message)
 
 
 def _is_urdf(part: Part) -> bool:
