@@ -1,0 +1,172 @@
+"""NM001: names of nodes, namespaces, topics, services and actions are accepted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.python import is_guarded_by
+from scaffold.api.rclpy import RclpyFile, namespace_problem, node_problem, topic_problem
+
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher(String, '{}', 10)\n"
+)
+_TOPICS = (
+    "from dataclasses import dataclass\n\nFRONT = 'front-scan'\n\n\n"
+    "@dataclass\nclass Topics:\n    back: str = 'back-scan'\n"
+)
+_OTHER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n"
+    "import topics\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self, names):\n"
+    "        super().__init__('talker')\n{}"
+    "        self.create_publisher(String, topics.FRONT, 10)\n"
+    "        self.names = topics.Topics()\n"
+    "        self.create_publisher(String, self.names.back, 10)\n"
+)
+_SETTING = "        topics.FRONT = 'front'\n        names.back = 'back'\n"
+_NODE_NODES = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__({})\n"
+)
+
+
+class NameInvalid(RclpyRule):
+    """A node, namespace, topic, service or action has a name that ROS 2 does not accept.
+
+    **Why.** ``InvalidTopicNameException``, ``InvalidNodeNameException`` or
+    ``InvalidNamespaceException`` of ``rclpy.exceptions`` at start. A namespace does not belong into
+    the name of the node. Two underscores in a row are for middlewares, though no tool says so.
+
+    **Fix.** Use letters, digits, single ``_`` and, but for nodes, ``/``; no digit at the start or
+    after a ``/``, no ``/`` at the end.
+
+    **Source.** design.ros2.org, "Topic and service name mapping"; ``rcl/validate_topic_name.c``;
+    ``rmw/validate_node_name.c``; ``rmw/validate_namespace.c``.
+    """
+
+    code = "NM001"
+    name = "name-invalid"
+    other_severities = {Severity.WARNING: "it has two underscores in a row, which no tool refuses"}
+    examples = (
+        Example(
+            "names of topics that are accepted", {"talker.py": _NODE.format("~/scan_2d/front")}
+        ),
+        Example(
+            "a parameter that somebody sets",
+            {
+                "talker.py": _NODE.replace("'{}'", "topic").replace(
+                    "        self.create",
+                    "        topic = self.declare_parameter('topic', '').value\n"
+                    "        self.create",
+                )
+            },
+        ),
+        Example(
+            "a part of the name is a parameter that somebody sets",
+            {
+                "talker.py": _NODE.replace("'{}'", "f'robot/{name}/scan'").replace(
+                    "        self.create",
+                    "        name = self.declare_parameter('name', '').value\n        self.create",
+                )
+            },
+        ),
+        Example(
+            "constants of another module that the file sets, and an object that it changes",
+            {"topics.py": _TOPICS, "talker.py": _OTHER.format(_SETTING)},
+        ),
+        Example(
+            "constants of another module, and the default of its dataclass",
+            {"topics.py": _TOPICS, "talker.py": _OTHER.format("")},
+            Report("talker.py:9:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+            Report("talker.py:11:39", "ROS 2 refuses the name 'back-scan': '-' is not allowed"),
+        ),
+        Example(
+            "a dash",
+            {"talker.py": _NODE.format("front-scan")},
+            Report("8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+        ),
+        Example(
+            "a digit first",
+            {"talker.py": _NODE.format("scan/2d")},
+            Report("8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
+        ),
+        Example(
+            "names of nodes that are accepted",
+            {"talker.py": _NODE_NODES.format("'talker', namespace='left/arm'")},
+        ),
+        Example(
+            "a namespace in the name of a node",
+            {"talker.py": _NODE_NODES.format("'left/talker'")},
+            Report("6:26", "ROS 2 refuses the node name 'left/talker': '/' is not allowed"),
+        ),
+        Example(
+            "a namespace with a dash",
+            {"talker.py": _NODE_NODES.format("'talker', namespace='left-arm'")},
+            Report("6:26", "ROS 2 refuses the namespace 'left-arm': '-' is not allowed"),
+        ),
+        Example(
+            "two underscores in a row",
+            {"talker.py": _NODE.format("front__scan")},
+            Report(
+                "8:39",
+                "the name 'front__scan' has two underscores in a row",
+                severity=Severity.WARNING,
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_topics(file)
+        yield from self._check_nodes(file)
+        yield from self._check_underscores(file)
+
+    def _check_topics(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.endpoints:
+            argument = entity.name_argument
+            if argument is None or not isinstance(entity.name, str):
+                continue
+            # An empty default is there to be replaced.
+            if entity.from_parameter and _has_gap(entity.name):
+                continue
+            if not entity.name and is_guarded_by(file.module, entity.call, argument.node):
+                continue
+            problem = topic_problem(entity.name)
+            if problem:
+                yield self.report(argument, f"ROS 2 refuses the name {entity.name!r}: {problem}")
+
+    def _check_nodes(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for node in file.nodes:
+            at = node.node_name_location
+            if isinstance(node.node_name, str) and at.path == file.module.path:
+                problem = node_problem(node.node_name)
+                if problem:
+                    message = f"ROS 2 refuses the node name {node.node_name!r}: {problem}"
+                    yield self.report(at, message)
+            if isinstance(node.namespace, str):
+                problem = namespace_problem(node.namespace)
+                if problem:
+                    message = f"ROS 2 refuses the namespace {node.namespace!r}: {problem}"
+                    yield self.report(at, message)
+
+    def _check_underscores(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.endpoints:
+            argument = entity.name_argument
+            name = entity.name
+            if argument is None or not isinstance(name, str) or topic_problem(name):
+                continue
+            if "__" in name:
+                message = f"the name {name!r} has two underscores in a row"
+                yield self.report(argument, message, severity=Severity.WARNING)
+
+
+def _has_gap(name: str) -> bool:
+    """Tell whether a part of a name is empty."""
+    return not name or "//" in name or name.endswith("/")

@@ -1,0 +1,280 @@
+"""SP051: packages, package_dir and py_modules list the packages that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api.python import Unknown
+from scaffold.api.setup_py import FindPackages, SetupPy
+
+_SETUP = (
+    "from setuptools import find_packages, setup\n\nsetup(\n    name='talker',\n{}"
+    "    entry_points={{'console_scripts': ['node = talker.node:main']}},\n)\n"
+)
+_FILES = {"talker/__init__.py": "", "talker/node.py": "def main():\n    pass\n"}
+_SETUP_SUBPACKAGES = (
+    "from setuptools import {}\n\nsetup(\n    name='talker',\n    packages={},\n)\n"
+)
+_FILES_SUBPACKAGES = {
+    "talker/__init__.py": "",
+    "talker/text/__init__.py": "",
+    "test/__init__.py": "",
+}
+_BY_CMAKE = (
+    "<package><name>talker</name><export><build_type>ament_cmake</build_type></export></package>\n"
+)
+_FIND = "find_packages(exclude=['test'])"
+_TESTS = frozenset({"test", "tests"})
+"""Sub-packages that are often left out on purpose."""
+_SETUP_PLACES = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
+_FILES_PLACES = {"src/talker/__init__.py": "", "src/text.py": ""}
+
+
+class ModuleNotPacked(Rule):
+    """``packages`` lacks a package or a sub-package, or what setup.py names is not there.
+
+    **Why.** The executables are made, the code is not installed: ``ModuleNotFoundError: No module
+    named 'talker.text'`` when they are started, though it works in the source tree. For what does
+    not exist the build stops: ``package directory 'demo' does not exist``, ``error in 'egg_base'
+    option: 'src' does not exist``.
+
+    **Fix.** ``packages=find_packages(exclude=['test'])``, and ``package_dir`` where the packages
+    are.
+
+    **Source.** setuptools documentation, "Package Discovery and Namespace Packages"; the template
+    of ``ros2 pkg create``.
+    """
+
+    code = "SP051"
+    name = "module-not-packed"
+    examples = (
+        Example(
+            "found",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(exclude=['test']),\n"),
+                **_FILES,
+            },
+        ),
+        Example(
+            "none",
+            {"setup.py": _SETUP.format(""), **_FILES},
+            Report("setup.py:3:1", "packages leaves out 'talker', which the entry points start"),
+        ),
+        Example(
+            "excluded",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
+                **_FILES,
+            },
+            Report(
+                "setup.py:5:14", "find_packages leaves out 'talker', which the entry points start"
+            ),
+        ),
+        Example(
+            "another name",
+            {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
+            Report("setup.py:5:14", "packages leaves out 'talker', which the entry points start"),
+            Report(
+                "setup.py:5:14",
+                "packages names 'demo', but there is no such directory: the build stops",
+            ),
+        ),
+        Example(
+            "no __init__.py",
+            {
+                "setup.py": _SETUP.format("    packages=find_packages(),\n"),
+                "talker/node.py": "def main():\n    pass\n",
+            },
+            Report(
+                "talker/__init__.py:1:1",
+                "missing: find_packages does not install talker/ without it",
+            ),
+        ),
+        Example(
+            "no directory src",
+            {"setup.py": _SETUP.format("    packages=find_packages(where='src'),\n"), **_FILES},
+            Report(
+                "setup.py:5:14",
+                "find_packages looks in src/, which does not exist: nothing is installed",
+            ),
+        ),
+        Example(
+            "a sub-package that CMake installs",
+            {
+                **_FILES_SUBPACKAGES,
+                "package.xml": _BY_CMAKE,
+                "setup.py": _SETUP_SUBPACKAGES.format("setup", "['talker']"),
+            },
+        ),
+        Example(
+            "sub-packages listed by their directories",
+            {
+                **_FILES_SUBPACKAGES,
+                "setup.py": _SETUP_SUBPACKAGES.format("setup", "['talker', 'talker/text/']"),
+            },
+        ),
+        Example(
+            "a sub-package left out with its tests",
+            {
+                "talker/__init__.py": "",
+                "talker/tests/__init__.py": "",
+                "setup.py": _SETUP_SUBPACKAGES.format("setup", "['talker']"),
+            },
+        ),
+        Example(
+            "one listed, and no sub-package",
+            {
+                **_FILES_SUBPACKAGES,
+                "setup.py": _SETUP_SUBPACKAGES.format("find_packages, setup", "['talker']"),
+            },
+            Report(
+                "setup.py:5:14",
+                "packages leaves out talker.text: it is not installed; write "
+                "find_packages(exclude=['test'])",
+                fix="write find_packages(exclude=['test'])",
+            ),
+            fixed={"setup.py": _SETUP_SUBPACKAGES.format("find_packages, setup", _FIND)},
+        ),
+        Example(
+            "a directory of package_dir",
+            {
+                "setup.py": _SETUP_PLACES.format(
+                    "    package_dir={'': 'src'},\n    packages=['talker'],\n"
+                    "    py_modules=['text'],\n"
+                ),
+                **_FILES_PLACES,
+            },
+        ),
+        Example(
+            "a directory of package_dir that is not there",
+            {"setup.py": _SETUP_PLACES.format("    package_dir={'': 'lib'},\n"), **_FILES_PLACES},
+            Report(
+                "setup.py:5:17",
+                "package_dir names lib/, which does not exist: nothing is installed",
+            ),
+        ),
+        Example(
+            "a package among py_modules",
+            {
+                "setup.py": _SETUP_PLACES.format("    py_modules=['talker'],\n"),
+                "talker/__init__.py": "",
+            },
+            Report(
+                "setup.py:5:16", "talker/ is a package: it belongs in packages, not in py_modules"
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_packages(package)
+        yield from self._check_subpackages(package)
+        yield from self._check_places(package)
+
+    def _check_packages(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py there
+        if setup.call is None or setup.has_unknown_keywords or _is_configured(package, setup):
+            return
+        keyword = setup.keyword("packages")
+        packages = setup.packages
+        roots = {script.module.partition(".")[0] for script in setup.console_scripts} - {""}
+        if isinstance(packages, FindPackages):
+            yield from self._check_found(package, setup, packages, roots)
+            return
+        names = list(packages) if isinstance(packages, list | tuple) else None
+        if (keyword is not None and names is None) or setup.keyword("py_modules"):
+            return
+        at = keyword or setup
+        for name in names or ():
+            if not package.has_directory(name.partition(".")[0]):
+                message = (
+                    f"packages names {name!r}, but there is no such directory: the build stops"
+                )
+                yield self.report(at, message)
+        for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
+            if package.has_directory(root):
+                message = f"packages leaves out {root!r}, which the entry points start"
+                yield self.report(at, message)
+
+    def _check_found(
+        self, package: Package, setup: SetupPy, packages: FindPackages, roots: set[str]
+    ) -> Iterator[Diagnostic]:
+        keyword = setup.keyword("packages")
+        if keyword is None or packages.namespace or isinstance(packages.where, Unknown):
+            return
+        where = packages.where.strip("./")
+        if where and not package.has_directory(where):
+            message = f"find_packages looks in {where}/, which does not exist: nothing is installed"
+            yield self.report(keyword, message)
+            return
+        for root in sorted(roots) if not where else ():
+            is_left_out = packages.leaves_out(root)
+            if isinstance(is_left_out, Unknown):
+                return
+            if is_left_out:
+                message = f"find_packages leaves out {root!r}, which the entry points start"
+                yield self.report(keyword, message)
+            elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
+                init = f"{root}/__init__.py"
+                message = f"missing: find_packages does not install {root}/ without it"
+                yield self.report(package.start_of(init), message)
+
+    def _check_subpackages(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # ament_python_install_package() copies the whole directory
+        setup = package.setup_py
+        packages = setup.packages
+        keyword = setup.keyword("packages")
+        if keyword is None or not packages or isinstance(packages, FindPackages | Unknown):
+            return
+        missing = sorted(
+            name
+            for path in package.files
+            if path.endswith("/__init__.py") and path.count("/") > 1
+            for name in (path.removesuffix("/__init__.py").replace("/", "."),)
+            if name.rpartition(".")[0] in packages and name not in packages
+            if name.rpartition(".")[2] not in _TESTS
+        )
+        if not missing or setup.keyword("package_dir"):
+            return
+        fix = None
+        if "find_packages" in setup.module.index.bindings(setup.module.tree):
+            start, end = setup.module.span(keyword.node)
+            fix = Fix(f"write {_FIND}", (Edit("setup.py", start, end, _FIND),))
+        message = f"packages leaves out {', '.join(missing)}: it is not installed; write {_FIND}"
+        yield self.report(keyword, message, fix)
+
+    def _check_places(self, package: Package) -> Iterator[Diagnostic]:
+        setup = package.setup_py
+        if package.build_type == "ament_cmake" or setup.has_unknown_keywords:
+            return
+        directories = setup.keyword("package_dir")
+        if directories is not None:
+            for path in _missing(package, directories.value):
+                message = f"package_dir names {path}/, which does not exist: nothing is installed"
+                yield self.report(directories, message)
+        modules = setup.keyword("py_modules")
+        named = modules.value if modules is not None else ()
+        for name in named if isinstance(named, list | tuple) else ():
+            if modules and isinstance(name, str) and package.has(f"{name}/__init__.py"):
+                message = f"{name}/ is a package: it belongs in packages, not in py_modules"
+                yield self.report(modules, message)
+
+
+def _is_configured(package: Package, setup: SetupPy) -> bool:
+    """Tell whether packages are named in some other way."""
+    if setup.keyword("package_dir") is not None:
+        return True
+    text = package.source("setup.cfg").text if package.has("setup.cfg") else ""
+    return "packages" in text or package.has("pyproject.toml")
+
+
+def _missing(package: Package, places: object) -> Iterator[str]:
+    """Yield the directories of the package that ``package_dir`` names, and that are not there."""
+    for place in places.values() if isinstance(places, dict) else ():
+        path = place.removeprefix("./").rstrip("/") if isinstance(place, str) else ""
+        is_own = path not in {"", "."} and not path.startswith(("/", ".."))
+        if is_own and not package.has_directory(path):
+            yield path
