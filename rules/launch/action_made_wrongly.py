@@ -1,4 +1,4 @@
-"""LF047: actions get the arguments they need, and lists of actions are lists."""
+"""LF047: actions get the arguments they need, and lists of actions hold actions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import NODES, LaunchCall, LaunchFile
+from scaffold.api.launch import NODES, LaunchCall, LaunchFile, describe, entities
 
 _ACTIONS = frozenset(
     {*NODES, "DeclareLaunchArgument", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription"}
@@ -28,17 +28,36 @@ def _launch(node: str, actions: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(node, actions)}
 
 
+_LAUNCH_ITEMS = (
+    "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
+    "from launch.event_handlers import OnProcessExit\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    name = LaunchConfiguration('name', default='a')\n"
+    "    node = Node(package='talker', executable='node', name=name)\n"
+    "    handler = OnProcessExit(target_action=node, on_exit=[])\n"
+    "    return LaunchDescription([{}])\n"
+)
+_ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "this is None"})
+"""What a handler takes instead of a list."""
+
+
 class ActionMadeWrongly(LaunchRule):
-    """An action lacks the program that it starts, or gets one action instead of a list.
+    """An action lacks the program that it starts, or a list of actions is none, or holds others.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
-    ``'Node' object is not callable`` where a comma is missing between two actions, ``missing 1
-    required keyword-only argument: 'executable'``. A setting at the end of a group sets nothing.
+    ``'list' object has no attribute 'describe_sub_entities'``, the same with
+    ``'LaunchConfiguration'`` or ``'NoneType'``, ``'Node' object is not callable`` where a comma is
+    missing between two actions, ``missing 1 required keyword-only argument: 'executable'``. A
+    setting at the end of a group sets nothing.
 
-    **Fix.** ``Node(package=..., executable=...)``, ``actions=[...]``, and settings first.
+    **Fix.** ``Node(package=..., executable=...)``, ``actions=[...]``, and settings first;
+    ``*nodes`` for the items of a list, ``RegisterEventHandler(...)`` around a handler,
+    ``IncludeLaunchDescription(...)`` around a source; nothing for substitutions, which belong to
+    where they are used.
 
-    **Source.** ``launch/actions/group_action.py``, ``timer_action.py``,
-    ``launch/launch_description.py``; ``launch_ros/actions/node.py``.
+    **Source.** ``launch/actions/group_action.py``, ``timer_action.py``;
+    ``launch/launch_description_entity.py``; ``launch/utilities``; ``launch_ros/actions/node.py``.
     """
 
     code = "LF047"
@@ -102,9 +121,74 @@ class ActionMadeWrongly(LaunchRule):
                 "launch/b.launch.py:8:54", "nothing follows this SetParameter: it has no effect"
             ),
         ),
+        Example(
+            "a list of actions",
+            {"launch/a.launch.py": _LAUNCH_ITEMS.format("*[node], RegisterEventHandler(handler)")},
+        ),
+        Example(
+            "a list, a substitution, a handler in the list",
+            {"launch/a.launch.py": _LAUNCH_ITEMS.format("[node],\n name,\n handler")},
+            Report(
+                "12:31", "this is a list, but LaunchDescription takes actions: unpack it with *"
+            ),
+            Report("13:2", "this is a LaunchConfiguration, but LaunchDescription takes actions"),
+            Report(
+                "14:2",
+                "this is the handler OnProcessExit, but LaunchDescription takes "
+                "actions: wrap it in RegisterEventHandler(...)",
+            ),
+        ),
+        Example(
+            "a text, a class, None in the list",
+            {"launch/a.launch.py": _LAUNCH_ITEMS.format("'node',\n Node,\n None")},
+            Report("12:31", "this is a string, but LaunchDescription takes actions"),
+            Report("13:2", "this is a class, but LaunchDescription takes actions: call it"),
+            Report("14:2", "this is None, but LaunchDescription takes actions"),
+        ),
+        Example(
+            "an event for what happens at the end of a node",
+            {
+                "launch/a.launch.py": "from launch.events import Shutdown\n"
+                + _LAUNCH_ITEMS.format("node").replace("name=name", "on_exit=Shutdown()")
+            },
+            Report(
+                "11:62",
+                "this is an event, but 'on_exit' of Node takes actions: wrap it in "
+                "EmitEvent(event=...)",
+            ),
+        ),
+        Example(
+            "an event, a source, a node in a container",
+            {
+                "launch/a.launch.py": "from launch.events import Shutdown\n"
+                "from launch.launch_description_sources import AnyLaunchDescriptionSource\n"
+                "from launch_ros.actions import ComposableNodeContainer\n"
+                + _LAUNCH_ITEMS.format(
+                    "Shutdown(),\n AnyLaunchDescriptionSource('a'),\n"
+                    " ComposableNodeContainer(name='a', "
+                    "namespace='', package='b', executable='c',\n"
+                    "  composable_node_descriptions=[node])"
+                )
+            },
+            Report(
+                "15:31",
+                "this is an event, but LaunchDescription takes actions: wrap it in "
+                "EmitEvent(event=...)",
+            ),
+            Report(
+                "16:2",
+                "this is an AnyLaunchDescriptionSource, but LaunchDescription takes "
+                "actions: wrap it in IncludeLaunchDescription(...)",
+            ),
+            Report("18:33", "this is a Node, but a container takes ComposableNode"),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_arguments(launch)
+        yield from self._check_items(launch)
+
+    def _check_arguments(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
             problem = _problem(launch, call)
             if problem:
@@ -136,6 +220,20 @@ class ActionMadeWrongly(LaunchRule):
                     message = f"nothing follows this {last.kind} in the group: it has no effect"
                     yield self.report(last, message)
 
+    def _check_items(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for item in entities(launch):
+            what = describe(launch, item.node)
+            if what and not (item.is_alone and what in _ALONE):
+                message = f"{what}, but {item.taker} takes actions{_hint(what)}"
+                yield self.report(launch.location(item.node), message)
+        for call in launch.calls:
+            listed = call.given.get("composable_node_descriptions")
+            for node in listed.elts if isinstance(listed, ast.List) else ():
+                view = launch.call_of(node)
+                if view is not None and view.kind in NODES:
+                    message = f"this is a {view.kind}, but a container takes ComposableNode"
+                    yield self.report(launch.location(node), message)
+
 
 def _setting_nothing(launch: LaunchFile, actions: ast.expr | None) -> LaunchCall | None:
     """Return the last action of a group if it sets something for those that follow it."""
@@ -162,3 +260,18 @@ def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
     """Tell whether the named program is certainly not on ``PATH``."""
     name = launch.text(call, "executable")
     return isinstance(name, str) and name.endswith(".py") and "/" not in name
+
+
+def _hint(what: str) -> str:
+    """Return what to write instead."""
+    if what == "this is a list":
+        return ": unpack it with *"
+    if what == "this is an event":
+        return ": wrap it in EmitEvent(event=...)"
+    if "handler" in what:
+        return ": wrap it in RegisterEventHandler(...)"
+    if "Source" in what:
+        return ": wrap it in IncludeLaunchDescription(...)"
+    if "class" in what or "function" in what:
+        return ": call it"
+    return ""

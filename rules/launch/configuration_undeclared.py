@@ -1,4 +1,4 @@
-"""LF010: launch configurations are declared."""
+"""LF010: launch configurations are declared, before they are read."""
 
 from __future__ import annotations
 
@@ -6,7 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, listed_names
-from scaffold.api.launch import LaunchCall, LaunchFile, may_be_set_elsewhere, set_names
+from scaffold.api.launch import (
+    LaunchCall,
+    LaunchFile,
+    later_declarations,
+    may_be_set_elsewhere,
+    set_names,
+    steps,
+)
 
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
@@ -17,18 +24,28 @@ _LAUNCH = (
 )
 _DECLARED = "        DeclareLaunchArgument('node', default_value='talker'),\n"
 _USED = "LaunchConfiguration('node')"
+_LAUNCH_ORDER = (
+    "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument\n"
+    "from launch.substitutions import LaunchConfiguration\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    name = LaunchConfiguration('name')\n"
+    "    node = Node(package='talker', executable='node', name=name)\n"
+    "    return LaunchDescription([{}])\n"
+)
+_DECLARED_ORDER = "DeclareLaunchArgument('name', default_value='a')"
 
 
 class ConfigurationUndeclared(LaunchRule):
-    """A ``LaunchConfiguration`` is read that nothing declares or sets.
+    """A ``LaunchConfiguration`` is read that nothing declares or sets, or before it is declared.
 
-    **Why.** ``ros2 launch`` stops: ``launch configuration 'node' does not exist``; and
-    ``--show-args`` does not show that it is needed.
+    **Why.** Actions are executed in their order, and a declaration sets the default: ``ros2
+    launch`` stops, ``launch configuration 'node' does not exist``, and ``--show-args`` does not
+    show that it is needed.
 
-    **Fix.** ``DeclareLaunchArgument('node', default_value=...)`` in the same file.
+    **Fix.** ``DeclareLaunchArgument('node', default_value=...)`` in the same file, before its use.
 
-    **Source.** ``launch/substitutions/launch_configuration.py``; ROS 2 documentation, "Using
-    substitutions".
+    **Source.** ``launch/substitutions/launch_configuration.py``;
+    ``launch/actions/declare_launch_argument.py``; ROS 2 documentation, "Using substitutions".
     """
 
     code = "LF010"
@@ -77,9 +94,53 @@ class ConfigurationUndeclared(LaunchRule):
                 "the launch configuration 'nod' is never set; declared here: node",
             ),
         ),
+        Example(
+            "declared first",
+            {"launch/a.launch.py": _LAUNCH_ORDER.format(f"{_DECLARED_ORDER}, node")},
+        ),
+        Example(
+            "declared after its use",
+            {"launch/a.launch.py": _LAUNCH_ORDER.format(f"node, {_DECLARED_ORDER}")},
+            Report(
+                "8:12",
+                "'name' is declared after its use: the Node in line 9 reads it "
+                "before it has a value",
+            ),
+        ),
+        Example(
+            "declared after a function that uses it",
+            {
+                "launch/a.launch.py": _LAUNCH_ORDER.format(
+                    f"OpaqueFunction(function=set_up), {_DECLARED_ORDER}"
+                ).replace("import Decl", "import OpaqueFunction, Decl")
+                + "\n\ndef set_up(context):\n"
+                "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
+            },
+            Report(
+                "14:12",
+                "'name' is declared after its use: the OpaqueFunction in line 10 "
+                "reads it before it has a value",
+            ),
+        ),
+        Example(
+            "added after its use",
+            {
+                "launch/a.launch.py": _LAUNCH_ORDER.format("node").replace("return", "launch =")
+                + f"    launch.add_action({_DECLARED_ORDER})\n    return launch\n"
+            },
+            Report(
+                "8:12",
+                "'name' is declared after its use: the Node in line 9 reads it "
+                "before it has a value",
+            ),
+        ),
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_declared(package, launch)
+        yield from self._check_order(package, launch)
+
+    def _check_declared(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
         names = set_names(package, launch)
         if names is None or launch.function is None:
             return
@@ -98,6 +159,25 @@ class ConfigurationUndeclared(LaunchRule):
             have = listed_names(launch.declared, name, "nothing")
             message = f"the launch configuration {name!r} is never set; declared here: {have}"
             yield self.report(launch.location(call.call), message)
+
+    def _check_order(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        actions = steps(launch)
+        if actions is None:
+            return
+        declared = later_declarations(launch, actions)
+        reported: set[str] = set()
+        for index, step in enumerate(actions):
+            for call in step.reads:
+                name = str(launch.text(call, "variable_name"))
+                if declared.get(name, -1) <= index or name in reported:
+                    continue
+                if may_be_set_elsewhere(package, launch, name):
+                    continue
+                reported.add(name)
+                line = step.action.location.line
+                what = f"the {step.action.kind} in line {line} reads it"
+                message = f"{name!r} is declared after its use: {what} before it has a value"
+                yield self.report(launch.location(call.call), message)
 
 
 def _is_unused(launch: LaunchFile, call: LaunchCall) -> bool:

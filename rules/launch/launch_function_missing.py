@@ -1,4 +1,4 @@
-"""LF002: a launch file defines generate_launch_description."""
+"""LF002: a launch file defines generate_launch_description, which returns a LaunchDescription."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Package, Report, fact
-from scaffold.api.launch import FUNCTION, LaunchFile
+from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Location, Package, Report, fact
+from scaffold.api.launch import FUNCTION, LaunchFile, returns
 from scaffold.api.python import paths_importing
 
 _LOADERS = frozenset(
@@ -18,17 +18,25 @@ _LOADERS = frozenset(
     }
 )
 _LAUNCH = "from launch import LaunchDescription\n\n\ndef {}():\n    return LaunchDescription([])\n"
+_LAUNCH_RESULT = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    node = Node(package='talker', executable='talk')\n"
+)
 
 
 class LaunchFunctionMissing(LaunchRule):
-    """A launch file does not define ``generate_launch_description``.
+    """A launch file has no ``generate_launch_description`` that returns a ``LaunchDescription``.
 
     **Why.** ``ros2 launch``: ``launch file ... does not contain the required function
-    'generate_launch_description()'``.
+    'generate_launch_description()'``, or ``'NoneType' object has no attribute
+    'get_launch_arguments_with_include_launch_description_actions'``.
 
-    **Fix.** Define it, under exactly this name.
+    **Fix.** Define it, under exactly this name, with ``return LaunchDescription([...])`` on every
+    way through the function.
 
-    **Source.** ``launch/launch_description_sources/python_launch_file_utilities.py``.
+    **Source.** ``launch/launch_description_sources/python_launch_file_utilities.py``; ROS 2
+    documentation, "Creating a launch file".
     """
 
     code = "LF002"
@@ -66,9 +74,39 @@ class LaunchFunctionMissing(LaunchRule):
                 "`ros2 launch` calls generate_launch_description, which this file does not define",
             ),
         ),
+        Example(
+            "a description that is made, but not returned",
+            {"launch/a.launch.py": _LAUNCH_RESULT + "    LaunchDescription([node])\n"},
+            Report(
+                "7:5",
+                "the LaunchDescription is created, but generate_launch_description returns None",
+                fix="return it",
+            ),
+            fixed={"launch/a.launch.py": _LAUNCH_RESULT + "    return LaunchDescription([node])\n"},
+        ),
+        Example(
+            "a list returned; a description on one way only",
+            {
+                "launch/a.launch.py": _LAUNCH_RESULT + "    return [node]\n",
+                "launch/b.launch.py": _LAUNCH_RESULT
+                + "    if node:\n        return LaunchDescription([node])\n",
+            },
+            Report(
+                "launch/a.launch.py:7:5",
+                "generate_launch_description returns a list, not a LaunchDescription",
+            ),
+            Report(
+                "launch/b.launch.py:5:5",
+                "generate_launch_description returns None on some paths, not a LaunchDescription",
+            ),
+        ),
     )
 
     def check_in(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_defined(package, launch)
+        yield from self._check_result(launch)
+
+    def _check_defined(self, package: Package, launch: LaunchFile) -> Iterator[Diagnostic]:
         module = launch.module
         name = launch.path.rpartition("/")[2]
         if not name.endswith("launch.py") or module.defines(FUNCTION) is not False:
@@ -87,6 +125,40 @@ class LaunchFunctionMissing(LaunchRule):
             message = f"`ros2 launch` calls {FUNCTION}, which this file does not define"
             yield self.report(package.start_of(launch.path), message)
 
+    def _check_result(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        function = launch.function
+        if function is None or not isinstance(function.node, ast.FunctionDef):
+            return
+        node = function.node
+        if node.decorator_list or any(launch.module.below(node, ast.Yield, ast.YieldFrom)):
+            return
+        yield from self._check(launch, node, function.location)
+
+    def _check(
+        self, launch: LaunchFile, node: ast.FunctionDef, at: Location
+    ) -> Iterator[Diagnostic]:
+        statements, reaches_end = returns(node)
+        for item in statements:
+            what = _wrong(launch, item.value)
+            if what:
+                message = f"generate_launch_description returns {what}, not a LaunchDescription"
+                yield self.report(launch.location(item), message)
+        if not reaches_end:
+            return
+        last = node.body[-1]
+        made = launch.call_of(last.value) if isinstance(last, ast.Expr) else None
+        if made is not None and made.kind == "LaunchDescription" and not statements:
+            start, _ = launch.module.span(last)
+            fix = Fix("return it", (Edit(launch.path, start, start, "return "),))
+            message = (
+                "the LaunchDescription is created, but generate_launch_description returns None"
+            )
+            yield self.report(launch.location(last), message, fix)
+        else:
+            some = " on some paths" if statements else ""
+            message = f"generate_launch_description returns None{some}, not a LaunchDescription"
+            yield self.report(at, message)
+
 
 @fact
 def _loaded_files(package: Package) -> frozenset[str]:
@@ -100,3 +172,16 @@ def _loaded_files(package: Package) -> frozenset[str]:
         for text in ast.walk(call)
         if isinstance(text, ast.Constant) and isinstance(text.value, str)
     )
+
+
+def _wrong(launch: LaunchFile, value: ast.expr | None) -> str | None:
+    """Return the returned expression, if it is certainly not a LaunchDescription."""
+    if value is None or (isinstance(value, ast.Constant) and value.value is None):
+        return "None"
+    if isinstance(value, ast.List | ast.Tuple | ast.ListComp):
+        return "a list" if not isinstance(value, ast.Tuple) else "a tuple"
+    call = launch.call_of(value)
+    if call is not None and call.kind in {"Node", "IncludeLaunchDescription", "ExecuteProcess"}:
+        return f"a {call.kind}"
+    names = launch.module.qualified_names(value)
+    return "the class" if any(name.endswith(".LaunchDescription") for name in names) else None

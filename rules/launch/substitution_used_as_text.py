@@ -1,4 +1,4 @@
-"""LF041: substitutions are not text while the launch file is read."""
+"""LF041: substitutions are not text or truth values while the launch file is read."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import CONDITION, LaunchFile, text_uses
+from scaffold.api.launch import CONDITION, LaunchFile, text_uses, truth_tests
 
 _SHOWN = frozenset({"in an f-string", "in str()", "in a % format", "in format()"})
 """Uses that do not fail: the text tells what the object is."""
@@ -20,19 +20,35 @@ _LAUNCH = (
     "    return LaunchDescription([\n"
     "        Node(package='talker', executable='node', arguments=[path], name={}),\n    ])\n"
 )
+_TRUTHS = frozenset({"true", "false", "0", "1"})
+_LAUNCH_TRUTH = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import DeclareLaunchArgument, OpaqueFunction\n"
+    "from launch.substitutions import LaunchConfiguration\n\n\n"
+    "def set_up(context):\n"
+    "    use = LaunchConfiguration('use').perform(context)\n"
+    "    return [] if {} else None\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        DeclareLaunchArgument('use', default_value='{}'),\n"
+    "        OpaqueFunction(function=set_up),\n    ])\n"
+)
 
 
 class SubstitutionUsedAsText(LaunchRule):
-    """A substitution such as LaunchConfiguration is used as text.
+    """A substitution such as LaunchConfiguration is used as text, or its text as a bool.
 
-    **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument
-    must be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or after ``if`` it is
-    an object, and the result silently wrong.
+    **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument must
+    be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or after ``if`` it is an
+    object, and the result silently wrong. Its value is text: Python takes ``'false'`` for true, and
+    ``'true' == True`` is false.
 
     **Fix.** A list of parts, ``['/', LaunchConfiguration('name')]``, PathJoinSubstitution,
-    PythonExpression, or an OpaqueFunction.
+    PythonExpression, or an OpaqueFunction; ``condition=IfCondition(use)``, or ``if
+    use.perform(context).lower() == 'true':``.
 
-    **Source.** ROS 2 documentation, "Using substitutions".
+    **Source.** ROS 2 documentation, "Using substitutions";
+    ``launch/substitutions/launch_configuration.py``; Python documentation, "Truth Value Testing".
     """
 
     code = "LF041"
@@ -87,9 +103,30 @@ class SubstitutionUsedAsText(LaunchRule):
                 "f-string: it is evaluated later",
             ),
         ),
+        Example(
+            "its text compared",
+            {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == 'true'", "false")},
+        ),
+        Example(
+            "a text that may be empty", {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "")}
+        ),
+        Example(
+            "the truth of its text",
+            {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "false")},
+            Report("8:18", "this is a string such as 'false', which is always true"),
+        ),
+        Example(
+            "its text compared with a truth value",
+            {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == True", "false")},
+            Report("8:18", "this is a string, which never equals True"),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_text(launch)
+        yield from self._check_truth(launch)
+
+    def _check_text(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for node, kind, what in text_uses(launch):
             if what in _SHOWN and _is_printed(launch, node):
                 continue
@@ -100,6 +137,18 @@ class SubstitutionUsedAsText(LaunchRule):
                 )
             yield self.report(launch.location(node), message)
 
+    def _check_truth(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for node in [*truth_tests(launch.module), *_made_bool(launch)]:
+            text = _default(launch, node)
+            if text is not None and text.lower() in _TRUTHS:
+                message = f"this is a string such as {text!r}, which is always true"
+                yield self.report(launch.location(node), message)
+        for comparison in launch.module.walk(ast.Compare):
+            other = _compared_with(comparison)
+            if other and _performed(launch, comparison.left) is not None:
+                message = f"this is a string, which never equals {other}"
+                yield self.report(launch.location(comparison), message)
+
 
 def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
     """Tell whether only ``print`` gets the text, to show what the object is."""
@@ -107,3 +156,40 @@ def _is_printed(launch: LaunchFile, node: ast.expr) -> bool:
         isinstance(parent, ast.Call) and launch.module.qualified_name(parent.func) == "print"
         for parent in launch.module.parents(node)
     )
+
+
+def _compared_with(comparison: ast.Compare) -> str:
+    """Return the truth value or number that something is compared with, as it is written."""
+    if isinstance(comparison.ops[0], ast.Eq | ast.NotEq | ast.Is | ast.IsNot):
+        match comparison.comparators[0]:
+            case ast.Constant(value=bool() | int() | float() as value):
+                return repr(value)
+    return ""
+
+
+def _made_bool(launch: LaunchFile) -> Iterator[ast.expr]:
+    for call in launch.module.walk(ast.Call):
+        if launch.module.qualified_name(call.func) == "bool" and len(call.args) == 1:
+            yield call.args[0]
+
+
+def _default(launch: LaunchFile, node: ast.expr) -> str | None:
+    """Return the default of the launch configuration whose text an expression is."""
+    holder = _performed(launch, node)
+    value = launch.default_of(holder) if holder is not None else None
+    return value if isinstance(value, str) else None
+
+
+def _performed(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
+    """Return the launch configuration of ``configuration.perform(context)``."""
+    if isinstance(node, ast.Name):
+        lookup = launch.module.index.lookup(node.id, node)
+        values = [binding.value for binding in lookup[1]] if lookup else []
+        if len(values) != 1 or values[0] is None:
+            return None
+        node = values[0]
+    match node:
+        case ast.Call(func=ast.Attribute(value=holder, attr="perform"), args=[_]):
+            call = launch.call_of(holder)
+            return holder if call is not None and call.kind == "LaunchConfiguration" else None
+    return None

@@ -1,4 +1,4 @@
-"""LF042: what a launch file makes is launched."""
+"""LF042: what a launch file makes is launched, and only once."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
-from scaffold.api.launch import FUNCTION, NODES, LaunchFile
+from scaffold.api.launch import FUNCTION, HANDLERS, NODES, Entity, LaunchFile, entities
 
 _EXECUTED = frozenset({*NODES, "IncludeLaunchDescription", "ExecuteProcess"})
 _ASSIGNED = _EXECUTED | {"GroupAction", "OpaqueFunction", "RegisterEventHandler", "TimerAction"}
@@ -21,22 +21,33 @@ _LAUNCH = (
     "    return description{}\n"
 )
 _RIGHT = ("", "description.add_action(Node(package='talker', executable='other'))", "")
+_PROCESSES = (*NODES, "ExecuteProcess")
+_LAUNCH_ONCE = (
+    "from launch import LaunchDescription\nfrom launch.actions import RegisterEventHandler\n"
+    "from launch.event_handlers import OnProcessExit\nfrom launch_ros.actions import Node\n"
+    "\n\ndef generate_launch_description():\n"
+    "    first = Node(package='talker', executable='first')\n"
+    "    second = Node(package='talker', executable='second')\n"
+    "    handler = OnProcessExit(target_action=first, on_exit=[second])\n"
+    "    return LaunchDescription([{}RegisterEventHandler(handler)])\n"
+)
 
 
-class DescriptionIncomplete(LaunchRule):
-    """A launch file makes an action that it does not return, or cannot be asked for what it makes.
+class ActionNotLaunched(LaunchRule):
+    """A launch file makes an action that it does not return, or twice, or cannot be asked for it.
 
-    **Why.** An action that is in no list is never executed, without a word; ``ros2 launch`` calls
-    ``generate_launch_description`` without arguments, and ``add_action`` returns ``None``. A
-    warning where a variable holds the action: it may be kept for later.
+    **Why.** An action that is in no list is never executed, without a word, even if it is named as
+    ``target_action``; one that is in two stops the launch: ``executed more than once``. ``ros2
+    launch`` calls ``generate_launch_description`` without arguments, and ``add_action`` returns
+    ``None``. A warning where a variable holds the action: it may be kept for later.
 
-    **Fix.** Put the action in the list; take no arguments; return the LaunchDescription.
+    **Fix.** Put the action in one list; take no arguments; return the LaunchDescription.
 
-    **Source.** ``launch/launch_description.py``.
+    **Source.** ``launch/launch_description.py``; ``launch/actions/execute_local.py``.
     """
 
     code = "LF042"
-    name = "description-incomplete"
+    name = "action-not-launched"
     other_severities = {Severity.WARNING: "a variable holds the action"}
     examples = (
         Example("complete", {"launch/a.launch.py": _LAUNCH.format(*_RIGHT)}),
@@ -87,9 +98,28 @@ class DescriptionIncomplete(LaunchRule):
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
             Report("9:5", "add_action() returns nothing: return the LaunchDescription"),
         ),
+        Example("launched once", {"launch/a.launch.py": _LAUNCH_ONCE.format("first, ")}),
+        Example(
+            "launched again in the handler",
+            {"launch/a.launch.py": _LAUNCH_ONCE.format("first, second, ")},
+            Report("10:59", "second is launched twice: here, and in the LaunchDescription"),
+        ),
+        Example(
+            "watched, but not launched",
+            {"launch/a.launch.py": _LAUNCH_ONCE.format("")},
+            Report(
+                "8:13",
+                "a handler watches first, which is not in the LaunchDescription: it "
+                "is never launched",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_returned(launch)
+        yield from self._check_once(launch)
+
+    def _check_returned(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         function = launch.function
         if function is not None:
             arguments = function.node.args
@@ -116,6 +146,25 @@ class DescriptionIncomplete(LaunchRule):
                     message = "add_action() returns nothing: return the LaunchDescription"
                     yield self.report(launch.location(statement), message)
 
+    def _check_once(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        if len(launch.find("LaunchDescription")) > 1:
+            return  # each may be returned in another case
+        items: dict[ast.expr, Entity] = {item.node: item for item in entities(launch)}
+        for name, made, loads in _nodes(launch):
+            places = [items[load] for load in loads if load in items]
+            listed = [place for place in places if place.holder == "LaunchDescription"]
+            again = [*(place for place in places if place.holder in HANDLERS), *listed[1:]]
+            for use in again if listed else ():
+                if not _repeats(launch, use.node):
+                    message = f"{name} is launched twice: here, and in the LaunchDescription"
+                    yield self.report(launch.location(use.node), message)
+            if loads and all(_is_target(launch, load) for load in loads):
+                message = (
+                    f"a handler watches {name}, which is not in the LaunchDescription: it "
+                    "is never launched"
+                )
+                yield self.report(launch.location(made), message)
+
 
 def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
     """Return whether a call is all that a local variable is for.
@@ -133,3 +182,31 @@ def _is_never_used(launch: LaunchFile, call: ast.Call) -> bool:
     uses = [use for use in module.index.names(variable.id) if isinstance(use.ctx, ast.Load)]
     pattern = rf"#.*\b{re.escape(variable.id)}\b"
     return not uses and not re.search(pattern, module.source.text)
+
+
+def _nodes(launch: LaunchFile) -> Iterator[tuple[str, ast.Call, list[ast.Name]]]:
+    """Yield name, call and uses of the nodes that are assigned to a name of one value."""
+    for call in launch.find(*_PROCESSES):
+        holder = launch.module.parent(call.call)
+        if not isinstance(holder, ast.Assign) or len(holder.targets) != 1:
+            continue
+        target = holder.targets[0]
+        if not isinstance(target, ast.Name):
+            continue
+        lookup = launch.module.index.lookup(target.id, target)
+        uses = [use for use in launch.module.index.names(target.id) if use is not target]
+        if lookup is None or len(lookup[1]) != 1 or _repeats(launch, call.call):
+            continue
+        if all(launch.module.index.lookup(use.id, use) == lookup for use in uses):
+            yield target.id, call.call, uses
+
+
+def _repeats(launch: LaunchFile, node: ast.expr) -> bool:
+    """Tell whether a statement may be executed several times, or not at all."""
+    kinds = (ast.For, ast.While, ast.If, ast.IfExp, ast.Try, ast.Match)
+    return any(isinstance(parent, kinds) for parent in launch.module.parents(node))
+
+
+def _is_target(launch: LaunchFile, node: ast.expr) -> bool:
+    parent = launch.module.parent(node)
+    return isinstance(parent, ast.keyword) and parent.arg == "target_action"

@@ -1,4 +1,4 @@
-"""LF057: the function of an OpaqueFunction takes and returns what launch expects."""
+"""LF057: functions that launch calls take what it gives them, and return what it expects."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, LaunchRule, Report
-from scaffold.api.launch import ACTIONS, LaunchCall, LaunchFile, function_of
+from scaffold.api.launch import ACTIONS, CALLBACKS, HANDLERS, LaunchCall, LaunchFile, function_of
 from scaffold.api.python import misfit_of_context, returned
 
 _LAUNCH = (
@@ -28,21 +28,38 @@ def _launch(takes: str, given: str) -> dict[str, str]:
     return {"launch/a.launch.py": _LAUNCH.format(takes, given)}
 
 
-class OpaqueFunctionMisfit(LaunchRule):
-    """The function of an OpaqueFunction takes other arguments than it is given, or returns no list.
+_OUTPUTS = ("on_stdin", "on_stdout", "on_stderr")
+_LAUNCH_HANDLERS = (
+    "from launch import LaunchDescription\n"
+    "from launch.actions import EmitEvent, RegisterEventHandler\n"
+    "from launch.event_handlers import OnProcessExit\nfrom launch.events import Shutdown\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def on_exit({}):\n    return [EmitEvent(event=Shutdown())]\n\n\n"
+    "def generate_launch_description():\n"
+    "    node = Node(package='talker', executable='node')\n"
+    "    handler = OnProcessExit(target_action=node, on_exit={})\n"
+    "    return LaunchDescription([node, RegisterEventHandler(handler)])\n"
+)
 
-    **Why.** ``ros2 launch`` stops: ``set_up() takes 0 positional arguments but 1 was given``,
-    ``missing 1 required positional argument``; ``'list' object is not callable`` for a function
-    that is called where it should be passed, ``'Node' object is not iterable`` for one action.
 
-    **Fix.** ``function=set_up`` with ``def set_up(context, ...)``, and ``args=[...]`` and
-    ``kwargs={...}`` for the rest; ``return [node]``.
+class LaunchFunctionUnfit(LaunchRule):
+    """The function of an OpaqueFunction or event handler takes other arguments, or returns no list.
 
-    **Source.** ``launch/actions/opaque_function.py``.
+    **Why.** ``ros2 launch`` stops when it calls it: ``set_up() takes 0 positional arguments but 1
+    was given``, ``missing 1 required positional argument``; ``'list' object is not callable`` for a
+    function that is called where it should be passed, ``'Node' object is not iterable`` for one
+    action.
+
+    **Fix.** ``function=set_up`` with ``def set_up(context, ...)``, ``args=[...]`` and
+    ``kwargs={...}`` for the rest; ``return [node]``. Event handlers give event and context,
+    ``OnProcessIO`` the event alone.
+
+    **Source.** ``launch/actions/opaque_function.py``;
+    ``launch/event_handlers/on_action_event_base.py``.
     """
 
     code = "LF057"
-    name = "opaque-function-misfit"
+    name = "launch-function-unfit"
     examples = (
         Example(
             "context, and what is given besides",
@@ -84,9 +101,32 @@ class OpaqueFunctionMisfit(LaunchRule):
             {"launch/a.launch.py": _RETURNS.format("LaunchDescription([node])")},
             Report("8:5", "set_up returns one LaunchDescription, not a list: TypeError"),
         ),
+        Example(
+            "an event handler of event and context",
+            {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit")},
+        ),
+        Example(
+            "an event handler that takes nothing",
+            {"launch/a.launch.py": _LAUNCH_HANDLERS.format("", "on_exit")},
+            Report("14:57", "launch calls on_exit with event and context: TypeError"),
+        ),
+        Example(
+            "a lambda that takes nothing",
+            {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "lambda: []")},
+            Report("14:57", "launch calls this with event and context: TypeError"),
+        ),
+        Example(
+            "an event handler that is called",
+            {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit()")},
+            Report("14:57", "on_exit() is called here: pass the function itself"),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        yield from self._check_opaque(launch)
+        yield from self._check_handlers(launch)
+
+    def _check_opaque(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.find("OpaqueFunction"):
             given = call.given.get("function") or next(iter(call.call.args), None)
             if given is None:
@@ -112,6 +152,15 @@ class OpaqueFunctionMisfit(LaunchRule):
                 if made is not None and made.kind in {*ACTIONS, "LaunchDescription"}:
                     message = f"{function.name} returns one {made.kind}, not a list: TypeError"
                     yield self.report(launch.location(statement), message)
+
+    def _check_handlers(self, launch: LaunchFile) -> Iterator[Diagnostic]:
+        for call in launch.find(*HANDLERS):
+            for name, node in call.given.items():
+                is_called = name in (*CALLBACKS, *_OUTPUTS)
+                count = 1 if name in _OUTPUTS else 2
+                problem = _callback_problem(launch, node, count) if is_called else ""
+                if problem:
+                    yield self.report(launch.location(node), problem)
 
 
 def _problem(call: LaunchCall, arguments: ast.arguments) -> str:
@@ -146,3 +195,27 @@ def _is_call_of_own(launch: LaunchFile, node: ast.expr) -> bool:
         case ast.Call(func=ast.Name(id=name), args=[]):
             return name in launch.module.functions
     return False
+
+
+def _callback_problem(launch: LaunchFile, node: ast.expr, count: int) -> str:
+    """Return what is wrong about a function that launch calls with so many arguments."""
+    given = "the event" if count == 1 else "event and context"
+    if isinstance(node, ast.Lambda):
+        return "" if _takes(node.args, count) else f"launch calls this with {given}: TypeError"
+    called = isinstance(node, ast.Call) and not (node.args or node.keywords)
+    function = function_of(launch, node.func if called and isinstance(node, ast.Call) else node)
+    if function is None or function.decorator_list:
+        return ""
+    if called and not _takes(function.args, 0):
+        return f"{function.name}() is called here: pass the function itself"
+    if not called and not _takes(function.args, count):
+        return f"launch calls {function.name} with {given}: TypeError"
+    return ""
+
+
+def _takes(arguments: ast.arguments, count: int) -> bool:
+    """Tell whether a function can be called with so many arguments without names."""
+    most = len(arguments.posonlyargs) + len(arguments.args)
+    least = most - len(arguments.defaults)
+    needed = sum(default is None for default in arguments.kw_defaults)
+    return not needed and least <= count and (count <= most or arguments.vararg is not None)
