@@ -406,7 +406,7 @@ def test_only_what_depends_on_a_change_is_checked_again(runs: Runs, workspace: P
 
 def test_a_change_in_another_package_is_seen(runs: Runs, workspace: Path) -> None:
     write_launch(workspace)
-    assert "LF003" not in runs.settle(".")
+    assert "LF002" not in runs.settle(".")
     new_executable(workspace / "called")
     reported = runs(".")
     assert sorted(runs.checked) == ["called", "caller"]

@@ -1,0 +1,179 @@
+"""TS049: tests of nodes initialize rclpy, and spin the node whose messages they wait for."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api.python import PythonModule
+from scaffold.api.tests import (
+    TestFunction,
+    arguments,
+    constructed_class,
+    node_tests,
+    test_functions,
+)
+
+_TEST = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "def test_node():\n    {}\n    node = Node('node')\n    got = []\n"
+    "    node.create_subscription(String, 'text', got.append, 10)\n    {}\n    assert got\n"
+)
+_TEST_SPIN = (
+    "import time\n\nimport rclpy\nfrom std_msgs.msg import String\n\n\n"
+    "def test_talker():\n"
+    "    rclpy.init()\n"
+    "    node = rclpy.create_node('test')\n"
+    "    received = []\n"
+    "    node.create_subscription(String, 'chatter', received.append, 10)\n"
+    "    {}\n"
+    "    assert received\n"
+)
+_WORDS = ("spin", "launch_testing", "Executor")
+
+
+class NodeTestMisused(Rule):
+    """A test makes a node without rclpy.init(), or waits for messages without spinning.
+
+    **Why.** ``NotInitializedException: rclpy.init() has not been called``; ``Context.init() must
+    only be called once`` in the second test. Callbacks run while somebody spins: nothing is ever
+    received, and the assertion fails.
+
+    **Fix.** A fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; ``spin_once`` with
+    ``timeout_sec=0.1`` in a loop until it has arrived or a limit of time is over.
+
+    **Source.** rclpy, ``context.py``, ``node.py``, ``executors.py``; ROS 2 documentation,
+    "Executors".
+    """
+
+    code = "TS049"
+    name = "node-test-misused"
+    examples = (
+        Example(
+            "right",
+            {
+                "test/test_node.py": _TEST.format(
+                    "rclpy.init()", "rclpy.spin_once(node, timeout_sec=1.0)"
+                )
+            },
+        ),
+        Example(
+            "no init, nothing spins",
+            {"test/test_node.py": _TEST.format("pass", "pass")},
+            Report(
+                "8:12",
+                "nothing calls rclpy.init() before this node is made: NotInitializedException",
+            ),
+            Report("10:5", "nothing spins in this test, so the callback is never called"),
+        ),
+        Example(
+            "initialized again",
+            {
+                "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
+                "def test_two():\n    rclpy.init()\n"
+            },
+            Report("9:5", "the test in line 5 calls init() as well, but nothing calls shutdown()"),
+        ),
+        Example(
+            "spun until it has arrived",
+            {"test/test_a.py": _TEST_SPIN.format("rclpy.spin_once(node, timeout_sec=1.0)")},
+        ),
+        Example(
+            "slept until it has arrived",
+            {"test/test_a.py": _TEST_SPIN.format("time.sleep(0.5)")},
+            Report("11:5", "nothing spins in this test, so the callback is never called"),
+            Report(
+                "12:5",
+                "nothing spins the node while the test sleeps: no callback runs, "
+                "and line 13 fails; call rclpy.spin_once() in a loop instead",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_init(package)
+        yield from self._check_spin(package)
+
+    def _check_init(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            seen: list[ast.Call] = []
+            for test in test_functions(module):
+                for node in ast.walk(test.node):
+                    if isinstance(node, ast.Call):
+                        problem = _problem(module, test, node, texts, seen)
+                        if problem:
+                            yield self.report(module.location(node), problem)
+
+    def _check_spin(self, package: Package) -> Iterator[Diagnostic]:
+        for module, texts in node_tests(package):
+            if any(word in texts for word in _WORDS) or module.mentions(*_WORDS):
+                continue
+            for test in test_functions(module):
+                sleeps = [call for call in _calls(test.node) if _is_sleep(module, call)]
+                filled = {name for call in _calls(test.node) for name in _filled(call)}
+                for node in ast.walk(test.node):
+                    if not isinstance(node, ast.Assert) or not sleeps:
+                        continue
+                    names = {item.id for item in ast.walk(node) if isinstance(item, ast.Name)}
+                    if names & filled and sleeps[0].lineno < node.lineno:
+                        message = (
+                            "nothing spins the node while the test sleeps: no callback runs, and "
+                            f"line {node.lineno} fails; call rclpy.spin_once() in a loop instead"
+                        )
+                        yield self.report(module.location(sleeps[0]), message)
+                        break
+
+
+def _problem(
+    module: PythonModule, test: TestFunction, call: ast.Call, texts: str, inits: list[ast.Call]
+) -> str:
+    name = module.qualified_name(call.func) or ""
+    own = test.class_ is None and set(arguments(test.node)) <= {"monkeypatch", "capsys", "tmp_path"}
+    if name == "rclpy.init" and own and "shutdown" not in texts and not call.keywords:
+        inits.append(call)
+        if len(inits) > 1:
+            line = module.location(inits[0]).line
+            return f"the test in line {line} calls init() as well, but nothing calls shutdown()"
+    elif name in {"rclpy.node.Node", "rclpy.create_node"} and own and "init" not in texts:
+        words = {word.arg for word in call.keywords}
+        if words.isdisjoint({"context", None}):
+            return "nothing calls rclpy.init() before this node is made: NotInitializedException"
+    elif isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
+        is_node = own and _is_made_here(module, call.func.value)
+        if is_node and "spin" not in texts and _is_awaited(test, call):
+            return "nothing spins in this test, so the callback is never called"
+    return ""
+
+
+def _is_awaited(test: TestFunction, call: ast.Call) -> bool:
+    """Tell whether the callback collects messages that the test asserts to be there."""
+    match call.args:
+        case [_, _, ast.Attribute(value=ast.Name(id=name), attr="append"), *_]:
+            wanted = (item.test for item in ast.walk(test.node) if isinstance(item, ast.Assert))
+            return any(isinstance(item, ast.Name) and item.id == name for item in wanted)
+    return False
+
+
+def _is_made_here(module: PythonModule, node: ast.expr) -> bool:
+    """Tell whether a name refers to a plain node that is created in the file."""
+    return constructed_class(module, node) in {"rclpy.node.Node", "rclpy.create_node"}
+
+
+def _calls(function: ast.AST) -> Iterator[ast.Call]:
+    return (node for node in ast.walk(function) if isinstance(node, ast.Call))
+
+
+def _is_sleep(module: PythonModule, call: ast.Call) -> bool:
+    return module.qualified_name(call.func) == "time.sleep"
+
+
+def _filled(call: ast.Call) -> Iterator[str]:
+    """Yield the lists that a subscription appends to."""
+    if isinstance(call.func, ast.Attribute) and call.func.attr == "create_subscription":
+        for node in (*call.args, *(word.value for word in call.keywords)):
+            match node:
+                case ast.Attribute(value=ast.Name(id=name), attr="append"):
+                    yield name
+                case ast.Lambda(body=body):
+                    yield from (item.id for item in ast.walk(body) if isinstance(item, ast.Name))
