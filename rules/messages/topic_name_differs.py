@@ -1,0 +1,239 @@
+"""MS021: both ends of a topic, a service or an action have the same name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints, one_sided
+
+_SHORTEST = 5
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_{}\n"
+)
+_NODE_SERVICES = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_service(Trigger, 'report', self.on_report)\n\n"
+    "    def on_report(self, request, response):\n        return response\n\n\n"
+    "class Caller(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('caller')\n"
+    "        self.client = self.create_client(Trigger, '{}')\n"
+)
+_SIMILAR = 0.75
+"""What the names of an action have in common: few packages serve two of a type."""
+_ALIKE = 4
+"""Length that a name needs before a different letter counts as a typo."""
+
+
+class TopicNameDiffers(Rule):
+    """One end of a topic, service or action differs from the other by a letter or a ``~/``.
+
+    **Why.** Nothing arrives, the client waits forever, and there is no error; ``~`` expands to the
+    name of the node. Only names of the same type that have no other end in the package are
+    reported.
+
+    **Fix.** Spell both the same way, preferably with one constant; leave out ``~/``, or write the
+    name of the node, ``talker/chatter``.
+
+    **Source.** ROS 2 documentation, "Understanding topics", "Understanding services"; ROS 2 design,
+    "Topic and Service name mapping to DDS", private names.
+    """
+
+    code = "MS021"
+    name = "topic-name-differs"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "the same name of a topic",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+        ),
+        Example(
+            "a topic with a missing letter",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
+            },
+            Report("b.py:8:42", "no publisher for 'chater'; did you mean 'chatter' (a.py:8)?"),
+        ),
+        Example(
+            "private to the node that publishes it",
+            {
+                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+            },
+            Report(
+                "b.py:8:42",
+                "no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ "
+                "expands to the node name",
+            ),
+        ),
+        Example(
+            "private, and remapped by a launch file",
+            {
+                "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "launch/talk.launch.py": "from launch_ros.actions import Node\n\n"
+                "LISTENER = Node(package='talk', executable='b',\n"
+                "                remappings=[('chatter', 'a/chatter')])\n",
+            },
+        ),
+        Example(
+            "private to the node that subscribes",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
+                "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
+            },
+            Report(
+                "b.py:8:42",
+                "no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ "
+                "expands to the node name",
+            ),
+        ),
+        Example("the same name of a service", {"nodes.py": _NODE_SERVICES.format("report")}),
+        Example(
+            "a typo in a service",
+            {"nodes.py": _NODE_SERVICES.format("reports")},
+            Report("17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"),
+        ),
+        Example(
+            "a typo in an action",
+            {
+                "server.py": "from nav2_msgs.action import Spin\n"
+                "from rclpy.action import ActionServer\n\n\n"
+                "def serve(node):\n    return ActionServer(node, Spin, 'rotate_base', print)\n",
+                "client.py": "from nav2_msgs.action import Spin\n"
+                "from rclpy.action import ActionClient\n\n\n"
+                "def ask(node):\n    return ActionClient(node, Spin, 'rotate_the_base')\n",
+            },
+            Report(
+                "client.py:6:37",
+                "no service 'rotate_the_base'; did you mean 'rotate_base' (server.py:6)?",
+            ),
+        ),
+        Example(
+            "a service that is private on one side",
+            {"nodes.py": _NODE_SERVICES.format("~/report")},
+            Report(
+                "17:51",
+                "no service '~/report'; did you mean 'report' (nodes.py:8)? ~ "
+                "expands to the node name",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_topics(package)
+        yield from self._check_private(package)
+        yield from self._check_services(package)
+
+    def _check_topics(self, package: Package) -> Iterator[Diagnostic]:
+        sent, awaited = one_sided(package)
+        for topic in awaited:
+            for other in sent:
+                here, there = topic.subscriptions[0], other.publishers[0]
+                if topic.is_plain and other.is_plain and _is_slip(here, there):
+                    place = f"{there.location.path}:{there.location.line}"
+                    message = (
+                        f"no publisher for {here.name!r}; did you mean {there.name!r} ({place})?"
+                    )
+                    yield self.report(here.name_location, message)
+                    break
+
+    def _check_private(self, package: Package) -> Iterator[Diagnostic]:
+        sent, awaited = one_sided(package)
+        for private in named_endpoints(package):
+            is_sent = private.kind == "Publisher"
+            if not is_sent and private.kind != "Subscription":
+                continue
+            if not is_private(private) or is_remapped(package, private):
+                continue
+            for topic in awaited if is_sent else sent:
+                other = topic.subscriptions[0] if is_sent else topic.publishers[0]
+                is_same = topic.is_plain and _is_same_but_private(other, private)
+                if is_same and not is_remapped(package, other):
+                    here, there = (other, private) if is_sent else (private, other)
+                    place = f"{there.location.path}:{there.location.line}"
+                    message = (
+                        f"no publisher for {here.name!r}: {place} publishes {there.name!r}, "
+                        "and ~ expands to the node name"
+                    )
+                    yield self.report(here.name_location, message)
+                    break
+
+    def _check_services(self, package: Package) -> Iterator[Diagnostic]:
+        endpoints = list(named_endpoints(package))
+        offered = [x for x in endpoints if x.kind in {"Service", "ActionServer"}]
+        wanted = [x for x in endpoints if x.kind in {"Client", "ActionClient"}]
+        served = {item.name for item in offered}
+        clients = {item.name for item in wanted}
+        for client in wanted:
+            for service in offered if client.name not in served else ():
+                # A service with a client of its own is not a misspelling of another.
+                if service.name not in clients and _is_slip_services(client, service):
+                    if any(is_private(x) and is_remapped(package, x) for x in (client, service)):
+                        continue
+                    place = f"{service.location.path}:{service.location.line}"
+                    message = (
+                        f"no service {client.name!r}; did you mean {service.name!r} ({place})?"
+                    )
+                    if "~" in f"{client.name}{service.name}":
+                        message += " ~ expands to the node name"
+                    yield self.report(client.name_location, message)
+                    break
+
+
+def _is_slip(here: NamedEndpoint, there: NamedEndpoint) -> bool:
+    """Return whether two names of the same type differ by one letter or in case."""
+    name, other = here.name.strip("/"), there.name.strip("/")
+    if here.interface is None or here.interface != there.interface or name == other:
+        return False
+    if name.lower() == other.lower():
+        return True
+    short, long = sorted((name, other), key=len)
+    if len(short) < _SHORTEST or len(long) - len(short) > 1 or any(map(str.isdigit, name + other)):
+        return False
+    same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
+    rest = same if len(long) > len(short) else same + 1
+    return short[rest:] == long[same + 1 :]
+
+
+def _is_same_but_private(here: NamedEndpoint, there: NamedEndpoint) -> bool:
+    """Return whether two names of the same type differ only by a ``~/`` before the second."""
+    if here.interface is None or here.interface != there.interface:
+        return False
+    return here.name.strip("/") == there.name.removeprefix("~/")
+
+
+def _is_slip_services(client: NamedEndpoint, service: NamedEndpoint) -> bool:
+    """Return whether two names of the same type differ by one letter.
+
+    Or only by ``~/``, which makes a name private.
+    """
+    name, other = client.name, service.name
+    if client.interface is None or client.interface != service.interface:
+        return False
+    if name.startswith("~") is not other.startswith("~"):
+        return name.removeprefix("~").strip("/") == other.removeprefix("~").strip("/")
+    short, long = sorted((name, other), key=len)
+    is_short = len(short) < _ALIKE or short.strip("/") == long.strip("/")
+    if is_short or any(map(str.isdigit, name + other)):
+        return False
+    if client.kind == "ActionClient" and client.location.path != service.location.path:
+        return SequenceMatcher(None, short, long).ratio() >= _SIMILAR
+    if len(long) - len(short) > 1:
+        return False
+    same = next((i for i, letter in enumerate(short) if letter != long[i]), len(short))
+    rest = same if len(long) > len(short) else same + 1
+    return short[rest:] == long[same + 1 :]

@@ -1,0 +1,221 @@
+"""ND055: functions of rclpy get values of usable types, in the order that they expect."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.python import UNKNOWN, kind_of
+from scaffold.api.rclpy import (
+    Argument,
+    Client,
+    Endpoint,
+    Entity,
+    Parameter,
+    RclpyFile,
+    Service,
+    Timer,
+)
+
+_TYPES = ("msg_type", "srv_type", "action_type")
+_NAMES = ("topic", "srv_name", "action_name")
+_CALLBACKS = ("callback", "execute_callback")
+_NODE = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher({}, 'chatter', 10)\n"
+    "        self.create_timer(0.1, {})\n"
+    "        self.declare_parameter('gains', {})\n\n"
+    "    def tick(self):\n        pass\n"
+)
+_HELPER = {
+    "talker/__init__.py": "",
+    "talker/base.py": "class Helper:\n    def create_client(self, kind, name):\n        pass\n",
+    "talker/pull.py": "import rclpy\nfrom std_srvs.srv import Trigger\n\n"
+    "from .base import Helper\n\n\n"
+    "class Pull(Helper):\n    def client(self) -> rclpy.node.Client:\n"
+    "        return self.create_client(Trigger, ('mission', 'pull'))\n",
+}
+_ASKER = (
+    "from rclpy.callback_groups import MutuallyExclusiveCallbackGroup\n"
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n"
+    "from std_srvs.srv import Trigger\n\n\n"
+    "class Asker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('asker')\n"
+    "        self.create_client({}, {}, callback_group={})\n"
+)
+_CLIENT = "        self.create_client({}, {}, callback_group={})\n"
+_NODE_ORDER = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_publisher({}, 10)\n"
+    "        self.create_timer({})\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class ArgumentUnusable(RclpyRule):
+    """A function of rclpy gets a value of a type that it cannot use, or its first two swapped.
+
+    **Why.** ``TypeError: 'str' object is not callable`` and the like, at start or at the first
+    call. ``create_timer`` takes the period first, ``create_publisher`` and the like the type.
+
+    **Fix.** Pass what the parameter expects: a class for a type, a str for a name, a function for a
+    callback; swap what is swapped.
+
+    **Source.** ``rclpy/node.py``, ``rclpy/parameter.py``.
+    """
+
+    code = "ND055"
+    name = "argument-unusable"
+    examples = (
+        Example("usable", {"talker.py": _NODE.format("String", "self.tick", "[1.0, 2.0]")}),
+        Example("a method of the same name", _HELPER),
+        Example(
+            "an object, a str, mixed types",
+            {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
+            Report("8:31", "this is an instance, not the message type; remove the parentheses"),
+            Report("9:32", "the callback must be a function, but this is a str: TypeError"),
+            Report("10:41", "a list parameter cannot mix float, int: TypeError"),
+        ),
+        Example(
+            "a dictionary",
+            {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
+            Report(
+                "10:41",
+                "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
+            ),
+        ),
+        Example(
+            "a name, a callback group, a service type",
+            {
+                "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
+                + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
+            },
+            Report("10:28", "this is only a part of a service: RuntimeError; pass Trigger"),
+            Report(
+                "10:70",
+                "the callback group must be a CallbackGroup, but this is a str: AttributeError",
+            ),
+            Report("11:28", "'String' is not a service type: RuntimeError"),
+            Report("11:36", "the name must be a str, but this is an int: TypeError"),
+            Report("11:54", "this is a class, not a callback group; instantiate it"),
+        ),
+        Example(
+            "period and type in order",
+            {"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
+        ),
+        Example(
+            "swapped",
+            {"talker.py": _NODE_ORDER.format("'chatter', String", "self.tick, 0.5")},
+            Report(
+                "8:31",
+                "swapped arguments: the type comes first, then the name 'chatter'",
+                fix="swap the arguments",
+            ),
+            Report(
+                "9:27",
+                "swapped arguments: create_timer() takes the period first, then the callback",
+                fix="swap the arguments",
+            ),
+            fixed={"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_types(file)
+        yield from self._check_order(file)
+
+    def _check_types(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.entities:
+            for argument in entity.arguments.values():
+                problem = _problem(file, entity, argument)
+                if problem:
+                    yield self.report(argument, problem)
+
+    def _check_order(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for entity in file.entities:
+            wanted = self._wanted(file, entity)
+            if wanted:
+                first, second = entity.call.args[:2]
+                path = file.module.path
+                edits = (
+                    Edit(path, *file.module.span(first), file.module.text(second)),
+                    Edit(path, *file.module.span(second), file.module.text(first)),
+                )
+                at = file.module.location(first)
+                yield self.report(at, wanted, Fix("swap the arguments", edits))
+
+    def _wanted(self, file: RclpyFile, entity: Entity) -> str | None:
+        """Return the message if the first two arguments are certainly swapped."""
+        if len(entity.call.args) < 2:  # noqa: PLR2004  the two that may be swapped
+            return None
+        first, second = entity.call.args[:2]
+        evaluate = file.evaluator.evaluate
+        if isinstance(entity, Timer):
+            is_callable = isinstance(first, ast.Lambda | ast.Attribute) and not isinstance(
+                evaluate(first), int | float
+            )
+            if is_callable and isinstance(evaluate(second), int | float):
+                return "swapped arguments: create_timer() takes the period first, then the callback"
+        elif (
+            isinstance(entity, Endpoint)
+            and isinstance(evaluate(first), str)
+            and file.interface(second) is not None
+        ):
+            return f"swapped arguments: the type comes first, then the name {evaluate(first)!r}"
+        return None
+
+
+def _problem(file: RclpyFile, entity: Entity, argument: Argument) -> str:
+    name, node, value = argument.name, argument.node, argument.value
+    problem = ""
+    if isinstance(entity, Parameter):
+        return _default_problem(value) if name == "value" else ""
+    if isinstance(entity, Endpoint) and name in _TYPES and isinstance(node, ast.Call):
+        is_made = file.interface(node.func) is not None
+        problem = (
+            "this is an instance, not the message type; remove the parentheses" if is_made else ""
+        )
+    elif isinstance(entity, Service | Client) and name == "srv_type":
+        problem = _service_problem(file, node)
+    elif name in _NAMES and value is not UNKNOWN and not isinstance(value, str):
+        problem = f"the name must be a str, but this is {kind_of(value)}: TypeError"
+    elif name in _CALLBACKS and isinstance(value, str):
+        problem = f"the callback must be a function, but this is {kind_of(value)}: TypeError"
+    elif name == "callback_group" and isinstance(value, str):
+        problem = "the callback group must be a CallbackGroup, but this is a str: AttributeError"
+    elif name == "callback_group":
+        full = file.module.qualified_name(node) or ""
+        is_class = full.startswith("rclpy.callback_groups.")
+        problem = "this is a class, not a callback group; instantiate it" if is_class else ""
+    return problem
+
+
+def _service_problem(file: RclpyFile, node: ast.expr) -> str:
+    """Return the message for a type that is not a service."""
+    full = file.module.qualified_name(node) or ""
+    if re.fullmatch(r"\w+\.srv\.\w+\.(Request|Response)", full):
+        return f"this is only a part of a service: RuntimeError; pass {full.split('.')[2]}"
+    if re.fullmatch(r"\w+\.(msg|action)\.[A-Z][A-Za-z0-9]*", full):
+        return f"{full.rpartition('.')[2]!r} is not a service type: RuntimeError"
+    return ""
+
+
+def _default_problem(value: object) -> str:
+    if isinstance(value, dict):
+        return "a parameter cannot hold a dict: TypeError; declare a parameter for each key"
+    if isinstance(value, list | tuple) and UNKNOWN not in value:
+        kinds = {type(item) for item in value}
+        if len(kinds) > 1 or kinds & {list, dict, tuple}:
+            names = ", ".join(sorted(kind.__name__ for kind in kinds))
+            return f"a list parameter cannot mix {names}: TypeError"
+    return ""

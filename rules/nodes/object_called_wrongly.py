@@ -1,0 +1,139 @@
+"""ND061: services, properties and callbacks are not called."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api.rclpy import RclpyFile, class_of, has, is_method
+
+_WHOLE = r"(?!rclpy\.)\w+\.(srv|action)\.[A-Z][A-Za-z0-9]*"
+_VALUES = frozenset(
+    {"accepted", "goal_id", "is_active", "is_cancel_requested", "nanoseconds", "request", "status"}
+)
+_NODE = (
+    "from rclpy.node import Node\n"
+    "from std_msgs.msg import String\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.pub = self.create_publisher(String, 'a', 10)\n"
+    "        self.client = self.create_client(Trigger, 'b')\n"
+    "        self.start = self.get_clock().now()\n"
+    "        self.client.call_async({}).add_done_callback({})\n\n"
+    "    def done(self, future):\n"
+    "        self.pub.publish(String())\n"
+)
+_RIGHT = ("Trigger.Request()", "self.done")
+_NODE_CALLBACKS = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, {})\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class ObjectCalledWrongly(RclpyRule):
+    """A service or a property is called, or a callback that should be passed.
+
+    **Why.** A callback runs once, immediately, and its result, ``None``, becomes the callback:
+    ``TypeError: 'NoneType' object is not callable``. ``NotImplementedError: Service classes can not
+    be instantiated``, ``TypeError: 'int' object is not callable``.
+
+    **Fix.** ``Trigger.Request()``, ``add_done_callback(self.done)``, no parentheses.
+
+    **Source.** ``rclpy/node.py``, ``create_timer`` and ``create_subscription``; ``rclpy/task.py``;
+    rosidl_generator_py.
+    """
+
+    code = "ND061"
+    name = "object-called-wrongly"
+    examples = (
+        Example("the right calls", {"talker.py": _NODE.format(*_RIGHT)}),
+        Example(
+            "a callback, a service",
+            {"talker.py": _NODE.format("Trigger()", "self.done()")},
+            Report("12:9", "done() is called here; pass the function itself, without ()"),
+            Report(
+                "12:32",
+                "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
+            ),
+        ),
+        Example(
+            "a class of a module named action",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "talker/action.py": "class Step:\n    pass\n",
+                "talker/node.py": "import rclpy\nfrom talker.action import Step\n\nSTEP = Step()\n",
+            },
+        ),
+        Example(
+            "a property",
+            {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
+            Report("11:22", "'nanoseconds' is a property, not a method: TypeError; remove the ()"),
+        ),
+        Example("a callback passed", {"talker.py": _NODE_CALLBACKS.format("self.tick")}),
+        Example(
+            "a callback of a timer or topic called",
+            {"talker.py": _NODE_CALLBACKS.format("self.tick()")},
+            Report(
+                "7:32",
+                "self.tick() is called here: its return value becomes the callback",
+                fix="remove the parentheses",
+            ),
+            fixed={"talker.py": _NODE_CALLBACKS.format("self.tick")},
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_objects(file)
+        yield from self._check_callbacks(file)
+
+    def _check_objects(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            problem = _problem(file, call)
+            if problem:
+                yield self.report(file.module.location(call), problem)
+
+    def _check_callbacks(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for _, callback in file.callbacks:
+            if not callback.is_called:
+                continue
+            text = file.module.text(callback.node)
+            fix = None
+            if text.endswith("()"):
+                _, end = file.module.span(callback.node)
+                edit = Edit(file.module.path, end - 2, end, "")
+                fix = Fix("remove the parentheses", (edit,))
+            message = f"{text} is called here: its return value becomes the callback"
+            yield self.report(callback, message, fix)
+
+
+def _problem(file: RclpyFile, call: ast.Call) -> str:
+    name = file.module.qualified_name(call.func) or ""
+    problem = ""
+    if re.fullmatch(_WHOLE, name) and file.interface(call.func):
+        part = "Goal" if ".action." in name else "Request"
+        kind = name.rpartition(".")[2]
+        problem = f"{kind} cannot be instantiated: NotImplementedError; write {kind}.{part}()"
+    elif isinstance(call.func, ast.Attribute) and not name and _is_value(file, call.func):
+        problem = f"{call.func.attr!r} is a property, not a method: TypeError; remove the ()"
+    match call:
+        case ast.Call(func=ast.Attribute(attr="add_done_callback"), args=[ast.Call() as given]):
+            callback = file.callback(given)
+            if callback.is_called and not callback.is_partial:
+                problem = f"{callback.name}() is called here; pass the function itself, without ()"
+    return problem
+
+
+def _is_value(file: RclpyFile, node: ast.Attribute) -> bool:
+    """Return whether an attribute of an rclpy object is a property."""
+    if node.attr not in _VALUES:
+        return False
+    owner = class_of(file, node.value)
+    return owner is not None and has(owner, node.attr) and not is_method(owner, node.attr)
