@@ -1,4 +1,4 @@
-"""PX025: a dependency is declared once."""
+"""PX025: a dependency or a group is declared once."""
 
 from __future__ import annotations
 
@@ -7,18 +7,24 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule, Severity
 
 COVERED = ("build_depend", "build_export_depend", "exec_depend")
+_MANIFEST = (
+    '<package format="3">\n  <group_depend>drivers</group_depend>\n'
+    "  <member_of_group>{}</member_of_group>\n</package>\n"
+)
 
 
 class DependencyRedundant(Rule):
-    """``<depend>`` and a narrower tag name the same package, or a tag names it twice.
+    """Two tags name the same package, or a package depends on a group that it is a member of.
 
     **Why.** catkin_pkg, and with it colcon, refuses the manifest: ``The generic dependency on
-    'std_msgs' is redundant with: exec_depend``. So it is with two ``<depend>``; another tag twice
-    is a line too many and nothing worse: a warning.
+    'std_msgs' is redundant with: exec_depend``. So it is with two ``<depend>``, and with a group,
+    where the package would need itself; another tag twice is a line too many and nothing worse: a
+    warning.
 
-    **Fix.** Keep ``<depend>``, which covers building and running, and drop the other.
+    **Fix.** Keep ``<depend>``, which covers building and running, and drop the other; remove one of
+    the two for a group.
 
-    **Source.** REP-149, ``<depend>``; ``catkin_pkg/package.py``.
+    **Source.** REP-149, ``<depend>``, ``<group_depend>``; ``catkin_pkg/package.py``.
     """
 
     code = "PX025"
@@ -70,9 +76,19 @@ class DependencyRedundant(Rule):
                 "  <exec_depend>std_msgs</exec_depend>\n</package>\n"
             },
         ),
+        Example("another group than its own", {"package.xml": _MANIFEST.format("tools")}),
+        Example(
+            "the group that it is a member of",
+            {"package.xml": _MANIFEST.format("drivers")},
+            Report("3:3", "member of the group 'drivers', which line 2 depends on"),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_tags(package)
+        yield from self._check_groups(package)
+
+    def _check_tags(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         generic = manifest.depends("depend")
         seen: dict[tuple[str, str, str | None], int] = {}
@@ -96,3 +112,13 @@ class DependencyRedundant(Rule):
             is_refused = kind == "depend" or other is not None
             severity = Severity.ERROR if is_refused else Severity.WARNING
             yield self.report(dependency, message, fix, severity=severity)
+
+    def _check_groups(self, package: Package) -> Iterator[Diagnostic]:
+        manifest = package.manifest
+        needed = {element.text: element for element in manifest.all("group_depend")}
+        for element in manifest.all("member_of_group"):
+            other = needed.get(element.text)
+            if other is not None:
+                line = other.location.line
+                message = f"member of the group {element.text!r}, which line {line} depends on"
+                yield self.report(element, message)

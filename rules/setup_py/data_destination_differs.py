@@ -87,7 +87,7 @@ class DataDestinationDiffers(Rule):
         if package.build_type != "ament_python" or not package.manifest.name:
             return
         if setup.name != package.name and setup.name is not None:
-            return  # SP009 reports it, or it is unknown
+            return  # SP008 reports it, or it is unknown
         share = f"share/{package.name}"
         copied = {
             source

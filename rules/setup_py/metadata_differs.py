@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
-from scaffold.api.manifest import Manifest, is_placeholder, is_placeholder_address, spdx_of
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, Severity
+from scaffold.api.manifest import (
+    Manifest,
+    is_placeholder,
+    is_placeholder_address,
+    name_used_elsewhere,
+    spdx_of,
+)
+from scaffold.api.setup_py import setup_edit
 
 _MANIFEST = (
     '<package format="3">\n'
@@ -27,24 +34,31 @@ _SETUP = (
     "    license='{}',\n"
     ")\n"
 )
+_LONGEST = 40
+"""Characters of a text in a message: it is for one line."""
+_CONTEXT = 15
+"""Characters before the first difference, where the beginnings are the same."""
+_MANIFEST_NAME = '<package format="3"><name>talker</name></package>\n'
 
 
 class MetadataDiffers(Rule):
-    """Version, maintainer, description or license differ between setup.py and package.xml.
+    """Name, version, maintainer, description or license differ between setup.py and package.xml.
 
-    **Why.** ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things;
+    **Why.** With two names, executables land below the one and ``ros2 run`` looks below the other.
+    Of the rest, ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things, and
     ``catkin_prepare_release`` stops at two versions.
 
-    **Fix.** Write the same in both, or read package.xml in setup.py. No automatic fix: only
-    the author knows which one is right.
+    **Fix.** Write the same in both, or read package.xml in setup.py; the name is also that in
+    setup.cfg and ``resource/``. No automatic fix: only the author knows which one is right.
 
     **Source.** ROS 2 documentation, "Writing a simple publisher and subscriber (Python)": "match
-    exactly"; ``catkin_pkg/package_version.py``.
+    exactly"; ``colcon_ros/task/ament_python/build.py``; ``catkin_pkg/package_version.py``.
     """
 
     code = "SP008"
     name = "metadata-differs"
     severity = Severity.WARNING
+    other_severities = {Severity.ERROR: "it is the name"}
     examples = (
         Example(
             "the same", {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.2.0", "Apache-2.0")}
@@ -71,9 +85,70 @@ class MetadataDiffers(Rule):
                 "second.' in package.xml, line 4",
             ),
         ),
+        Example(
+            "one name",
+            {
+                "package.xml": _MANIFEST_NAME,
+                "setup.py": "from setuptools import setup\n\nsetup(name='talker')\n",
+            },
+        ),
+        Example(
+            "a name left over in a package that CMake builds",
+            {
+                "package.xml": _MANIFEST_NAME.replace(
+                    "</package>", "<export><build_type>ament_cmake</build_type></export></package>"
+                ),
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+                "ament_package()\n",
+                "setup.py": "from setuptools import setup\n\nsetup(version='0.1.0')\n",
+            },
+        ),
+        Example(
+            "the name of the package that it was copied from",
+            {
+                "package.xml": _MANIFEST_NAME,
+                "setup.py": "from setuptools import setup\n\nsetup(name='listener')\n",
+            },
+            Report(
+                "setup.py:3:12",
+                "the name is 'listener', but 'talker' in package.xml, line 1",
+                unsafe_fix="write talker",
+                severity=Severity.ERROR,
+            ),
+            fixed={"setup.py": "from setuptools import setup\n\nsetup(name='talker')\n"},
+        ),
+        Example(
+            "a comma too many after the name",
+            {
+                "package.xml": _MANIFEST_NAME,
+                "setup.py": "from setuptools import setup\n\npackage_name = 'talker',\n\n"
+                "setup(name=package_name)\n",
+            },
+            Report(
+                "setup.py:5:12",
+                "the name is a tuple, not a str: the build stops; remove the comma after it",
+                severity=Severity.ERROR,
+            ),
+        ),
+        Example(
+            "no name",
+            {
+                "package.xml": _MANIFEST_NAME,
+                "setup.py": "from setuptools import setup\n\nsetup(version='0.1.0')\n",
+            },
+            Report(
+                "setup.py:3:1",
+                "setup() has no name: nothing is installed as 'talker'; add name='talker'",
+                severity=Severity.ERROR,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_rest(package)
+        yield from self._check_name(package)
+
+    def _check_rest(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         setup = package.setup_py
         for name, wanted in _expected(manifest).items():
@@ -92,6 +167,38 @@ class MetadataDiffers(Rule):
             here, there = _short(keyword.value, wanted[0])
             message = f"{name} is {here}, but {there} in package.xml, line {line}"
             yield self.report(keyword, message)
+
+    def _check_name(self, package: Package) -> Iterator[Diagnostic]:
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py
+        name = package.manifest.name
+        keyword = package.setup_py.keyword("name")
+        if keyword is None and package.setup_py.call is not None and name:
+            if not _is_named_elsewhere(package):
+                message = (
+                    f"setup() has no name: nothing is installed as {name!r}; add name={name!r}"
+                )
+                yield self.report(package.setup_py, message, severity=Severity.ERROR)
+            return
+        if keyword is not None and isinstance(keyword.value, tuple | list):
+            message = "the name is a tuple, not a str: the build stops; remove the comma after it"
+            yield self.report(keyword, message, severity=Severity.ERROR)
+        if keyword is None or not isinstance(keyword.value, str) or not name:
+            return
+        if keyword.value.replace("-", "_") == name.replace("-", "_") or name_used_elsewhere(
+            package
+        ):
+            return
+        setup = package.setup_py
+        line = package.manifest.all("name")[0].location.line
+        message = f"the name is {keyword.value!r}, but {name!r} in package.xml, line {line}"
+        start, end = setup_edit.literal_span(setup, keyword)
+        fix = None
+        if setup.module.source.text[start + 1 : end - 1] == keyword.value:
+            edit = Edit("setup.py", start + 1, end - 1, name)
+            fix = Fix(f"write {name}", (edit,), Safety.UNSAFE)
+        at = setup.module.source.location(start, end)
+        yield self.report(at, message, fix, severity=Severity.ERROR)
 
 
 def _expected(manifest: Manifest) -> dict[str, list[str]]:
@@ -123,12 +230,6 @@ def _normal(text: str) -> str:
     return " ".join(text.split())
 
 
-_LONGEST = 40
-"""Characters of a text in a message: it is for one line."""
-_CONTEXT = 15
-"""Characters before the first difference, where the beginnings are the same."""
-
-
 def _short(first: str, second: str) -> list[str]:
     """Return two texts for a message, cut so that they differ."""
     plain = [_normal(first), _normal(second)]
@@ -141,3 +242,10 @@ def _short(first: str, second: str) -> list[str]:
 def _part(text: str, start: int) -> str:
     part = f"...{text[start:]}" if start and len(text) > _LONGEST else text
     return part if len(part) <= _LONGEST else f"{part[: _LONGEST - 3]}..."
+
+
+def _is_named_elsewhere(package: Package) -> bool:
+    """Tell whether the name may come from another file, or from arguments that are not known."""
+    if package.setup_py.has_unknown_keywords or package.has("pyproject.toml"):
+        return True
+    return package.has("setup.cfg") and "[metadata]" in package.source("setup.cfg").text

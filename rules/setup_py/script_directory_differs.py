@@ -1,48 +1,96 @@
-"""SP004: setup.cfg sends executables to ``lib/<package>``."""
+"""SP004: a setup.cfg sends executables to ``lib/<package>``, where ``ros2 run`` looks."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import CreateFile, Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.manifest import name_used_elsewhere
 from scaffold.api.setup_py import node_scripts
 
+_CFG = "[develop]\nscript_dir=$base/lib/{0}\n[install]\ninstall_scripts=$base/lib/{0}\n"
+_SETUP = "from setuptools import setup\n\nsetup(\n    name='talker',\n{})\n"
+_ENTRY = "    entry_points={'console_scripts': ['talker = talker.node:main']},\n"
+_MANIFEST = (
+    "<package><name>talker</name><export><build_type>ament_python</build_type></export></package>\n"
+)
+_NODE = {"talker/__init__.py": "", "talker/node.py": "import rclpy\n"}
 KEYS = (("develop", "script_dir"), ("install", "install_scripts"))
-_MANIFEST = "<package><name>talker</name></package>\n"
-_SETUP = (
+_MANIFEST_VALUE = "<package><name>talker</name></package>\n"
+_SETUP_VALUE = (
     "from setuptools import setup\n\n"
     "setup(entry_points={'console_scripts': ['talk = talker.node:main']})\n"
 )
-_CFG = "[develop]\nscript_dir={}\n[install]\ninstall_scripts={}\n"
+_CFG_VALUE = "[develop]\nscript_dir={}\n[install]\ninstall_scripts={}\n"
 
 
 class ScriptDirectoryDiffers(Rule):
-    """setup.cfg does not send executables to ``$base/lib/<package>``.
+    """No setup.cfg sends executables to ``$base/lib/<package>``.
 
-    **Why.** ``ros2 run`` looks in ``lib/<package>`` alone: ``No executable found``.
+    **Why.** They land in ``bin/`` or elsewhere; ``ros2 run`` looks in ``lib/<package>`` alone: ``No
+    executable found``.
 
-    **Fix.** Write ``$base/lib/`` and the name in package.xml.
+    **Fix.** Write a setup.cfg with ``script_dir`` and ``install_scripts`` set to ``$base/lib/`` and
+    the name in package.xml.
 
-    **Source.** ROS 2 documentation, "Creating a package"; ``ros2pkg.api.get_executable_paths``.
+    **Source.** ROS 2 documentation, "Developing a ROS 2 package", "Creating a package";
+    ``ros2pkg.api.get_executable_paths``.
     """
 
     code = "SP004"
     name = "script-directory-differs"
     examples = (
         Example(
-            "the package's own",
+            "a setup.cfg",
             {
                 "package.xml": _MANIFEST,
-                "setup.py": _SETUP,
-                "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker"),
+                "setup.py": _SETUP.format(_ENTRY),
+                "setup.cfg": _CFG.format("talker"),
+                **_NODE,
+            },
+        ),
+        Example(
+            "a tool that is no node may go to bin",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY),
+                "talker/node.py": "import sys\n",
+            },
+        ),
+        Example(
+            "the command of a package with verbs of `ros2`",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    _ENTRY.replace("]}", "], 'ros2cli.command': ['talk = talker.talk:Talk']}")
+                ),
+                **_NODE,
+            },
+        ),
+        Example(
+            "no setup.cfg",
+            {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
+            Report(
+                "setup.cfg:1:1",
+                "no setup.cfg: 'talker' of setup.py is installed to bin/, where "
+                "`ros2 run` does not look",
+                fix="write setup.cfg",
+            ),
+            fixed={"setup.cfg": _CFG.format("talker")},
+        ),
+        Example(
+            "the directory of the package",
+            {
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE,
+                "setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker"),
             },
         ),
         Example(
             "set by a command",
             {
-                "package.xml": _MANIFEST,
-                "setup.py": _SETUP.replace("setup(", "setup(cmdclass={'install': Install}, "),
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE.replace("setup(", "setup(cmdclass={'install': Install}, "),
                 "setup.cfg": "[flake8]\n",
                 "talker/node.py": "import rclpy\n",
             },
@@ -50,22 +98,22 @@ class ScriptDirectoryDiffers(Rule):
         Example(
             "of the package that it was copied from",
             {
-                "package.xml": _MANIFEST,
-                "setup.py": _SETUP,
-                "setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/other"),
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE,
+                "setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/other"),
             },
             Report(
                 "setup.cfg:4:17",
                 "install_scripts is '$base/lib/other'; `ros2 run talker` looks in $base/lib/talker",
                 fix="write $base/lib/talker",
             ),
-            fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
+            fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
             "for pip alone",
             {
-                "package.xml": _MANIFEST,
-                "setup.py": _SETUP,
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE,
                 "setup.cfg": "[develop]\nscript_dir=$base/lib/talker\n",
                 "talker/node.py": "import rclpy\n",
             },
@@ -74,11 +122,28 @@ class ScriptDirectoryDiffers(Rule):
                 "[install] has no install_scripts=$base/lib/talker: `ros2 run` finds nothing",
                 fix="write $base/lib/talker",
             ),
-            fixed={"setup.cfg": _CFG.format("$base/lib/talker", "$base/lib/talker")},
+            fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_file(package)
+        yield from self._check_value(package)
+
+    def _check_file(self, package: Package) -> Iterator[Diagnostic]:
+        scripts = node_scripts(package)
+        if package.build_type != "ament_python" or package.has("setup.cfg") or not scripts:
+            return
+        if package.has("pyproject.toml") and "script" in package.source("pyproject.toml").text:
+            return
+        fix = Fix("write setup.cfg", (CreateFile("setup.cfg", _CFG.format(package.name)),))
+        message = (
+            f"no setup.cfg: {scripts[0].name!r} of setup.py is installed to bin/, where `ros2 run` "
+            "does not look"
+        )
+        yield self.report(package.start_of("setup.cfg"), message, fix)
+
+    def _check_value(self, package: Package) -> Iterator[Diagnostic]:
         cfg = package.setup_cfg
         wanted = f"$base/lib/{package.name}"
         if not package.setup_py.console_scripts or not package.manifest.name:
