@@ -1,0 +1,242 @@
+"""CM018: launch files and their data are installed, in a directory of the same name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api.cmake import Install, installs_directory
+from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
+
+_LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+_LAUNCH = "def generate_launch_description():\n    pass\n"
+_LISTS_PATTERNS = (
+    "project(talker)\ninstall(DIRECTORY config DESTINATION share/${{PROJECT_NAME}}{})\n"
+    "ament_package()\n"
+)
+_FILES = {"config/talker.yaml": "talker:\n  ros__parameters:\n    rate: 1.0\n"}
+DIRECTORIES = ("launch", *DATA_DIRECTORIES)
+_LISTS_PATHS = "project(talker)\ninstall(DIRECTORY {} DESTINATION share/${{PROJECT_NAME}}{})\n"
+_FILES_PATHS = {"config/talker.yaml": ""}
+
+
+class ShareDirectoryNotInstalled(Rule):
+    """A directory of launch files, or of files read at run time, is not installed as it is.
+
+    **Why.** ``ros2 launch`` does not find the file; a missing parameter file is a warning among
+    others, and nodes run with defaults. Patterns that leave no file do so without a word.
+    ``config/`` with a slash installs what is in it, without it the directory itself: files land in
+    ``share/<package>/`` or in ``share/<package>/config/config/``, where only ``ros2 launch`` finds
+    its files.
+
+    **Fix.** ``install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})``.
+
+    **Source.** CMake documentation, ``install(DIRECTORY)``: ``FILES_MATCHING``, ``PATTERN``; ROS 2
+    documentation, "Developing a ROS 2 package".
+    """
+
+    code = "CM018"
+    name = "share-directory-not-installed"
+    other_severities = {
+        Severity.WARNING: "nothing in the package names the directory, or its files are "
+        "installed in another one"
+    }
+    examples = (
+        Example(
+            "installed",
+            {
+                "CMakeLists.txt": _LISTS.format(
+                    "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+            },
+        ),
+        Example(
+            "forgotten",
+            {
+                "CMakeLists.txt": _LISTS.format(""),
+                "launch/talk.launch.py": _LAUNCH,
+                "config/talker.yaml": "",
+            },
+            Report(
+                "CMakeLists.txt:3:1",
+                "config/ is not installed, so config/talker.yaml is not found at run time",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "CMakeLists.txt:3:1",
+                "launch/ is not installed, so launch/talk.launch.py is not found at run time",
+            ),
+        ),
+        Example(
+            "a file of that name, of this package and of another one",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": _LISTS.format(
+                    "install(DIRECTORY launch DESTINATION share/${PROJECT_NAME})\n"
+                ),
+                "launch/talk.launch.py": "import os\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n\n"
+                "def generate_launch_description():\n"
+                "    own = get_package_share_directory('talker')\n"
+                "    other = get_package_share_directory('robot')\n"
+                "    return [os.path.join(own, 'config', 'talker.yaml'),\n"
+                "            os.path.join(other, 'maps', 'floor.yaml')]\n",
+                "config/talker.yaml": "",
+                "maps/floor.yaml": "",
+            },
+            Report(
+                "CMakeLists.txt:4:1",
+                "config/ is not installed, so config/talker.yaml is not found at run time",
+            ),
+            Report(
+                "CMakeLists.txt:4:1",
+                "maps/ is not installed, so maps/floor.yaml is not found at run time",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "patterns that leave a file",
+            {
+                "CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yaml"'),
+                **_FILES,
+            },
+        ),
+        Example(
+            "a pattern of another ending, in ROS 1",
+            {
+                "CMakeLists.txt": "if($ENV{ROS_VERSION} EQUAL 1)\n"
+                + _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.launch"')
+                + "endif()\n",
+                **_FILES,
+            },
+        ),
+        Example(
+            "a pattern of another ending",
+            {"CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
+            Report(
+                "CMakeLists.txt:2:19",
+                "the patterns match no file of config/, for instance config/talker.yaml",
+            ),
+        ),
+        Example(
+            "all files excluded",
+            {"CMakeLists.txt": _LISTS_PATTERNS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
+            Report(
+                "CMakeLists.txt:2:19",
+                "the patterns match no file of config/, for instance config/talker.yaml",
+            ),
+        ),
+        Example(
+            "both ways that keep the name",
+            {
+                **_FILES_PATHS,
+                "CMakeLists.txt": _LISTS_PATHS.format("config", "")
+                + _LISTS_PATHS.format("config/", "/config"),
+            },
+        ),
+        Example(
+            "launch files, which are found anywhere",
+            {"launch/talk.launch.py": "", "CMakeLists.txt": _LISTS_PATHS.format("launch/", "")},
+        ),
+        Example(
+            "the name dropped",
+            {**_FILES_PATHS, "CMakeLists.txt": _LISTS_PATHS.format("config/", "")},
+            Report(
+                "CMakeLists.txt:2:19",
+                "the files of config/ are installed to share/talker/, not in share/talker/config/",
+                fix="keep config/ once",
+                severity=Severity.WARNING,
+            ),
+            fixed={"CMakeLists.txt": _LISTS_PATHS.format("config", "")},
+        ),
+        Example(
+            "the name doubled",
+            {**_FILES_PATHS, "CMakeLists.txt": _LISTS_PATHS.format("config", "/config")},
+            Report(
+                "CMakeLists.txt:2:19",
+                "the files of config/ are installed to share/talker/config/config/, "
+                "not in share/talker/config/",
+                fix="keep config/ once",
+                severity=Severity.WARNING,
+            ),
+            fixed={"CMakeLists.txt": _LISTS_PATHS.format("config/", "/config")},
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_installed(package)
+        yield from self._check_patterns(package)
+        yield from self._check_paths(package)
+
+    def _check_installed(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        calls = cmake.find("ament_package")
+        if not calls:
+            return
+        first: dict[str, str] = {}
+        for path in launch_files(package):
+            first.setdefault(path.partition("/")[0], path)
+        for directory in DATA_DIRECTORIES:
+            for path in data_files(package, directory)[:1]:
+                first.setdefault(directory, path)
+        for directory, path in first.items():
+            named = any(
+                directory in value for command in cmake.commands for value in command.values
+            )
+            if named or installs_directory(package, directory) is not False:
+                continue
+            message = f"{directory}/ is not installed, so {path} is not found at run time"
+            is_used = directory == "launch" or is_named(package, directory)
+            severity = Severity.ERROR if is_used else Severity.WARNING
+            yield self.report(calls[-1].name_location, message, severity=severity)
+
+    def _check_patterns(self, package: Package) -> Iterator[Diagnostic]:
+        for install in package.cmake.installs:
+            if install.kind != "DIRECTORY" or install.command.has("REGEX"):
+                continue
+            for item in install.items:
+                path = item.path or ""
+                files = [file for file in package.files if path and file.startswith(f"{path}/")]
+                if files and not any(_is_taken(install, file) for file in files):
+                    message = f"the patterns match no file of {path}/, for instance {files[0]}"
+                    yield self.report(item, message)
+
+    def _check_paths(self, package: Package) -> Iterator[Diagnostic]:
+        name = package.cmake.project_name
+        for install in package.cmake.installs:
+            target = (install.destination or "").rstrip("/")
+            if install.kind != "DIRECTORY" or install.command.name != "install":
+                continue
+            for item in install.items:
+                written = item.argument.value
+                directory = item.path or ""
+                if directory not in DIRECTORIES or item.argument.quoted:
+                    continue
+                slash = written.endswith("/")
+                if slash and target == f"share/{name}" and directory != "launch":
+                    end = item.argument.end
+                    edit = Edit("CMakeLists.txt", end - 1, end, "")
+                    lands = f"{target}/, not in {target}/{directory}/"
+                elif not slash and target == f"share/{name}/{directory}":
+                    end = item.argument.end
+                    edit = Edit("CMakeLists.txt", end, end, "/")
+                    lands = f"{target}/{directory}/, not in {target}/"
+                else:
+                    continue
+                message = f"the files of {directory}/ are installed to {lands}"
+                fix = Fix(f"keep {directory}/ once", (edit,))
+                yield self.report(item, message, fix, severity=Severity.WARNING)
+
+
+def _is_taken(install: Install, path: str) -> bool:
+    parts = path.split("/")
+    if any(fnmatchcase(part, pattern) for part in parts for pattern in install.excludes):
+        return False
+    if not install.command.has("FILES_MATCHING"):
+        return True
+    return any(
+        fnmatchcase(parts[-1], pattern) or fnmatchcase(path, f"*{pattern}")
+        for pattern in install.patterns
+    )

@@ -1,0 +1,187 @@
+"""LF006: the packages and programs that launch files name exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Safety, listed_names
+from scaffold.api.launch import Reference, meant_package, package_uses
+from scaffold.api.manifest import name_used_elsewhere
+from scaffold.api.programs import programs_of
+
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='talker', executable='{}'),\n    ])\n"
+)
+_FILES = {
+    "package.xml": '<package format="3"><name>talker</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker',\n"
+    "    entry_points={'console_scripts': ['talk = talker.talk:main']},\n)\n",
+}
+_LAUNCH_PACKAGES = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='{}', executable='{}'),\n    ])\n"
+)
+_FILES_PACKAGES = {
+    "package.xml": '<package format="3"><name>talker_demo</name>'
+    "<export><build_type>ament_python</build_type></export></package>\n",
+    "setup.py": "from setuptools import setup\n\nsetup(\n    name='talker_demo',\n"
+    "    entry_points={'console_scripts': ['talk = talker_demo.talk:main']},\n)\n",
+}
+
+
+class ExecutableMissing(Rule):
+    """A launch file names a package that does not exist, or a program that the package lacks.
+
+    **Why.** ``ros2 launch`` stops: ``package 'talker_dmeo' not found, searching: [...]``, or
+    ``executable 'talker' not found on the libexec directory '.../install/talker/lib/talker'``.
+
+    **Fix.** Write the name in package.xml, that of the entry point in setup.py, or of the script
+    that CMakeLists.txt installs, with its ending; or install the program.
+
+    **Source.** ``launch_ros/substitutions/find_package.py``, ``executable_in_package.py``.
+    """
+
+    code = "LF006"
+    name = "executable-missing"
+    examples = (
+        Example("an entry point", {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk")}),
+        Example(
+            "the module's name",
+            {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
+            Report(
+                "launch/a.launch.py:7:43",
+                "talker has no program 'talk.py' (it has: talk); closest: 'talk'",
+            ),
+        ),
+        Example(
+            "one of many",
+            {
+                **_FILES,
+                "setup.py": _FILES["setup.py"].replace(
+                    "'talk = talker.talk:main'",
+                    ", ".join(f"'{name}_node = talker.talk:main'" for name in "abcdefgh"),
+                ),
+                "launch/a.launch.py": _LAUNCH.format("g_nde"),
+            },
+            Report(
+                "launch/a.launch.py:7:43",
+                "talker has no program 'g_nde' (it has: g_node, a_node, b_node, "
+                "c_node, d_node and 3 more); closest: 'g_node'",
+            ),
+        ),
+        Example(
+            "in another package of the workspace, in XML and in YAML",
+            {
+                "package.xml": '<package format="3"><name>bringup</name></package>\n',
+                "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
+                "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
+            },
+            Report(
+                "launch/a.launch.xml:2:28",
+                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
+            ),
+            Report(
+                "launch/b.launch.yaml:4:11",
+                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
+            ),
+            neighbours={"talker": _FILES},
+        ),
+        Example(
+            "packages: itself, a known one, a declared one, and one unlike any known name",
+            {
+                **_FILES_PACKAGES,
+                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
+                "launch/b.launch.py": _LAUNCH_PACKAGES.format("rviz2", "rviz2"),
+                "launch/c.launch.py": _LAUNCH_PACKAGES.format("our_driver", "driver"),
+            },
+        ),
+        Example(
+            "a package with letters swapped; with another name, but the program is here",
+            {
+                **_FILES_PACKAGES,
+                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_dmeo", "listen"),
+                "launch/b.launch.py": _LAUNCH_PACKAGES.format("demo", "talk"),
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
+            },
+            Report(
+                "launch/a.launch.py:7:22",
+                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (this package)?",
+                unsafe_fix="write talker_demo",
+            ),
+            Report(
+                "launch/b.launch.py:7:22",
+                "unknown package 'demo'; did you mean 'talker_demo' (it has the program 'talk')?",
+                unsafe_fix="write talker_demo",
+            ),
+            Report(
+                "launch/c.launch.xml:2:14",
+                "unknown package 'rivz2'; did you mean 'rviz2' (a package of ROS)?",
+                unsafe_fix="write rviz2",
+            ),
+            fixed={
+                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "listen"),
+                "launch/b.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n</launch>\n',
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_programs(package)
+        yield from self._check_packages(package)
+
+    def _check_programs(self, package: Package) -> Iterator[Diagnostic]:
+        for use in package_uses(package):
+            name = use.executable
+            other = package if use.name == package.name else package.workspace.get(use.name)
+            if other is None or not isinstance(name, str) or use.is_optional:
+                continue
+            programs = programs_of(other)
+            if not programs.complete or name in programs.sources:
+                continue
+            if other is package and self._is_script(package, name):
+                continue
+            have = listed_names(programs.sources, name)
+            closest = get_close_matches(name, programs.sources, 1, 0.7)
+            hint = f"; closest: {closest[0]!r}" if closest else ""
+            message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
+            yield self.report(use.executable_location, message)
+
+    def _is_script(self, package: Package, name: str) -> bool:
+        """Tell whether the package has such a script: another rule reports that it is missing."""
+        return any(
+            path.rpartition("/")[2] == name and package.module(path).is_script
+            for path in package.python_files
+            if path.endswith(name)
+        )
+
+    def _check_packages(self, package: Package) -> Iterator[Diagnostic]:
+        for use in package_uses(package):
+            if use.name == name_used_elsewhere(package):
+                continue
+            closest = meant_package(package, use)
+            if closest is None:
+                continue
+            fix = self._fix(package, use, closest.name)
+            message = (
+                f"unknown package {use.name!r}; did you mean {closest.name!r} ({closest.reason})?"
+            )
+            yield self.report(use.location, message, fix)
+
+    def _fix(self, package: Package, use: Reference, name: str) -> Fix | None:
+        source = package.editable(use.location.path)
+        at = use.location
+        start = source.offset(at.line, at.column)
+        end = source.offset(at.end_line, at.end_column)
+        offset = source.text.find(use.name, start, end)
+        if offset < 0:
+            return None
+        edit = Edit(at.path, offset, offset + len(use.name), name)
+        return Fix(f"write {name}", (edit,), Safety.UNSAFE)

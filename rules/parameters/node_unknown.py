@@ -1,0 +1,246 @@
+"""PF003: parameter files name nodes that exist, in the namespaces that they run in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api.launch import StartedNode, names_alike, node_names, use_of
+from scaffold.api.parameters import (
+    ParameterFile,
+    Section,
+    own_nodes,
+    parameter_file,
+    parameter_paths,
+)
+
+_NODE = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n    def __init__(self):\n        super().__init__('talker')\n"
+    "        self.declare_parameter('rate', 2.0)\n"
+)
+_FILE = "{}:\n  ros__parameters:\n    rate: 1.0\n"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\nfrom launch_ros.substitutions import FindPackageShare\n"
+    "\n\ndef generate_launch_description():\n"
+    "    params = PathJoinSubstitution([FindPackageShare('demo'), 'config', 'demo.yaml'])\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='eyes', executable='eye', name='camera', parameters=[params]),\n    ])\n"
+)
+_CONTROL = "controller_manager"
+_MANIFEST = '<package format="3"><name>demo</name></package>\n'
+
+
+def _files(section: str) -> dict[str, str]:
+    return {
+        "package.xml": _MANIFEST,
+        "launch/a.launch.py": _LAUNCH,
+        "config/demo.yaml": _FILE.format(section),
+    }
+
+
+class NodeUnknown(Rule):
+    """A section of a parameter file matches no node, or names a namespace that it does not run in.
+
+    **Why.** Nothing warns: the section is skipped, and the node runs with its defaults.
+
+    **Fix.** Write the name as ``ros2 node list`` shows it, ``/**/name`` for any namespace, or
+    ``/**`` for all nodes.
+
+    **Source.** ROS 2 documentation, "Passing ROS arguments to nodes", parameter files.
+    """
+
+    code = "PF003"
+    name = "node-unknown"
+    effect = Effect.IGNORED
+    examples = (
+        Example(
+            "the name of the node, all nodes, a node of another package",
+            {
+                "talker.py": _NODE,
+                "config/a.yaml": _FILE.format("talker"),
+                "config/b.yaml": _FILE.format("/**"),
+                "config/c.yaml": _FILE.format("camera"),
+            },
+        ),
+        Example(
+            "the name of the executable",
+            {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
+            Report(
+                "config/a.yaml:1:1",
+                "no node of this package is named 'talker_node'; did you mean 'talker'?",
+            ),
+        ),
+        Example(
+            "a launch file with another ending names the file",
+            {
+                "talker.py": _NODE,
+                "config/a.yaml": _FILE.format("talker_node"),
+                "launch/a.launch": '<launch><node pkg="a" exec="b" name="talker_node">'
+                '<param from="$(find-pkg-share a)/config/a.yaml"/></node></launch>\n',
+            },
+        ),
+        Example(
+            "a controller",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH.replace("eyes", _CONTROL),
+                "config/demo.yaml": _FILE.format("arm_controller"),
+            },
+        ),
+        Example(
+            "the name in the code, which the launch file replaces",
+            {
+                "package.xml": _MANIFEST,
+                "demo/talker.py": _NODE + "\n\ndef main():\n    Talker()\n",
+                "setup.py": "from setuptools import setup\n\n"
+                "setup(name='demo', packages=['demo'],\n"
+                "      entry_points={'console_scripts': ['talk = demo.talker:main']})\n",
+                "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
+                "config/demo.yaml": _FILE.format("talker"),
+            },
+            Report(
+                "config/demo.yaml:1:1",
+                "no node is named 'talker': the section is ignored; "
+                "launch/a.launch.py:10 starts camera",
+            ),
+        ),
+        Example(
+            "not the name in the launch file",
+            {
+                "package.xml": _MANIFEST,
+                "launch/a.launch.py": _LAUNCH,
+                "config/demo.yaml": _FILE.format("eye"),
+            },
+            Report(
+                "config/demo.yaml:1:1",
+                "no node is named 'eye': the section is ignored; "
+                "launch/a.launch.py:10 starts camera",
+            ),
+        ),
+        Example("a section without a namespace", _files("camera")),
+        Example("a section for any namespace", _files("/**/camera")),
+        Example(
+            "a section for another namespace",
+            _files("/front/camera"),
+            Report(
+                "config/demo.yaml:1:1",
+                "section for '/front/camera' is ignored: launch/a.launch.py:10 starts '/camera'",
+            ),
+        ),
+        Example(
+            "a namespace that a group has by default",
+            {
+                **_files("camera"),
+                "launch/a.launch.py": _LAUNCH.replace(
+                    "return LaunchDescription([\n",
+                    "return LaunchDescription([\n"
+                    "        DeclareLaunchArgument('ns', default_value='robot1'),\n"
+                    "        GroupAction([PushRosNamespace(LaunchConfiguration('ns')),\n",
+                )
+                .replace("parameters=[params]),", "parameters=[params])]),")
+                .replace(
+                    "from launch.substitutions import ",
+                    "from launch.actions import DeclareLaunchArgument, GroupAction\n"
+                    "from launch.substitutions import LaunchConfiguration, ",
+                )
+                .replace("import Node", "import Node, PushRosNamespace"),
+            },
+            Report(
+                "config/demo.yaml:1:1",
+                "section for '/camera' is ignored: launch/a.launch.py:13 starts '/robot1/camera'",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_nodes(package)
+        yield from self._check_namespaces(package)
+
+    def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            if file is None or not file.sections:
+                continue
+            use = use_of(package, path)
+            if use.nodes:
+                yield from self._for_started(package, file)
+            elif use.complete:
+                yield from self._for_own(package, file)
+
+    def _for_started(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
+        """Check a file against the nodes that launch files pass it to."""
+        use = use_of(package, file.path)
+        given = [node.name(package) for node in use.nodes]
+        names = {name for name in given if isinstance(name, str)}
+        if any(not isinstance(name, str) for name in given):
+            return
+        useless = not any(s.is_pattern or s.name in names for s in file.sections)
+        everywhere = node_names(package)
+        owners = [node.owner(package) for node in use.nodes]
+        codes = {owner.node_name for owner in owners if owner is not None}
+        in_one_process = any(node.package == _CONTROL for node in use.nodes)
+        for section in file.sections:
+            name = section.name
+            # The controller manager creates more nodes, named after its controllers.
+            if section.is_pattern or name in names or (in_one_process and name != _CONTROL):
+                continue
+            alike = names_alike(file, names, name)
+            is_renamed = name not in everywhere or name in codes
+            if alike or (useless and use.complete and is_renamed):
+                first = use.nodes[0].location
+                message = (
+                    f"no node is named {name!r}: the section is ignored; "
+                    f"{first.path}:{first.line} starts {', '.join(alike or sorted(names))}"
+                )
+                yield self.report(section.key, message)
+
+    def _for_own(self, package: Package, file: ParameterFile) -> Iterator[Diagnostic]:
+        """Check a file that no launch file names against the nodes in the package."""
+        nodes, complete = own_nodes(package)
+        names = {str(node.node_name) for node in nodes}
+        everywhere = node_names(package)
+        for section in file.sections if complete else ():
+            name = section.name
+            alike = names_alike(file, names, name)
+            if alike and name not in everywhere and not section.is_pattern:
+                message = f"no node of this package is named {name!r}; did you mean {alike[0]!r}?"
+                yield self.report(section.key, message)
+
+    def _check_namespaces(self, package: Package) -> Iterator[Diagnostic]:
+        for path in parameter_paths(package):
+            file = parameter_file(package, path)
+            nodes = use_of(package, path).nodes if file is not None else []
+            if any(not isinstance(node.name(package), str) for node in nodes):
+                continue
+            in_one_process = any(node.package == _CONTROL for node in nodes)
+            for section in file.sections if file is not None else ():
+                # The controller manager names the nodes that it creates after its controllers.
+                if section.is_pattern or (in_one_process and section.name != _CONTROL):
+                    continue
+                other = _other_node(package, section, nodes)
+                if other is not None:
+                    at = other.location
+                    name = other.full_name(package) or ""
+                    if other.default_namespace:
+                        name = f"/{other.default_namespace}{name}"
+                    message = (
+                        f"section for {section.node!r} is ignored: {at.path}:{at.line} starts "
+                        f"{name!r}"
+                    )
+                    yield self.report(section.key, message)
+
+
+def _other_node(package: Package, section: Section, nodes: list[StartedNode]) -> StartedNode | None:
+    """Return the node of the same name that runs in another namespace."""
+    named = [node for node in nodes if node.name(package) == section.name]
+    names = [node.full_name(package) for node in named]
+    if named and None not in names and all(node.default_namespace for node in named):
+        pushed = [
+            f"/{node.default_namespace}{name}" for node, name in zip(named, names, strict=True)
+        ]
+        return None if any(map(section.fits, pushed)) else named[0]
+    if None in names or any(node.is_scoped or node.namespace for node in named):
+        return None
+    return named[0] if named and not any(section.fits(str(name)) for name in names) else None
