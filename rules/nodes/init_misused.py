@@ -1,0 +1,143 @@
+"""ND005: rclpy is initialized once, with the command line."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api.rclpy import RclpyCall, RclpyFile
+
+_MAIN = (
+    "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n{}    rclpy.shutdown()\n"
+)
+_PARSERS = frozenset({"argparse", "click", "docopt", "optparse", "typer"})
+"""Modules that read a command line."""
+_MAIN_ARGUMENTS = (
+    "import rclpy\n\n\ndef main(args=None):\n    rclpy.init({})\n    rclpy.shutdown()\n"
+)
+
+
+class InitMisused(RclpyRule):
+    """``rclpy.init()`` is called twice in a row, or gets an empty list of arguments.
+
+    **Why.** ``RuntimeError: Context.init() must only be called once``. An empty list replaces the
+    command line: ``--ros-args``, with the remappings and parameters of a launch file, have no
+    effect.
+
+    **Fix.** Keep the first call; write ``rclpy.init(args=args)``, where ``None`` means the command
+    line.
+
+    **Source.** ``rclpy/context.py``; ROS 2 documentation, "Passing ROS arguments to nodes via the
+    command line".
+    """
+
+    code = "ND005"
+    name = "init-misused"
+    other_severities = {Severity.WARNING: "the program reads its command line itself"}
+    examples = (
+        Example("once", {"talker.py": _MAIN.format("")}),
+        Example(
+            "again after a shutdown",
+            {"talker.py": _MAIN.format("    rclpy.shutdown()\n    rclpy.init()\n")},
+        ),
+        Example(
+            "twice",
+            {"talker.py": _MAIN.format("    rclpy.init()\n")},
+            Report("6:5", "rclpy.init() is already called in line 5: RuntimeError"),
+        ),
+        Example(
+            "in the constructor of a node",
+            {
+                "talker.py": "from rclpy.node import Node\n"
+                + _MAIN.format("    Talker()\n")
+                + "\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n"
+                "        rclpy.init()\n"
+                "        super().__init__('talker')\n"
+            },
+            Report("13:9", "rclpy.init() is called before this node is constructed: RuntimeError"),
+        ),
+        Example("the command line", {"talker.py": _MAIN_ARGUMENTS.format("args=args")}),
+        Example(
+            "a context of its own, next to the one of the program",
+            {"talker.py": _MAIN_ARGUMENTS.format("args=[], context=rclpy.Context()")},
+        ),
+        Example(
+            "an empty list in place of the command line",
+            {"talker.py": _MAIN_ARGUMENTS.format("args=[]")},
+            Report(
+                "5:21",
+                "an empty list replaces the command line: --ros-args have no effect",
+                fix="pass the arguments on",
+            ),
+            fixed={"talker.py": _MAIN_ARGUMENTS.format("args=args")},
+        ),
+        Example(
+            "an empty list, for a program with options of its own",
+            {
+                "talker.py": f"import argparse\n{_MAIN_ARGUMENTS.format('[]')}".replace(
+                    "args=None", ""
+                )
+            },
+            Report(
+                "6:16",
+                "an empty list replaces the command line: --ros-args have no effect",
+                severity=Severity.WARNING,
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_again(file)
+        yield from self._check_arguments(file)
+
+    def _check_again(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        started: RclpyCall | None = None
+        calls = sorted((*file.init_calls, *file.shutdown_calls), key=lambda call: call.location)
+        for call in calls:
+            in_node = call.name == "init" and self._is_in_node(file, call)
+            if in_node and any(not self._is_in_node(file, x) for x in file.init_calls):
+                message = "rclpy.init() is called before this node is constructed: RuntimeError"
+                yield self.report(call, message)
+                continue
+            if call.name != "init":
+                started = None
+                continue
+            if self._has_own_context(call) or file.is_conditional(call.call):
+                started = None
+                continue
+            if started is not None and started.function is call.function:
+                line = started.location.line
+                yield self.report(
+                    call, f"rclpy.init() is already called in line {line}: RuntimeError"
+                )
+            started = call
+
+    def _is_in_node(self, file: RclpyFile, call: RclpyCall) -> bool:
+        """Return whether a method of a node class calls it: the node already exists then."""
+        class_ = file.module.enclosing_class(call.call)
+        return class_ is not None and file.node_class(class_) is not None
+
+    def _has_own_context(self, call: RclpyCall) -> bool:
+        return any(word.arg in {"context", None} for word in call.call.keywords)
+
+    def _check_arguments(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.init_calls:
+            given = [word.value for word in call.call.keywords if word.arg == "args"]
+            given = given or call.call.args[:1]
+            if not given or not isinstance(given[0], ast.List | ast.Tuple) or given[0].elts:
+                continue
+            if any(word.arg == "context" for word in call.call.keywords):
+                continue
+            own = call.function.args.args if call.function else []
+            fix = None
+            if any(argument.arg == "args" for argument in own):
+                edit = Edit(file.module.path, *file.module.span(given[0]), "args")
+                fix = Fix("pass the arguments on", (edit,))
+            message = "an empty list replaces the command line: --ros-args have no effect"
+            is_meant = any(
+                item.module.partition(".")[0] in _PARSERS for item in file.module.imports
+            )
+            severity = Severity.WARNING if is_meant else Severity.ERROR
+            yield self.report(file.module.location(given[0]), message, fix, severity=severity)
