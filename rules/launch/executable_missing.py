@@ -106,13 +106,14 @@ class ExecutableMissing(Rule):
             "a package with letters swapped; with another name, but the program is here",
             {
                 **_FILES_PACKAGES,
-                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_dmeo", "listen"),
+                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_dmeo", "talk"),
                 "launch/b.launch.py": _LAUNCH_PACKAGES.format("demo", "talk"),
                 "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
             },
             Report(
                 "launch/a.launch.py:7:22",
-                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (this package)?",
+                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (it has "
+                "the program 'talk')?",
                 unsafe_fix="write talker_demo",
             ),
             Report(
@@ -126,7 +127,7 @@ class ExecutableMissing(Rule):
                 unsafe_fix="write rviz2",
             ),
             fixed={
-                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "listen"),
+                "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
                 "launch/b.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
                 "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n</launch>\n',
             },
