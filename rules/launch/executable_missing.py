@@ -108,7 +108,8 @@ class ExecutableMissing(Rule):
                 **_FILES_PACKAGES,
                 "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_dmeo", "talk"),
                 "launch/b.launch.py": _LAUNCH_PACKAGES.format("demo", "talk"),
-                "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n</launch>\n',
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rivz2" exec="rviz2"/>\n'
+                '  <node pkg="talker_dmeo" exec="$(var program)"/>\n</launch>\n',
             },
             Report(
                 "launch/a.launch.py:7:22",
@@ -126,10 +127,16 @@ class ExecutableMissing(Rule):
                 "unknown package 'rivz2'; did you mean 'rviz2' (a package of ROS)?",
                 unsafe_fix="write rviz2",
             ),
+            Report(
+                "launch/c.launch.xml:3:14",
+                "unknown package 'talker_dmeo'; did you mean 'talker_demo' (this package)?",
+                unsafe_fix="write talker_demo",
+            ),
             fixed={
                 "launch/a.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
                 "launch/b.launch.py": _LAUNCH_PACKAGES.format("talker_demo", "talk"),
-                "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n</launch>\n',
+                "launch/c.launch.xml": '<launch>\n  <node pkg="rviz2" exec="rviz2"/>\n'
+                '  <node pkg="talker_demo" exec="$(var program)"/>\n</launch>\n',
             },
         ),
     )
@@ -153,7 +160,8 @@ class ExecutableMissing(Rule):
             closest = get_close_matches(name, programs.sources, 1, 0.7)
             hint = f"; closest: {closest[0]!r}" if closest else ""
             message = f"{use.name} has no program {name!r} (it has: {have}){hint}"
-            yield self.report(use.executable_location, message)
+            cause = "" if programs.sources else f"programs of {use.name}"
+            yield self.report(use.executable_location, message, cause=cause)
 
     def _is_script(self, package: Package, name: str) -> bool:
         """Tell whether the package has such a script: another rule reports that it is missing."""

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
+from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _MAIN = (
@@ -34,7 +35,10 @@ class InitMisused(RclpyRule):
 
     code = "ND005"
     name = "init-misused"
-    other_severities = {Severity.WARNING: "the program reads its command line itself"}
+    other_severities = {
+        Severity.WARNING: "the program reads its command line itself, or its caller decides: "
+        "the function has other required arguments"
+    }
     examples = (
         Example("once", {"talker.py": _MAIN.format("")}),
         Example(
@@ -82,6 +86,19 @@ class InitMisused(RclpyRule):
             },
             Report(
                 "6:16",
+                "an empty list replaces the command line: --ros-args have no effect",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "an empty list, for a process that gets all it needs from another",
+            {
+                "talker.py": _MAIN_ARGUMENTS.format("args=[]").replace(
+                    "args=None", "configuration, queue"
+                )
+            },
+            Report(
+                "5:21",
                 "an empty list replaces the command line: --ros-args have no effect",
                 severity=Severity.WARNING,
             ),
@@ -139,5 +156,14 @@ class InitMisused(RclpyRule):
             is_meant = any(
                 item.module.partition(".")[0] in _PARSERS for item in file.module.imports
             )
-            severity = Severity.WARNING if is_meant else Severity.ERROR
+            is_given = call.function is not None and _is_given_more(call.function)
+            severity = Severity.WARNING if is_meant or is_given else Severity.ERROR
             yield self.report(file.module.location(given[0]), message, fix, severity=severity)
+
+
+def _is_given_more(function: FunctionNode) -> bool:
+    """Tell whether a function needs more than the command line, so that no program starts in it."""
+    arguments = function.args
+    names = [item.arg for item in (*arguments.posonlyargs, *arguments.args)]
+    required = names[: len(names) - len(arguments.defaults)]
+    return not {*required} <= {"self", "cls", "args", "argv"}
