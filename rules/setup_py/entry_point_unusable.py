@@ -236,7 +236,9 @@ class EntryPointUnusable(Rule):
             if problem:
                 message = f"`ros2 run` of {entry.name!r} fails: {problem}"
                 directory = moved_to(package, entry.module)
-                cause = f"moved to {directory}" if directory else ""
+                root = entry.module.partition(".")[0]
+                cause = "" if package.has_directory(root) else f"directory {root}"
+                cause = f"moved to {directory}" if directory else cause
                 yield self.report(entry, message, cause=cause)
 
     def _problem(self, package: Package, entry: EntryPoint) -> str | None:

@@ -188,11 +188,12 @@ class ModuleNotPacked(Rule):
             return
         at = keyword or setup
         for name in names or ():
-            if not package.has_directory(name.partition(".")[0]):
+            root = name.partition(".")[0]
+            if not package.has_directory(root):
                 message = (
                     f"packages names {name!r}, but there is no such directory: the build stops"
                 )
-                yield self.report(at, message)
+                yield self.report(at, message, cause=f"directory {root}")
         for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
                 message = f"packages leaves out {root!r}, which the entry points start"
