@@ -21,6 +21,7 @@ _NODE = (
     "    async def ask(self):\n        pass\n\n"
     "    async def tick(self):\n        {}self.ask()\n"
 )
+_MAIN = "\n\ndef main():\n    rclpy.init()\n    rclpy.spin(Talker())\n"
 
 
 class ThreadTargetCalled(RclpyRule):
@@ -74,6 +75,20 @@ class ThreadTargetCalled(RclpyRule):
             Report("19:16", "coroutine ask() is not awaited: it is always true"),
         ),
         Example(
+            "kept, and awaited later",
+            {
+                "talker.py": "import rclpy\n"
+                + _NODE.format("", "0.1", "self.asked = ")
+                + "\n    async def wait(self):\n        await self.asked\n"
+                + _MAIN
+            },
+        ),
+        Example(
+            "kept, and nothing else",
+            {"talker.py": "import rclpy\n" + _NODE.format("", "0.1", "self.asked = ") + _MAIN},
+            Report("20:22", "coroutine ask() is not awaited: it never runs"),
+        ),
+        Example(
             "an argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
             Report("9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"),
@@ -104,7 +119,7 @@ class ThreadTargetCalled(RclpyRule):
             if _is_never_started(package, file, call):
                 message = "nothing starts this thread: its target never runs; call start()"
                 yield self.report(file.module.location(call), message)
-            for node, problem in _problems(file, call):
+            for node, problem in _problems(package, file, call):
                 yield self.report(file.module.location(node), problem)
         for timer in file.timers:
             argument = timer.argument("timer_period_sec")
@@ -127,31 +142,39 @@ def _is_never_started(package: Package, file: RclpyFile, call: ast.Call) -> bool
     """Tell whether all that is done with a thread is to make, configure and join it."""
     if file.module.qualified_name(call.func) != "threading.Thread":
         return False
+    return _is_left(package, file, call, _IDLE)
+
+
+def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[str]) -> bool:
+    """Tell whether what is made has no use, or only attributes that do not start it."""
     index = file.module.index
     match file.module.parent(call):
         case ast.Assign(targets=[ast.Name() as name]):
             scope = index.lookup(name.id, name)
             uses = [use for use in index.names(name.id) if index.lookup(use.id, use) == scope]
             is_own = scope is not None and not isinstance(scope[0], ast.Module | ast.ClassDef)
-            return is_own and _are_idle(file, uses)
+            return is_own and _are_idle(file, uses, idle)
         case ast.Assign(targets=[ast.Attribute(value=ast.Name(id="self"), attr=attribute)]):
-            is_idle = bool(file.init_calls) and _are_idle(file, index.attributes(attribute))
+            uses_of = index.attributes(attribute)
+            is_idle = bool(file.init_calls) and _are_idle(file, uses_of, idle)
             return is_idle and not is_used_elsewhere(package, file, attribute)
         case parent:
             return isinstance(parent, ast.Expr)
 
 
-def _are_idle(file: RclpyFile, uses: Sequence[ast.Name | ast.Attribute]) -> bool:
-    """Tell whether nothing that uses a thread starts it, or gives it to somebody else."""
+def _are_idle(
+    file: RclpyFile, uses: Sequence[ast.Name | ast.Attribute], idle: frozenset[str]
+) -> bool:
+    """Tell whether nothing that uses an object starts it, or gives it to somebody else."""
     reads = [file.module.parent(use) for use in uses if isinstance(use.ctx, ast.Load)]
-    return all(isinstance(use, ast.Attribute) and use.attr in _IDLE for use in reads)
+    return all(isinstance(use, ast.Attribute) and use.attr in idle for use in reads)
 
 
 _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
 """What does not start a thread."""
 
 
-def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+def _problems(package: Package, file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
     if file.module.qualified_name(call.func) == "threading.Thread":
         for word in call.keywords:
             if word.arg == "target" and isinstance(word.value, ast.Call):
@@ -170,11 +193,20 @@ def _problems(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
                     word.value,
                     f"({text}) is not a tuple: TypeError in the thread; write ({text},)",
                 )
+    yield from _unawaited(package, file, call)
+
+
+def _unawaited(package: Package, file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    """Yield a coroutine that is made and never run."""
     effect = _effect_unawaited(file, call)
+    is_kept = isinstance(file.module.parent(call), ast.Assign)
+    function = file.callback(call.func).function if effect or is_kept else None
+    if not isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
+        return
+    if is_kept and not any(file.module.below(function, ast.Yield)):
+        effect = "it never runs" if _is_left(package, file, call, frozenset()) else ""
     if effect:
-        function = file.callback(call.func).function
-        if isinstance(function, ast.AsyncFunctionDef) and not function.decorator_list:
-            yield call, f"coroutine {function.name}() is not awaited: {effect}"
+        yield call, f"coroutine {function.name}() is not awaited: {effect}"
 
 
 def _effect_unawaited(file: RclpyFile, call: ast.Call) -> str:
