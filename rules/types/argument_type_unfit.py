@@ -10,6 +10,7 @@ from scaffold.api import Diagnostic, Example, Report, TypeRule
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
+    elements_misfit,
     full_name,
     in_words,
     is_certain_misfit,
@@ -79,6 +80,19 @@ _COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
 _OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
 """The class of a message, or of a part of a service or an action."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
+
+_FLEET = (
+    "from geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
+    "class Fleet(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('fleet')\n"
+    "        self.speeds = {{}}\n"
+    "        for name in ('left', 'right'):\n"
+    "            self.speeds[name] = self.create_publisher(Twist, name, 10)\n\n"
+    "    def drive(self):\n"
+    "        msg = Twist()\n"
+    "        self.speeds['left'].publish({})\n"
+)
 
 
 class ArgumentTypeUnfit(TypeRule):
@@ -525,6 +539,36 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "the nodes of a list, and the list",
+            {
+                "run.py": "from rclpy.executors import SingleThreadedExecutor\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Lamp(Node):\n    pass\n\n\n"
+                "def run():\n"
+                "    executor = SingleThreadedExecutor()\n"
+                "    lamps = [Lamp('left'), Lamp('right')]\n"
+                "    for lamp in lamps:\n        executor.add_node(lamp)\n"
+                "    executor.add_node(lamps)\n"
+            },
+            Report(
+                "14:23",
+                "'node' of add_node() must be an rclpy.node.Node, not a list: add_node() fails",
+            ),
+        ),
+        Example(
+            "a publisher and messages in containers",
+            {"fleet.py": _FLEET.format("msg")},
+        ),
+        Example(
+            "a part of a message for the message, in containers",
+            {"fleet.py": _FLEET.format("msg.linear")},
+            Report(
+                "14:37",
+                "'msg' of publish() must be a geometry_msgs.msg.Twist or bytes, not "
+                "a geometry_msgs.msg.Vector3: publish() fails",
+            ),
+        ),
+        Example(
             "a str for a number, a class for an object, a number for a duration",
             {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
             Report(
@@ -599,7 +643,9 @@ class ArgumentTypeUnfit(TypeRule):
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         is_overloaded = finding.kind == "no-matching-overload"
-        return self._judge_overload(finding) if is_overloaded else self._judge_argument(finding)
+        if is_overloaded:
+            return self._judge_overload(finding)
+        return self._judge_listed(finding) or self._judge_argument(finding)
 
     def _judge_argument(self, finding: TypeFinding) -> Diagnostic | None:
         matched = finding.match(
@@ -644,6 +690,19 @@ class ArgumentTypeUnfit(TypeRule):
             finding,
             f"{needs} must be {unlike(expected, given)}: {where} fails{hint}",
         )
+
+    def _judge_listed(self, finding: TypeFinding) -> Diagnostic | None:
+        """Judge a list that a message is made with."""
+        matched = finding.match(
+            rf"Argument to `(?P<owner>{MARKED})\.__init__` is incorrect: "
+            r"Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
+        )
+        if matched is None or not re.fullmatch(_OF_MESSAGE, full_name(matched["owner"])):
+            return None
+        elements = elements_misfit(matched["expected"], matched["given"])
+        field = parameter_name(finding, f"{matched['owner']}.__init__") if elements else ""
+        message = f"elements of {field!r} must be {elements}: it cannot be published"
+        return self.report(finding, message) if elements else None
 
     def _judge_element(self, finding: TypeFinding) -> Diagnostic | None:
         """Judge what is appended to a list of messages, which nothing checks before it is sent."""

@@ -8,6 +8,7 @@ from scaffold.api.types import (
     TypeFinding,
     class_in,
     class_itself,
+    elements_misfit,
     full_name,
     in_words,
     is_certain_misfit,
@@ -24,6 +25,21 @@ _NODE = (
     "    marker = Marker()\n"
     "    marker.scale = {}\n"
     "    return marker\n"
+)
+
+_TRAIL = (
+    "from geometry_msgs.msg import PoseStamped\nfrom nav_msgs.msg import Path\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Trail(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('trail')\n"
+    "        self.trail = []\n"
+    "        self.create_subscription(PoseStamped, 'pose', self.on_pose, 10)\n\n"
+    "    def on_pose(self, pose):\n"
+    "        self.trail.append({})\n"
+    "        path = Path()\n"
+    "        path.poses = self.trail\n"
+    "        return path\n"
 )
 
 
@@ -67,6 +83,16 @@ class AssignedTypeUnfit(TypeRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
+        Example(
+            "a list of something else",
+            {"trail.py": _TRAIL.format("pose.pose")},
+            Report(
+                "15:22",
+                "elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
+                "geometry_msgs.msg.Pose: it cannot be published",
+            ),
+        ),
         Example(
             "a time for tf2",
             {
@@ -94,6 +120,10 @@ class AssignedTypeUnfit(TypeRule):
         if matched is None:
             return None
         expected, given = matched["expected"], matched["given"]
+        elements = elements_misfit(expected, given)
+        if elements:
+            message = f"elements of {matched['field']!r} must be {elements}: it cannot be published"
+            return self.report(finding, message)
         if not is_certain_misfit(expected, given):
             return None
         class_ = class_itself(given)

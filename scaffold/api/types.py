@@ -19,6 +19,7 @@ from scaffold.types.python_modules import later_modules
 from scaffold.types.wording import (
     class_in,
     class_itself,
+    elements_misfit,
     in_words,
     is_certain,
     is_certain_misfit,
@@ -33,6 +34,7 @@ __all__ = [
     "TypeFinding",
     "class_in",
     "class_itself",
+    "elements_misfit",
     "full_name",
     "has_call",
     "in_words",

@@ -15,6 +15,9 @@ _BUILTINS = frozenset(
     | {"array"}
 )
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
+_CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
+_CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
+_NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
 _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
@@ -38,7 +41,27 @@ def is_certain_misfit(expected: str, given: str) -> bool:
     if expected.startswith("type["):
         parts = _alternatives(_TEXT.sub("str", given))
         return all(_PLAIN.fullmatch(part.strip()) for part in parts)
-    return is_certain(expected.replace("|", ",")) and (is_certain(given) or is_function(given))
+    if not is_certain(expected.replace("|", ",")):
+        return False
+    if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
+        return True  # whatever is in it
+    return is_certain(given) or is_function(given)
+
+
+def elements_misfit(expected: str, given: str) -> str:
+    """Return what the elements of a list must be and are, if they certainly do not fit.
+
+    Only messages and texts are judged: numbers and ``None`` may be replaced one by one.
+    """
+    wanted = re.fullmatch(r"Iterable\[(.+)\]", expected)
+    listed = re.fullmatch(rf"list\[({MARKED}|str)\]", given)
+    if wanted is None or listed is None:
+        return ""
+    if _NUMBERS.fullmatch(wanted[1]):
+        return f"a number, not {in_words(listed[1])}"
+    if not is_certain(wanted[1]):
+        return ""
+    return f"{with_article(name_of(wanted[1]))}, not {in_words(listed[1])}"
 
 
 def _without_arguments(type_: str) -> str:
