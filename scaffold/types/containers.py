@@ -45,7 +45,7 @@ _READ = re.compile(
     r"|\b(?:len|sorted|sum|min|max|any|all|list|tuple|set|enumerate|reversed|zip|str|iter|next)\("
     r"|\{)$"
 )
-_OF_MESSAGE = re.compile(r"[ ]*(?!self\.\w+[ ]*=)(?:\w+\.)+\w+[ ]*=[ ]*")
+_OF_MESSAGE = re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]?=[ ]?")
 """Matches what is before a value that becomes a field of an object."""
 _MOST_ADDED = 12
 _KEPT = "_ros2_kept"
@@ -164,7 +164,9 @@ def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
     if not before.strip() and _SET.match(text, end):
         return end, ""
     is_read = after in {"}", "!"} or _READ.search(before) is not None
-    is_read = is_read or (after in {"\n", ""} and _OF_MESSAGE.fullmatch(before) is not None)
+    is_read = is_read or (
+        after in {"\n", ""} and _OF_MESSAGE.fullmatch(before.lstrip()) is not None
+    )
     return (end, "") if is_read and after != "." else None
 
 
