@@ -63,10 +63,13 @@ class Kept(NamedTuple):
 
 def kept_values(text: str) -> Iterator[Kept]:
     """Yield the containers of a file that are made without what they are for."""
+    found = [*_MADE.finditer(text)]
+    if not found:
+        return
     made: dict[tuple[str, int, int], list[re.Match[str]]] = {}
     starts = [*_segment_starts(text), len(text)]
     at = 0
-    for match in _MADE.finditer(text):
+    for match in found:
         while starts[at] <= match.start():
             at += 1
         name = match["name"]

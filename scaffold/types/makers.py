@@ -21,12 +21,16 @@ from typing import TypeVar as _Ros2MadeVar
 {_MADE} = _Ros2MadeVar("{_MADE}")
 """
 _PARAMETER = re.compile(r"(?:^\(|,)\s*([^\W\d]\w*)")
+_HEAD = re.compile(r"def \w+(\([^\n]*)")
+_PARAMETERS = re.compile(r"[(,][ ]?(\w+)(?=[,:=) ])")
 _CALLED = r"\breturn[ \t]+{0}\(|=[ \t]*{0}\("
 
 
 def generic_heads(text: str) -> Mapping[int, list[str]]:
     """Return the heads to add, by the place that they go before."""
     result: dict[int, list[str]] = {}
+    if "return" not in text or not _has_called_parameter(text):
+        return result
     for function in results.functions(text):
         names = [name for name in _PARAMETER.findall(function["parameters"]) if name != "self"]
         body = ""
@@ -37,6 +41,12 @@ def generic_heads(text: str) -> Mapping[int, list[str]]:
             if re.search(_CALLED.format(name), body) and _makes(name, function, body):
                 result[function.start()] = [_head(function, name)]
     return result
+
+
+def _has_called_parameter(text: str) -> bool:
+    """Tell whether the name of a parameter is called anywhere: in most files none is."""
+    names = {name for head in _HEAD.findall(text) for name in _PARAMETERS.findall(head)}
+    return any(f"return {name}(" in text or f"= {name}(" in text for name in names)
 
 
 def definitions() -> str:
