@@ -1,4 +1,4 @@
-"""CM099: linters that are looked for are run."""
+"""CM099: linters that are declared or looked for run."""
 
 from __future__ import annotations
 
@@ -7,21 +7,29 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 
 _LISTS = "project(talker)\nif(BUILD_TESTING)\n  find_package(ament_lint_auto REQUIRED)\n{}endif()\n"
+_LISTS_SWITCHED = (
+    "project(talker)\nif(BUILD_TESTING)\n{}  ament_lint_auto_find_test_dependencies()\nendif()\n"
+)
 
 
 class LintersNeverRun(Rule):
-    """``ament_lint_auto`` is found, but its linters are not registered.
+    """``ament_lint_auto`` is found, but its linters are not registered, or one is marked as found.
 
-    **Why.** No linter runs under ``colcon test``, which passes.
+    **Why.** No linter runs under ``colcon test``, which passes. ``ros2 pkg create`` writes the line
+    that switches a linter off, with the advice to remove it: until then missing license headers
+    pass.
 
-    **Fix.** Call ``ament_lint_auto_find_test_dependencies()`` after ``find_package``.
+    **Fix.** Call ``ament_lint_auto_find_test_dependencies()`` after ``find_package``; remove the
+    line of a linter, once every source file has its header.
 
-    **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``.
+    **Source.** ``ament_lint_auto/cmake/ament_lint_auto_find_test_dependencies.cmake``;
+    ``ros2pkg/resource/ament_cmake/CMakeLists.txt.em``.
     """
 
     code = "CM099"
     name = "linters-never-run"
     severity = Severity.WARNING
+    other_severities = {Severity.INFO: "a single linter is switched off"}
     examples = (
         Example(
             "registered",
@@ -34,9 +42,19 @@ class LintersNeverRun(Rule):
                 "3:16", "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
             ),
         ),
+        Example("none switched off", {"CMakeLists.txt": _LISTS_SWITCHED.format("")}),
+        Example(
+            "one switched off, as written by ros2 pkg create",
+            {"CMakeLists.txt": _LISTS_SWITCHED.format("  set(ament_cmake_copyright_FOUND TRUE)\n")},
+            Report("3:3", "disables ament_cmake_copyright: it never runs", severity=Severity.INFO),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_registered(package)
+        yield from self._check_switched(package)
+
+    def _check_registered(self, package: Package) -> Iterator[Diagnostic]:
         cmake = package.cmake
         if cmake.find("ament_lint_auto_find_test_dependencies", "include", "add_subdirectory"):
             return
@@ -48,3 +66,13 @@ class LintersNeverRun(Rule):
             if found_package.name == "ament_lint_auto":
                 message = "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
                 yield self.report(found_package, message)
+
+    def _check_switched(self, package: Package) -> Iterator[Diagnostic]:
+        for command in package.cmake.find("set"):
+            name, *values = command.values or [""]
+            if not (name.startswith("ament_cmake_") and name.endswith("_FOUND")):
+                continue
+            if [value.upper() for value in values[:1]] in (["TRUE"], ["ON"], ["1"], ["YES"]):
+                linter = name.removesuffix("_FOUND")
+                message = f"disables {linter}: it never runs"
+                yield self.report(command.name_location, message, severity=Severity.INFO)

@@ -1,0 +1,129 @@
+"""CM023: packages to find are spelled correctly, and have CMake files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
+from scaffold.api.catalog import similar_package
+from scaffold.api.cmake import Argument, uses_ament
+
+_LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
+_PURE = frozenset(
+    """
+    ament_copyright ament_flake8 ament_index_python ament_lint ament_mypy ament_pep257
+    ament_python demo_nodes_py joint_state_publisher launch launch_pytest launch_ros
+    launch_testing launch_testing_ros launch_xml launch_yaml nav2_simple_commander numpy pytest
+    ros2bag ros2cli ros2launch ros2node ros2param ros2pkg ros2run ros2service ros2topic
+    rosidl_runtime_py sensor_msgs_py setuptools teleop_twist_keyboard tf2_ros_py
+    tf_transformations topic_monitor yaml
+    """.split()  # noqa: SIM905  a column of quoted names would hide them
+)
+
+
+class FindImpossible(Rule):
+    """``find_package`` looks for a package whose name is misspelled, or that is pure Python.
+
+    **Why.** CMake stops: ``By not providing "Findstd_msg.cmake"``; after
+    ``ament_export_dependencies``, in every package that finds this one. Packages of build type
+    ament_python, and libraries of PyPI, install no files for CMake.
+
+    **Fix.** Write the name as the package spells it; remove the line of a Python package, for which
+    ``<exec_depend>`` in package.xml is enough.
+
+    **Source.** CMake documentation, ``find_package``; the packages' ``setup.py``.
+    """
+
+    code = "CM023"
+    name = "find-impossible"
+    effect = Effect.STOPS_BUILD
+    examples = (
+        Example("spelled right", {"CMakeLists.txt": _LISTS.format("std_msgs")}),
+        Example(
+            "a letter is missing",
+            {"CMakeLists.txt": _LISTS.format("std_msg")},
+            Report(
+                "2:14", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format("std_msgs")},
+        ),
+        Example(
+            "in what others find because of this package",
+            {
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "ament_export_dependencies(std_msgs std_msg)\n"
+            },
+            Report(
+                "3:36", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
+            ),
+            fixed={
+                "CMakeLists.txt": _LISTS.format("std_msgs")
+                + "ament_export_dependencies(std_msgs std_msgs)\n"
+            },
+        ),
+        Example("a package of CMake", {"CMakeLists.txt": _LISTS.format("rclpy")}),
+        Example(
+            "pure Python",
+            {"CMakeLists.txt": _LISTS.format("launch_ros")},
+            Report(
+                "2:14",
+                "'launch_ros' is a pure Python package without CMake files: CMake stops",
+            ),
+        ),
+        Example(
+            "a key of rosdep",
+            {"CMakeLists.txt": _LISTS.format("python3-numpy")},
+            Report(
+                "2:14",
+                "'python3-numpy' is a pure Python package without CMake files: CMake stops",
+            ),
+        ),
+        Example(
+            "of ROS 1",
+            {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
+            Report("3:14", "'catkin' belongs to ROS 1: CMake stops; use ament_cmake"),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_spelling(package)
+        yield from self._check_python(package)
+
+    def _check_spelling(self, package: Package) -> Iterator[Diagnostic]:
+        for item in package.cmake.found_packages:
+            yield from self._judge(package, item.name, item.command.arguments[0], item.location)
+        found_names = {found_package.name for found_package in package.cmake.found_packages}
+        for command in package.cmake.find("ament_export_dependencies"):
+            for argument in command.arguments:
+                name = argument.value
+                if name not in found_names and "$" not in name:
+                    yield from self._judge(package, name, argument, argument.location)
+
+    def _judge(
+        self, package: Package, name: str, argument: Argument, at: Location
+    ) -> Iterator[Diagnostic]:
+        closest = similar_package(name)
+        if closest is None or (closest == name.lower() and not _is_of_ros(closest)):
+            return
+        if package.workspace.get(name) is not None:
+            return
+        fix = None
+        if argument.value == name:
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, closest)
+            fix = Fix(f"write {closest}", (edit,))
+        yield self.report(at, f"no package {name!r} is known; closest: {closest!r}", fix)
+
+    def _check_python(self, package: Package) -> Iterator[Diagnostic]:
+        for call in package.cmake.found_packages:
+            if not call.required or package.workspace.get(call.name) is not None:
+                continue
+            if call.name.startswith(("python3-", "python-")) or call.name in _PURE:
+                message = f"{call.name!r} is a pure Python package without CMake files: CMake stops"
+                yield self.report(call, message)
+            elif call.name == "catkin" and call.command.depth == 0 and uses_ament(package):
+                yield self.report(call, "'catkin' belongs to ROS 1: CMake stops; use ament_cmake")
+
+
+def _is_of_ros(name: str) -> bool:
+    """Tell a package of ROS from a library, which may well have capitals in CMake."""
+    return name.startswith(("ament_", "rcl", "rosidl_")) or name.endswith(("_msgs", "_srvs"))

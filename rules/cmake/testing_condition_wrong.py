@@ -1,0 +1,106 @@
+"""CM098: tests alone are under a condition, which is true when tests are built."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+
+_TESTS = ("ament_lint_auto_find_test_dependencies", "ament_add_pytest_test", "ament_add_gtest")
+_LISTS = (
+    "project(talker)\nif({})\n  find_package(ament_lint_auto REQUIRED)\n"
+    "  ament_lint_auto_find_test_dependencies()\nendif()\n"
+)
+_NODE = "#!/usr/bin/env python3\nimport rclpy\n\nif __name__ == '__main__':\n    rclpy.init()\n"
+_INSTALL = "install(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
+_LISTS_NODES = "project(talker)\n{}ament_package()\n"
+
+
+class TestingConditionWrong(Rule):
+    """Tests are under a variable that nothing sets, or a node is installed only with the tests.
+
+    **Why.** A block under such a variable is never entered: ``colcon test`` runs no test, and says
+    nothing. Releases are built with ``BUILD_TESTING`` off: ``No executable found`` for everyone but
+    the author.
+
+    **Fix.** Write ``if(BUILD_TESTING)``, and move ``install`` of a node out of it.
+
+    **Source.** CMake documentation, ``CTest``; ROS 2 documentation, "ament_cmake user
+    documentation", testing, "Migrating from ROS 1".
+    """
+
+    code = "CM098"
+    name = "testing-condition-wrong"
+    examples = (
+        Example(
+            "tests under the variable of CTest", {"CMakeLists.txt": _LISTS.format("BUILD_TESTING")}
+        ),
+        Example(
+            "tests under the variable of catkin",
+            {"CMakeLists.txt": _LISTS.format("CATKIN_ENABLE_TESTING")},
+            Report(
+                "2:4",
+                "nothing sets CATKIN_ENABLE_TESTING, so the tests below never run; "
+                "closest: BUILD_TESTING",
+                fix="write BUILD_TESTING",
+            ),
+            fixed={"CMakeLists.txt": _LISTS.format("BUILD_TESTING")},
+        ),
+        Example(
+            "a node that is always installed",
+            {"CMakeLists.txt": _LISTS_NODES.format(_INSTALL), "talker/node.py": _NODE},
+        ),
+        Example(
+            "a node that is installed with the tests",
+            {
+                "CMakeLists.txt": _LISTS_NODES.format(f"if(BUILD_TESTING)\n{_INSTALL}endif()\n"),
+                "talker/node.py": _NODE,
+            },
+            Report(
+                "CMakeLists.txt:3:18",
+                "talker/node.py is installed only when tests are built: releases do not contain it",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_tests(package)
+        yield from self._check_nodes(package)
+
+    def _check_tests(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        if cmake.find("include"):
+            return
+        conditions = {
+            command.branch.start: command.branch
+            for command in cmake.find(*_TESTS)
+            if command.branch is not None and command.depth == 1
+        }
+        for condition in conditions.values():
+            if condition.name != "if" or len(condition.arguments) != 1:
+                continue
+            argument = condition.arguments[0]
+            name = argument.value
+            if "TEST" not in name.upper() or name == "BUILD_TESTING" or not name.isidentifier():
+                continue
+            if any(name in item.values for item in cmake.commands if item is not condition):
+                continue
+            edit = Edit("CMakeLists.txt", argument.start, argument.end, "BUILD_TESTING")
+            message = f"nothing sets {name}, so the tests below never run; closest: BUILD_TESTING"
+            yield self.report(argument, message, Fix("write BUILD_TESTING", (edit,)))
+
+    def _check_nodes(self, package: Package) -> Iterator[Diagnostic]:
+        cmake = package.cmake
+        for install in cmake.installs:
+            if install.kind != "PROGRAMS" or not cmake.guarded_by_testing(install.command):
+                continue
+            for item in install.items:
+                path = item.path or ""
+                if path not in package.python_files or path.startswith("test"):
+                    continue
+                module = package.module(path)
+                if "rclpy" in module.imports_by_root and not module.in_tests:
+                    message = (
+                        f"{path} is installed only when tests are built: releases do not contain it"
+                    )
+                    yield self.report(item, message)
