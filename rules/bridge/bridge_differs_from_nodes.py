@@ -1,0 +1,168 @@
+"""BR003: a bridge and the nodes of its package agree on the type and direction of a topic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.messages import message_paths
+from scaffold.api.parameters import keeps_default_name
+from scaffold.api.programs import is_remapped, topics_of
+from scaffold.api.robot import bridge_entries
+
+_ENTRY = (
+    "- ros_topic_name: {}\n  gz_topic_name: /cmd_vel\n  ros_type_name: geometry_msgs/msg/{}\n"
+    "  gz_type_name: gz.msgs.Twist\n  direction: {}\n"
+)
+_NODE = (
+    "from geometry_msgs.msg import TwistStamped\nfrom rclpy.node import Node\n\n\n"
+    "class Driver(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('driver')\n"
+    "        self.pub = self.create_publisher(TwistStamped, 'cmd_vel', 10)\n"
+)
+_ENTRY_DIRECTION = (
+    "- ros_topic_name: {0}\n  gz_topic_name: /{0}\n  ros_type_name: {1}\n"
+    "  gz_type_name: gz.msgs.{2}\n  direction: {3}\n"
+)
+_NODE_DIRECTION = (
+    "from geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
+    "class Driver(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('driver')\n"
+    "        self.pub = self.create_publisher(Twist, 'cmd_vel', 10)\n"
+)
+_OF_SENSORS = frozenset(
+    {"rosgraph_msgs/msg/Clock", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Image"}
+    | {"sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/Imu", "sensor_msgs/msg/PointCloud2"}
+    | {"sensor_msgs/msg/NavSatFix", "sensor_msgs/msg/MagneticField"}
+)
+"""What Gazebo measures, and never takes from ROS."""
+
+
+class BridgeDiffersFromNodes(Rule):
+    """A bridge has another type for a topic than the nodes of its package, or the other direction.
+
+    **Why.** The two never connect, or nobody publishes on the side that the bridge listens to: in
+    the simulation nothing moves or nothing arrives, without an error.
+
+    **Fix.** Use the same type on both sides; ``Twist`` and ``TwistStamped`` both go with
+    ``gz.msgs.Twist``. ``ROS_TO_GZ`` is for what nodes publish, ``GZ_TO_ROS`` for sensors and the
+    clock.
+
+    **Source.** ROS 2 documentation, "Topics": a topic has one type; ros_gz_bridge, README.
+    """
+
+    code = "BR003"
+    name = "bridge-differs-from-nodes"
+    other_severities = {Severity.WARNING: "it carries the data in the other direction"}
+    examples = (
+        Example(
+            "the same type; a topic that another type goes to; another topic",
+            {
+                "driver.py": _NODE,
+                "a.yaml": _ENTRY.format("/cmd_vel", "TwistStamped", "ROS_TO_GZ")
+                + _ENTRY.format("cmd_vel", "Twist", "GZ_TO_ROS")
+                + _ENTRY.format("cmd_vel_nav", "Twist", "ROS_TO_GZ"),
+            },
+            Report(
+                "a.yaml:10:14",
+                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing "
+                "arrives there; write ROS_TO_GZ",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "another type",
+            {"driver.py": _NODE, "a.yaml": _ENTRY.format("/cmd_vel", "Twist", "ROS_TO_GZ")},
+            Report(
+                "a.yaml:3:18",
+                "'/cmd_vel' has type geometry_msgs/msg/Twist here, but "
+                "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
+            ),
+        ),
+        Example(
+            "both ways",
+            {
+                "driver.py": _NODE_DIRECTION,
+                "a.yaml": _ENTRY_DIRECTION.format(
+                    "cmd_vel", "geometry_msgs/msg/Twist", "Twist", "ROS_TO_GZ"
+                )
+                + _ENTRY_DIRECTION.format("clock", "rosgraph_msgs/msg/Clock", "Clock", "GZ_TO_ROS"),
+            },
+        ),
+        Example(
+            "the other way round",
+            {
+                "driver.py": _NODE_DIRECTION,
+                "a.yaml": _ENTRY_DIRECTION.format(
+                    "cmd_vel", "geometry_msgs/msg/Twist", "Twist", "GZ_TO_ROS"
+                )
+                + _ENTRY_DIRECTION.format("clock", "rosgraph_msgs/msg/Clock", "Clock", "ROS_TO_GZ"),
+            },
+            Report(
+                "a.yaml:5:14",
+                "'cmd_vel' comes from Gazebo, but driver.py:8 publishes it: nothing "
+                "arrives there; write ROS_TO_GZ",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "a.yaml:10:14",
+                "'clock' goes to Gazebo, which publishes it itself: nothing arrives "
+                "in ROS; write GZ_TO_ROS",
+                severity=Severity.WARNING,
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_type(package)
+        yield from self._check_direction(package)
+
+    def _check_type(self, package: Package) -> Iterator[Diagnostic]:
+        entries = [*bridge_entries(package)]
+        if not entries or not message_paths(package):
+            return
+        topics = topics_of(package)
+        for entry in entries:
+            topic = topics.get(entry.ros_topic.removeprefix("/"))
+            if topic is None or not topic.is_plain_by_default:
+                continue
+            sides = {
+                "ROS_TO_GZ": topic.publishers,
+                "GZ_TO_ROS": topic.subscriptions,
+                "BIDIRECTIONAL": [*topic.publishers, *topic.subscriptions],
+            }
+            type_ = entry.values.get("ros_type_name")
+            for endpoint in sides.get(entry.direction, ()):
+                if type_ is None or endpoint.interface in {type_.text, None}:
+                    continue
+                if not keeps_default_name(package, endpoint) or is_remapped(package, endpoint):
+                    continue
+                at = endpoint.location
+                message = (
+                    f"{entry.ros_topic!r} has type {type_.text} here, but {endpoint.interface} in "
+                    f"{at.path}:{at.line}: they never connect"
+                )
+                yield self.report(type_, message)
+
+    def _check_direction(self, package: Package) -> Iterator[Diagnostic]:
+        for entry in bridge_entries(package):
+            direction = entry.values.get("direction")
+            if direction is None:
+                continue
+            if entry.direction == "ROS_TO_GZ" and entry.text("ros_type_name") in _OF_SENSORS:
+                message = (
+                    f"{entry.ros_topic!r} goes to Gazebo, which publishes it itself: nothing "
+                    "arrives in ROS; write GZ_TO_ROS"
+                )
+                yield self.report(direction, message, severity=Severity.WARNING)
+            elif entry.direction == "GZ_TO_ROS" and message_paths(package):
+                topic = topics_of(package).get(entry.ros_topic.removeprefix("/"))
+                if topic is not None and topic.publishers and not topic.subscriptions:
+                    at = topic.publishers[0].location
+                    message = (
+                        f"{entry.ros_topic!r} comes from Gazebo, but {at.path}:{at.line} publishes "
+                        "it: nothing arrives there; write ROS_TO_GZ"
+                    )
+                    yield self.report(direction, message, severity=Severity.WARNING)

@@ -1,0 +1,309 @@
+"""UR010: the elements of URDF and xacro have what their readers demand, and values they take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
+from scaffold.api.formats import Element
+from scaffold.api.robot import Part, is_known, robot_file, robot_paths, robots, urdf_parts
+
+_ROBOT = (
+    '<robot name="robot">\n  <link name="base_link">\n    <inertial>\n      <mass {}="2.0"/>\n'
+    '      <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>\n'
+    "    </inertial>\n  </link>\n</robot>\n"
+)
+_XACRO = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:arg name="sim"{}/>\n'
+    '  <link name="base_link"/>\n</robot>\n'
+)
+_OF_URDF: Mapping[tuple[str, str], tuple[str, ...]] = {
+    ("robot", "link"): ("name",),
+    ("robot", "joint"): ("name", "type"),
+    ("joint", "parent"): ("link",),
+    ("joint", "child"): ("link",),
+    ("joint", "mimic"): ("joint",),
+    ("joint", "limit"): ("effort", "velocity"),
+    ("joint", "safety_controller"): ("k_velocity",),
+    ("inertial", "mass"): ("value",),
+    ("inertial", "inertia"): ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    ("geometry", "box"): ("size",),
+    ("geometry", "cylinder"): ("radius", "length"),
+    ("geometry", "sphere"): ("radius",),
+    ("geometry", "mesh"): ("filename",),
+    ("visual", "material"): ("name",),
+}
+_OF_LINK = frozenset({"inertial", "visual", "geometry"})
+_OF_XACRO: Mapping[str, tuple[str, ...]] = {
+    "xacro:include": ("filename",),
+    "xacro:property": ("name",),
+    "xacro:macro": ("name",),
+    "xacro:arg": ("name", "default"),
+    "xacro:if": ("value",),
+    "xacro:unless": ("value",),
+    "xacro:insert_block": ("name",),
+    "xacro:attribute": ("name", "value"),
+    "xacro:call": ("macro",),
+}
+_ROBOT_JOINTS = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
+    '  <joint name="axis" type="{}">\n    <parent link="base_link"/>\n{}  </joint>\n</robot>\n'
+)
+_CHILD = '    <child link="wheel"/>\n'
+_LIMIT = '    <limit lower="0" upper="1" effort="1" velocity="1"/>\n'
+_ROBOT_VALUES = (
+    '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel">\n    <visual>\n'
+    "      <geometry><{}/></geometry>\n    </visual>\n  </link>\n"
+    '  <joint name="axis" type="{}">\n    <parent link="base_link"/>\n    <child link="wheel"/>\n'
+    '    <origin xyz="{}"/>\n  </joint>\n</robot>\n'
+)
+_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+_SHAPES = ("box", "cylinder", "sphere", "mesh", "capsule")
+_COUNTS: Mapping[tuple[str, str], int] = {
+    ("origin", "xyz"): 3,
+    ("origin", "rpy"): 3,
+    ("axis", "xyz"): 3,
+    ("box", "size"): 3,
+    ("mesh", "scale"): 3,
+    ("color", "rgba"): 4,
+    ("cylinder", "radius"): 1,
+    ("cylinder", "length"): 1,
+    ("sphere", "radius"): 1,
+    ("mass", "value"): 1,
+    ("limit", "lower"): 1,
+    ("limit", "upper"): 1,
+    ("limit", "effort"): 1,
+    ("limit", "velocity"): 1,
+    **{("inertia", name): 1 for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")},
+}
+"""How many numbers an attribute holds."""
+
+
+class ElementRefused(Rule):
+    """An element of URDF or xacro lacks an attribute or a child, or has a value that is refused.
+
+    **Why.** The parser of URDF refuses the whole file, and xacro stops: robot_state_publisher ends
+    with ``Failed to parse robot description``, for a joint with ``Joint [axis] is of type REVOLUTE
+    but it does not specify limits`` or ``has no known type [continous]``.
+
+    **Fix.** Write the attribute or the element; ``<xacro:arg>`` needs a default as well, and a
+    wheel is ``continuous`` and needs no limits. Joints are ``revolute``, ``continuous``,
+    ``prismatic``, ``fixed``, ``floating`` or ``planar``; numbers are separated by spaces.
+
+    **Source.** urdfdom, ``joint.cpp``, ``link.cpp`` and ``pose.cpp``; xacro, ``reqd_attrs``.
+    """
+
+    code = "UR010"
+    name = "element-refused"
+    examples = (
+        Example("complete", {"robot.urdf": _ROBOT.format("value")}),
+        Example(
+            "of a program for browsers, which npm builds",
+            {"web/package.json": "{}\n", "web/public/robot.urdf": "<robot>\n</robot>\n"},
+        ),
+        Example(
+            "a joint of ros2_control, in a macro that others call",
+            {
+                "robot.xacro": _XACRO.format(' default="false"'),
+                "control.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="driven" params="name">\n    <joint name="${name}">\n'
+                '      <command_interface name="velocity"/>\n    </joint>\n'
+                "  </xacro:macro>\n</robot>\n",
+            },
+        ),
+        Example(
+            "a material for Gazebo, in a macro that others call",
+            {
+                "materials.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="black">\n    <visual>\n      <material>\n'
+                "        <diffuse>0 0 0 1</diffuse>\n      </material>\n    </visual>\n"
+                "  </xacro:macro>\n</robot>\n",
+            },
+        ),
+        Example(
+            "another name for an attribute",
+            {"robot.urdf": _ROBOT.format("val")},
+            Report(
+                "4:8", "<mass> has no 'value': urdfdom refuses the whole file; 'val' is not read"
+            ),
+        ),
+        Example(
+            "an argument without a default",
+            {"robot.xacro": _XACRO.format("")},
+            Report("2:4", "<xacro:arg> has no 'default': xacro stops here"),
+        ),
+        Example(
+            "a robot without a name",
+            {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
+            Report("1:2", "<robot> has no 'name': urdfdom refuses the whole file"),
+        ),
+        Example(
+            "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
+        ),
+        Example(
+            "a wheel without limits", {"robot.urdf": _ROBOT_JOINTS.format("continuous", _CHILD)}
+        ),
+        Example(
+            "a joint without limits",
+            {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD)},
+            Report(
+                "4:4",
+                "joint 'axis' is revolute and has no <limit>: urdfdom refuses the "
+                "whole file; add effort, velocity, lower and upper",
+            ),
+        ),
+        Example(
+            "a joint without a child",
+            {"robot.urdf": _ROBOT_JOINTS.format("prismatic", _LIMIT)},
+            Report("4:4", "joint 'axis' has no <child>: urdfdom refuses the whole file"),
+        ),
+        Example(
+            "values as they are",
+            {
+                "robot.urdf": _ROBOT_VALUES.format(
+                    'sphere radius="0.1"', "continuous", "0 0.1 -1e-3"
+                )
+            },
+        ),
+        Example(
+            "a joint type misspelt; of Gazebo",
+            {
+                "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
+                "b.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "ball", "0 0 0"),
+            },
+            Report(
+                "a.urdf:8:28",
+                "unknown joint type 'continous': urdfdom refuses the whole file; "
+                "closest: 'continuous'",
+            ),
+            Report(
+                "b.urdf:8:28",
+                "unknown joint type 'ball': urdfdom refuses the whole file; known: "
+                "revolute, continuous, prismatic, fixed, floating, planar",
+            ),
+        ),
+        Example(
+            "a shape of its own; commas; too few",
+            {
+                "a.urdf": _ROBOT_VALUES.format('cube size="1 1 1"', "fixed", "0, 0, 0"),
+                "b.urdf": _ROBOT_VALUES.format('box size="1 1"', "fixed", "0 0 0"),
+            },
+            Report(
+                "a.urdf:5:18",
+                "unknown shape <cube>: urdfdom refuses the whole file; known: box, "
+                "cylinder, sphere, mesh",
+            ),
+            Report(
+                "a.urdf:11:18",
+                "xyz is '0, 0, 0', but must be 3 numbers with spaces between: "
+                "urdfdom refuses the whole file",
+            ),
+            Report(
+                "b.urdf:5:28",
+                "size is '1 1', but must be 3 numbers with spaces between: urdfdom "
+                "refuses the whole file",
+            ),
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_parts(package)
+        yield from self._check_values(package)
+
+    def _check_parts(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_attributes(package)
+        yield from self._check_joints(package)
+
+    def _check_attributes(self, package: Package) -> Iterator[Diagnostic]:
+        for robot in robots(package).whole:
+            if robot.file.is_robot and robot.root.get("name") is None:
+                message = "<robot> has no 'name': urdfdom refuses the whole file"
+                yield self.report(robot.root, message)
+        for part in filter(_is_urdf, urdf_parts(package)):
+            holder = part.holder.tag if part.holder is not None else ""
+            for name in _OF_URDF.get((holder, part.tag), ()):
+                if name not in part.attributes:
+                    closest = closest_name(package, name, list(part.attributes), 0.6)
+                    hint = f"; {closest!r} is not read" if closest else ""
+                    message = f"<{part.tag}> has no {name!r}: urdfdom refuses the whole file{hint}"
+                    yield self.report(part, message)
+        for path in robot_paths(package):
+            try:
+                file = robot_file(package, path)
+            except ViewError:
+                continue
+            for element in file.root.descendants() if file is not None and file.is_xacro else ():
+                for name in _missing(element):
+                    message = f"<{element.tag}> has no {name!r}: xacro stops here"
+                    yield self.report(element.name_location, message)
+
+    def _check_joints(self, package: Package) -> Iterator[Diagnostic]:
+        whole = {expansion.file.path for expansion in robots(package).whole}
+        for part in urdf_parts(package):
+            holder = part.holder
+            if part.tag != "joint" or holder is None or holder.tag != "robot" or not whole:
+                continue
+            if any(child.tag.startswith("xacro:") for child in part.element.children):
+                continue  # a macro or a condition may add it
+            name = part.get("name")
+            for tag in ("parent", "child"):
+                if part.one(tag) is None:
+                    message = f"joint {name!r} has no <{tag}>: urdfdom refuses the whole file"
+                    yield self.report(part, message)
+            type_ = part.get("type")
+            if type_ in {"revolute", "prismatic"} and part.one("limit") is None:
+                message = (
+                    f"joint {name!r} is {type_} and has no <limit>: urdfdom refuses the whole "
+                    "file; add effort, velocity, lower and upper"
+                )
+                yield self.report(part, message)
+
+    def _check_values(self, package: Package) -> Iterator[Diagnostic]:
+        for part in urdf_parts(package):
+            holder = part.holder.tag if part.holder is not None else ""
+            type_ = part.get("type") if (holder, part.tag) == ("robot", "joint") else None
+            if type_ is not None and is_known(type_) and type_ not in _TYPES:
+                closest = closest_name(package, type_.lower(), _TYPES, 0.7)
+                hint = f"closest: {closest!r}" if closest else f"known: {', '.join(_TYPES)}"
+                message = f"unknown joint type {type_!r}: urdfdom refuses the whole file; {hint}"
+                yield self.report(part.at("type"), message)
+            if holder == "geometry" and part.tag not in _SHAPES and ":" not in part.tag:
+                message = (
+                    f"unknown shape <{part.tag}>: urdfdom refuses the whole file; "
+                    "known: box, cylinder, sphere, mesh"
+                )
+                yield self.report(part, message)
+            for name, value in part.attributes.items():
+                count = _COUNTS.get((part.tag, name))
+                if count and is_known(value) and not _fits(value, count):
+                    numbers = "a number" if count == 1 else f"{count} numbers with spaces between"
+                    message = (
+                        f"{name} is {value!r}, but must be {numbers}: urdfdom refuses the "
+                        "whole file"
+                    )
+                    yield self.report(part.at(name), message)
+
+
+def _is_urdf(part: Part) -> bool:
+    """Tell whether a part is not that of a macro that may be called for Gazebo."""
+    holder = part.holder
+    if holder is None or holder.tag not in _OF_LINK:
+        return True
+    while holder is not None and holder.tag != "link":
+        holder = holder.holder
+    return holder is not None
+
+
+def _missing(element: Element) -> list[str]:
+    names = _OF_XACRO.get(element.tag, ())
+    return [name for name in names if element.get(name) is None]
+
+
+def _fits(value: str, count: int) -> bool:
+    """Tell whether a text holds so many numbers."""
+    words = value.split()
+    try:
+        return len([float(word) for word in words]) == count
+    except ValueError:
+        return False
