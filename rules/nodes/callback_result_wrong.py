@@ -1,0 +1,429 @@
+"""ND048: callbacks of services and action servers return what is sent, or expected."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api.distributions import target
+from scaffold.api.messages import MessageTypes
+from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
+from scaffold.api.rclpy import ActionServer, Service
+
+_ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
+_NODE = (
+    "from example_interfaces.action import Fibonacci\n"
+    "from rclpy.action import ActionServer, CancelResponse, GoalResponse\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(\n"
+    "            self, Fibonacci, 'count', self.work, goal_callback=self.judge)\n\n"
+    "    def judge(self, goal):\n"
+    "        {}\n\n"
+    "    def work(self, goal_handle):\n"
+    "        goal_handle.succeed()\n"
+    "        {}\n"
+)
+_JUDGED = "return GoalResponse.ACCEPT"
+_NODE_SERVICES = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.create_service(Trigger, 'report', self.report)\n\n"
+    "    def report(self, request, response):\n"
+    "        response.success = True\n"
+    "{}"
+)
+_OTHER = (
+    "        return self.filled(response)\n\n"
+    "    def filled(self, response):\n        response.success = True\n{}"
+)
+
+
+class _Expected(NamedTuple):
+    """What the caller of a callback can use."""
+
+    what: str
+    otherwise: str
+    """What happens to anything else."""
+    cause: str
+    wrong: Callable[[ast.Return], str]
+    """Describes what a statement returns instead; empty if it fits, or that is not known."""
+
+
+class CallbackResultWrong(MessageRule):
+    """A callback of a service or action server returns nothing, or what the server cannot use.
+
+    **Why.** rclpy raises ``TypeError`` in ``send_response`` at the first request, for the result of
+    an action ``AssertionError`` or ``AttributeError``: the node dies, and the client waits forever.
+    A goal callback without a ``GoalResponse`` rejects every goal, a cancel callback without a
+    ``CancelResponse`` every request.
+
+    **Fix.** End the callback with ``return response``, the result of the action, ``return
+    GoalResponse.ACCEPT`` or ``return CancelResponse.ACCEPT``, on every path.
+
+    **Source.** ``rclpy/service.py``, ``Service.send_response``; ``rclpy/action/server.py``,
+    ``_execute_goal_request``, ``_execute_goal``.
+    """
+
+    code = "ND048"
+    name = "callback-result-wrong"
+    examples = (
+        Example(
+            "a result and an answer returned",
+            {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result()")},
+        ),
+        Example(
+            "a bool for the answer, nothing for the result",
+            {"server.py": _NODE.format("return True", "")},
+            Report(
+                "13:9",
+                "returns True, not a GoalResponse for the action server of line 9: "
+                "it counts as a rejection",
+            ),
+            Report(
+                "15:9",
+                "work() does not return the result for the action server of line 9: "
+                "AttributeError when the result is sent",
+            ),
+        ),
+        Example(
+            "the wrong answer, the feedback",
+            {
+                "server.py": _NODE.format(
+                    "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
+                )
+            },
+            Report(
+                "13:9",
+                "returns a CancelResponse, not a GoalResponse for the action server "
+                "of line 9: it counts as a rejection",
+            ),
+            Report(
+                "17:9",
+                "returns example_interfaces/action/Fibonacci.Feedback, not the "
+                "result for the action server of line 9: AttributeError when the "
+                "result is sent",
+            ),
+        ),
+        Example(
+            "on every path but the shutdown",
+            {
+                "server.py": _NODE.format(
+                    _JUDGED, "while rclpy.ok():\n            return Fibonacci.Result()"
+                )
+            },
+        ),
+        Example(
+            "the class of the result",
+            {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result")},
+            Report(
+                "17:9",
+                "returns the class Fibonacci.Result, not the result for the action "
+                "server of line 9: AttributeError when the result is sent",
+            ),
+        ),
+        Example(
+            "a response returned", {"server.py": _NODE_SERVICES.format("        return response\n")}
+        ),
+        Example(
+            "a new response that is filled, an empty one",
+            {
+                "a.py": _NODE_SERVICES.format(
+                    "        response = Trigger.Response()\n        response.success = False\n"
+                    "        return response\n"
+                ),
+                "b.py": _NODE_SERVICES.format("        return Trigger.Response(success=True)\n"),
+                "server.py": _NODE_SERVICES.format("        return Trigger.Response()\n"),
+            },
+            Report(
+                "server.py:12:9", "returns a new response: what was set in the given one is lost"
+            ),
+        ),
+        Example(
+            "the result of a method, and of one that returns nothing",
+            {
+                "a.py": _NODE_SERVICES.format(_OTHER.format("        return response\n")),
+                "b.py": _NODE_SERVICES.format(_OTHER.format("")),
+            },
+            Report(
+                "b.py:12:9",
+                "returns nothing from filled(), not the response (service of line 8): TypeError",
+            ),
+        ),
+        Example(
+            "no response",
+            {"server.py": _NODE_SERVICES.format("")},
+            Report("10:9", "report() does not return the response (service of line 8): TypeError"),
+        ),
+        Example(
+            "a response on one path only, and a bool",
+            {
+                "server.py": _NODE_SERVICES.format(
+                    "        if request is None:\n            return True\n"
+                    "        for _ in range(3):\n            return response\n"
+                )
+            },
+            Report(
+                "10:9",
+                "report() does not return the response on every path (service of "
+                "line 8): TypeError",
+            ),
+            Report("13:13", "returns a bool, not the response (service of line 8): TypeError"),
+        ),
+        Example(
+            "a field of the response",
+            {"server.py": _NODE_SERVICES.format("        return response.success\n")},
+            Report(
+                "12:9",
+                "returns the field response.success, not the response (service of "
+                "line 8): TypeError",
+            ),
+        ),
+        Example(
+            "the request",
+            {"server.py": _NODE_SERVICES.format("        return Trigger.Request()\n")},
+            Report(
+                "12:9",
+                "returns std_srvs/srv/Trigger.Request, not the response (service of "
+                "line 8): TypeError",
+            ),
+        ),
+        Example(
+            "the class instead of the response",
+            {
+                "server.py": _NODE_SERVICES.format(
+                    "        response = Trigger.Response\n        return response\n"
+                )
+            },
+            Report(
+                "13:9",
+                "returns the class std_srvs/srv/Trigger.Response, not the response "
+                "(service of line 8): TypeError",
+            ),
+        ),
+        Example(
+            "a response of its own is filled, and the given one returned",
+            {
+                "server.py": _NODE_SERVICES.format(
+                    "        answer = Trigger.Response()\n        answer.success = True\n"
+                    "        return response\n"
+                ).replace("        response.success = True\n", "")
+            },
+            Report(
+                "11:18", "returns the given response as it came: what was set in this one is lost"
+            ),
+        ),
+        Example(
+            "a dict for the response",
+            {"server.py": _NODE_SERVICES.format("        return {'success': True}\n")},
+            Report("12:9", "returns a dict, not the response (service of line 8): TypeError"),
+        ),
+    )
+
+    def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
+        if package.name != "rclpy":
+            yield from self._check_actions(types)
+        yield from self._check_services(types)
+
+    def _check_actions(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        seen: set[tuple[str, FunctionNode]] = set()
+        for server in types.facts.action_servers:
+            for name in ("execute_callback", *_ANSWERS):
+                function = _function(types, server, name)
+                if function is not None and (name, function) not in seen:
+                    seen.add((name, function))
+                    expected = _expected_by_action(types, server, function, _ANSWERS.get(name, ""))
+                    yield from self._check(types, function, expected)
+
+    def _check_services(self, types: MessageTypes) -> Iterator[Diagnostic]:
+        seen: set[FunctionNode] = set()
+        for service in types.facts.services:
+            callback = service.callback
+            function = callback.function if callback else None
+            if function is None or isinstance(function, ast.Lambda) or function in seen:
+                continue
+            if callback and (callback.is_called or function.decorator_list):
+                continue
+            seen.add(function)
+            if not is_generator(function):
+                expected = _expected_by_service(types, service, function)
+                yield from self._check(types, function, expected)
+                yield from self._check_lost(types, service, function, expected)
+
+    def _check(
+        self, types: MessageTypes, function: FunctionNode, expected: _Expected
+    ) -> Iterator[Diagnostic]:
+        """Check each way out of a callback."""
+        if may_end(function):
+            never = " on every path" if returned(function) else ""
+            message = (
+                f"{function.name}() does not return {expected.what}{never} {expected.otherwise}"
+            )
+            yield self.report(types.module.name_location(function), message, cause=expected.cause)
+        for statement in returned(function):
+            wrong = expected.wrong(statement)
+            if wrong:
+                message = f"returns {wrong}, not {expected.what} {expected.otherwise}"
+                yield self.report(types.module.location(statement), message, cause=expected.cause)
+
+    def _check_lost(
+        self, types: MessageTypes, service: Service, function: FunctionNode, expected: _Expected
+    ) -> Iterator[Diagnostic]:
+        """Check whether what a callback sets in one response is sent, and not another one."""
+        last = function.body[-1]
+        if not isinstance(last, ast.Return) or expected.wrong(last):
+            return
+        filled = _filled_instead(types, service, function)
+        if filled is not None and _is_untouched(types, function, last.value):
+            message = "returns the given response as it came: what was set in this one is lost"
+            yield self.report(types.module.location(filled), message)
+        if _is_new(types, function, last.value):
+            message = "returns a new response: what was set in the given one is lost"
+            yield self.report(types.module.location(last), message)
+
+
+def _expected_by_action(
+    types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str
+) -> _Expected:
+    happens = "it counts as a rejection" if answer else _when_sent()
+    return _Expected(
+        f"a {answer}" if answer else "the result",
+        f"for the action server of line {server.location.line}: {happens}",
+        f"what {types.module.path}:{function.lineno} returns",
+        lambda statement: _wrong(types, server, statement.value, answer),
+    )
+
+
+def _expected_by_service(
+    types: MessageTypes, service: Service, function: FunctionNode
+) -> _Expected:
+    return _Expected(
+        "the response",
+        f"(service of line {service.location.line}): TypeError",
+        "",
+        lambda statement: _wrong_response(
+            types, service, value_set_before(function, statement) or statement.value
+        ),
+    )
+
+
+def _when_sent() -> str:
+    """Return what happens to a wrong result, which setters look at on some distributions."""
+    is_sent = target().fact("messages.has_check_fields")
+    return "AttributeError when the result is sent" if is_sent else "AssertionError"
+
+
+def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
+    """Return the definition of a callback that nothing wraps."""
+    given = server.argument(name)
+    callback = types.facts.callback(given.node) if given else None
+    function = callback.function if callback else None
+    if callback is None or function is None or isinstance(function, ast.Lambda):
+        return None
+    is_plain = not callback.is_called and not callback.is_partial and not function.decorator_list
+    return function if is_plain and not is_generator(function) else None
+
+
+def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, answer: str) -> str:
+    """Describe a returned value that is certainly wrong; empty for others."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, ast.Constant):
+        return repr(value.value)
+    name = types.module.qualified_name(value) or ""
+    if answer:
+        other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
+        return "" if other == answer else f"a {other}"
+    if isinstance(value, ast.Attribute) and types.class_of(value) is not None:
+        return f"the class {types.module.text(value)}"
+    message = types.type_of(value)
+    if message is None or types.definitions.find(server.interface or "") is None:
+        return ""
+    return "" if message.name == f"{server.interface}.Result" else message.name
+
+
+def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
+    """Tell whether an empty response is made, although fields of the given one were set."""
+    if not isinstance(value, ast.Call) or value.args or value.keywords:
+        return False
+    given = function.args.args[-1].arg if function.args.args else ""
+    return types.type_of(value) is not None and any(
+        isinstance(node.ctx, ast.Store)
+        and isinstance(node.value, ast.Name)
+        and node.value.id == given
+        for node in types.module.below(function, ast.Attribute)
+    )
+
+
+def _filled_instead(
+    types: MessageTypes, service: Service, function: FunctionNode
+) -> ast.Call | None:
+    """Return where a response is made whose fields are set, and that nothing else is done with."""
+    module = types.module
+    for assigned in module.below(function, ast.Assign):
+        match assigned:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call(args=[]) as made):
+                owner = types.type_of(made)
+                uses = [
+                    module.parent(use)
+                    for use in module.below(function, ast.Name)
+                    if use.id == name and isinstance(use.ctx, ast.Load)
+                ]
+                if owner is None or owner.name != f"{service.interface}.Response" or not uses:
+                    continue
+                if all(isinstance(x, ast.Attribute) and isinstance(x.ctx, ast.Store) for x in uses):
+                    return made
+    return None
+
+
+def _is_untouched(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
+    """Tell whether a value is the given response, and nothing else is done with that."""
+    given = function.args.args[-1].arg if function.args.args else ""
+    uses = [x for x in types.module.below(function, ast.Name) if x.id == given]
+    return bool(given) and uses == [value]
+
+
+def _returns_nothing(function: ast.FunctionDef) -> bool:
+    """Tell whether a function has no result: neither an empty body nor one that raises."""
+    is_plain = not function.decorator_list and not is_generator(function)
+    does_something = any(
+        isinstance(node, ast.Assign | ast.Attribute) for node in ast.walk(function)
+    )
+    return is_plain and does_something and may_end(function) and not returned(function)
+
+
+def _plain(types: MessageTypes, value: ast.expr) -> str:
+    """Describe a returned value that is no message, whatever its type; empty for others."""
+    match value:
+        case ast.Constant(value=constant):
+            return "None" if constant is None else f"a {type(constant).__name__}"
+        case ast.Dict() | ast.List() | ast.Tuple() | ast.Set():
+            return f"a {type(value).__name__.lower()}"
+        case ast.Call(func=func):
+            called = types.facts.callback(func).function
+            if isinstance(called, ast.FunctionDef) and _returns_nothing(called):
+                return f"nothing from {called.name}()"
+    return ""
+
+
+def _wrong_response(types: MessageTypes, service: Service, value: ast.expr | None) -> str:
+    """Describe a returned value that is certainly not the response; empty for others."""
+    if value is None:
+        return "nothing"
+    plain = _plain(types, value)
+    if plain:
+        return plain
+    field = types.field_type_of(value)
+    if field is not None and (field.is_primitive or field.is_array):
+        return f"the field {types.module.text(value)}"
+    owner = types.type_of(value)
+    if owner is not None and service.interface and owner.name != f"{service.interface}.Response":
+        return owner.name
+    class_ = types.class_of(value) if isinstance(value, ast.Name | ast.Attribute) else None
+    return f"the class {class_.name}" if class_ else ""

@@ -1,0 +1,265 @@
+"""ND068: accepted goals are executed, and get a state."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api.python import FunctionNode
+from scaffold.api.rclpy import ActionServer, RclpyFile
+
+_ENDS = frozenset({"abort", "canceled"})
+_DEEPEST = 3
+"""The most functions that a goal handle is followed through."""
+_NODE = (
+    "from example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionServer\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(self, Fibonacci, 'count', self.work)\n\n"
+    "    def work(self, goal_handle):\n"
+    "        if goal_handle.is_cancel_requested:\n"
+    "            goal_handle.canceled()\n"
+    "            return Fibonacci.Result()\n"
+    "{}"
+    "        return Fibonacci.Result()\n"
+)
+_ASKED = "is_cancel_requested"
+_NODE_ACCEPTED = (
+    "from example_interfaces.action import Fibonacci\n"
+    "from rclpy.action import ActionServer\nfrom rclpy.node import Node\n\n\n"
+    "class Server(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('server')\n"
+    "        self.server = ActionServer(\n"
+    "            self, Fibonacci, 'count', self.work, handle_accepted_callback=self.start)\n\n"
+    "    def start(self, goal_handle):\n"
+    "        {}\n\n"
+    "    def work(self, goal_handle):\n"
+    "        goal_handle.succeed()\n"
+    "        return Fibonacci.Result()\n"
+)
+
+
+class GoalNeverSucceeds(RclpyRule):
+    """An execute callback returns without setting the goal state, or nothing calls it.
+
+    **Why.** rclpy treats the goal as failed: "Goal state not set, assuming aborted"; the client
+    gets ``STATUS_ABORTED``, with the result. A ``handle_accepted_callback`` replaces what rclpy
+    does on its own, which is ``goal_handle.execute()``: the goal is accepted, and nothing happens.
+
+    **Fix.** Call ``goal_handle.succeed()`` before returning the result, ``canceled()`` where a
+    cancellation ends the goal; in the other callback ``goal_handle.execute()``, at once or later.
+
+    **Source.** ``rclpy/action/server.py``, ``_execute_goal``, ``default_handle_accepted_callback``.
+    """
+
+    code = "ND068"
+    name = "goal-never-succeeds"
+    examples = (
+        Example("succeeds", {"server.py": _NODE.format("        goal_handle.succeed()\n")}),
+        Example("aborts", {"server.py": _NODE.format("        goal_handle.abort()\n")}),
+        Example(
+            "passes the handle on", {"server.py": _NODE.format("        self.end(goal_handle)\n")}
+        ),
+        Example(
+            "passes the handle on to a function that aborts",
+            {
+                "server.py": _NODE.format("        self.end(goal_handle)\n")
+                + "\n    def end(self, goal_handle):\n        goal_handle.abort()\n"
+            },
+        ),
+        Example(
+            "passes the handle on to a function that sets no state",
+            {
+                "server.py": _NODE.format("        self.end(goal_handle)\n")
+                + "\n    def end(self, goal_handle):\n"
+                "        self.order = goal_handle.request.order\n"
+            },
+            Report(
+                "16:9",
+                "result returned without succeed(): goals of the action server of "
+                "line 9 end as aborted",
+            ),
+        ),
+        Example(
+            "canceled, and not so",
+            {
+                "server.py": _NODE.format("        goal_handle.succeed()\n"),
+                "other.py": _NODE.format("        goal_handle.succeed()\n").replace(
+                    "goal_handle.canceled()", "self.get_logger().info('canceled')"
+                ),
+            },
+            Report(
+                "other.py:14:13",
+                "a canceled goal is returned without canceled(): it ends as "
+                "aborted; call goal_handle.canceled() before",
+            ),
+        ),
+        Example(
+            "sets no state",
+            {"server.py": _NODE.format("")},
+            Report(
+                "15:9",
+                "result returned without succeed(): goals of the action server of "
+                "line 9 end as aborted",
+            ),
+        ),
+        Example("executed at once", {"server.py": _NODE_ACCEPTED.format("goal_handle.execute()")}),
+        Example(
+            "accepted, and never executed",
+            {"server.py": _NODE_ACCEPTED.format("self.goal = goal_handle")},
+            Report(
+                "10:75",
+                "'start' never calls execute(): goals are accepted, and nothing "
+                "happens; call goal_handle.execute()",
+            ),
+        ),
+        Example(
+            "executed elsewhere",
+            {
+                "server.py": _NODE_ACCEPTED.format("self.goal = goal_handle"),
+                "worker.py": "def work(node):\n    node.goal.execute()\n",
+            },
+        ),
+    )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_state(package, file)
+        yield from self._check_accepted(package, file)
+
+    def _check_state(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if package.name == "rclpy":
+            return
+        for returned in _returned_uncanceled(file):
+            message = (
+                "a canceled goal is returned without canceled(): it ends as aborted; call "
+                "goal_handle.canceled() before"
+            )
+            yield self.report(file.module.location(returned), message)
+        seen: set[FunctionNode] = set()
+        if file.module.index.attributes("succeed"):
+            return
+        for server in file.action_servers:
+            function = _work(file, server)
+            if function is not None and function not in seen:
+                seen.add(function)
+                if _leaves_open(function):
+                    line = server.location.line
+                    message = (
+                        "result returned without succeed(): goals of the action server of "
+                        f"line {line} end as aborted"
+                    )
+                    yield self.report(file.module.location(function.body[-1]), message)
+
+    def _check_accepted(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if file.module.in_tests:
+            return
+        for server in file.action_servers:
+            given = server.argument("handle_accepted_callback")
+            callback = file.callback(given.node) if given is not None else None
+            if given is None or callback is None or callback.function is None:
+                continue
+            if not _executes(package):
+                message = (
+                    f"{callback.name or 'this callback'!r} never calls execute(): goals are "
+                    "accepted, and nothing happens; call goal_handle.execute()"
+                )
+                yield self.report(given, message)
+
+
+def _returned_uncanceled(file: RclpyFile) -> Iterator[ast.Return]:
+    """Yield where an execute callback returns because of a cancellation that nothing confirms."""
+    for server in file.action_servers:
+        function = _work(file, server)
+        if function is None or any(x.finalbody for x in file.module.below(function, ast.Try)):
+            continue
+        for test in file.module.below(function, ast.If):
+            asks = isinstance(test.test, ast.Attribute) and test.test.attr == _ASKED
+            last = test.body[-1]
+            if asks and isinstance(last, ast.Return) and not _ends_in(file, test.body):
+                yield last
+
+
+def _ends_in(file: RclpyFile, body: list[ast.stmt]) -> bool:
+    """Tell whether statements, or the functions of the file that they call, may end a goal."""
+    for statement in body:
+        for node in ast.walk(statement):
+            if isinstance(node, ast.Attribute) and node.attr in {*_ENDS, "succeed"}:
+                return True
+            function = file.callback(node.func).function if isinstance(node, ast.Call) else None
+            if function is not None and any(
+                isinstance(inner, ast.Attribute) and inner.attr in {*_ENDS, "succeed"}
+                for reached in file.reached(function)
+                for inner in ast.walk(reached)
+            ):
+                return True
+    return False
+
+
+def _work(file: RclpyFile, server: ActionServer) -> FunctionNode | None:
+    """Return the execute callback, unless it passes the goal handle on to code of others."""
+    callback = server.callback
+    function = callback.function if callback else None
+    if callback is None or function is None or isinstance(function, ast.Lambda):
+        return None
+    arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
+    if callback.is_partial or callback.is_called or function.decorator_list or not arguments:
+        return None
+    return function if _is_kept(file, function, arguments[0].arg) else None
+
+
+def _is_kept(file: RclpyFile, function: FunctionNode, name: str, depth: int = 0) -> bool:
+    """Tell whether a goal handle stays in a function and those of the file that it calls."""
+    for use in ast.walk(function):
+        if not isinstance(use, ast.Name) or use.id != name:
+            continue
+        match file.module.parent(use):
+            case ast.Attribute():
+                continue
+            case ast.Call(args=args, keywords=[]) as call if use in args and depth < _DEEPEST:
+                if not _stays_open(file, call, args.index(use), depth):
+                    return False
+            case _:
+                return False
+    return True
+
+
+def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
+    """Tell whether a call of a function of the file leaves the goal that it gets as it is."""
+    callback = file.callback(call.func)
+    function = callback.function
+    if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
+        return False
+    arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
+    if at >= len(arguments) or any(isinstance(one, ast.Starred) for one in call.args):
+        return False
+    ends = (node for node in ast.walk(function) if isinstance(node, ast.Attribute))
+    if any(node.attr in _ENDS for node in ends):
+        return False
+    return _is_kept(file, function, arguments[at].arg, depth + 1)
+
+
+def _leaves_open(function: FunctionNode) -> bool:
+    """Return whether the last statement returns a result, and no other one ends the goal."""
+    last = function.body[-1]
+    if not isinstance(last, ast.Return) or last.value is None:
+        return False
+    return not any(
+        isinstance(node, ast.Attribute) and node.attr in _ENDS
+        for statement in function.body
+        if not isinstance(statement, ast.If | ast.For | ast.While)
+        for node in ast.walk(statement)
+    )
+
+
+def _executes(package: Package) -> bool:
+    """Return whether any code of the package calls, or passes on, ``execute`` of something."""
+    return any(
+        isinstance(attribute.ctx, ast.Load)
+        for module in package.modules(mentioning=(".execute",))
+        if not module.in_tests
+        for attribute in module.index.attributes("execute")
+    )

@@ -1,0 +1,242 @@
+"""ND071: publishers, callbacks and callback groups are used."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.python import Unknown
+from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
+
+_NAMES = r"^on_[a-z]|^callback_|_callback$|_cb$"
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.chatter_pub = self.create_publisher(String, 'chatter', 10)\n"
+    "        self.create_timer(1.0, self.tick)\n\n"
+    "    def tick(self):\n"
+    "        {}\n\n\n"
+    "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n"
+)
+_MADE = {
+    "create_subscription": "subscription",
+    "create_publisher": "publisher",
+    "create_timer": "timer",
+    "create_service": "service",
+}
+_GROUPS = frozenset(
+    f"rclpy.callback_groups.{kind}CallbackGroup" for kind in ("Reentrant", "MutuallyExclusive")
+)
+_NODE_GROUPS = (
+    "from rclpy.callback_groups import ReentrantCallbackGroup\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.group = ReentrantCallbackGroup()\n"
+    "        self.create_timer(1.0, self.tick{})\n\n"
+    "    def tick(self):\n"
+    "        pass\n"
+)
+
+
+class MadeAndUnused(RclpyRule):
+    """A node has a publisher, a callback or a callback group that nothing uses.
+
+    **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it. A callback
+    that is not passed to anything never runs: often two subscriptions got the same one, or it has
+    not the name that the base class subscribes with. Without its group, all callbacks stay in the
+    default one, which runs one at a time: what was to run side by side waits, or deadlocks.
+
+    **Fix.** Publish, pass the callback to ``create_subscription``, the group as
+    ``callback_group=``, or remove what is not used.
+
+    **Source.** ``rclpy/publisher.py``, ``publish``; ``rclpy/node.py``, ``create_subscription``; ROS
+    2 documentation, "Using callback groups".
+    """
+
+    code = "ND071"
+    name = "made-and-unused"
+    severity = Severity.WARNING
+    examples = (
+        Example(
+            "one callback for two topics",
+            {
+                "wheels.py": _NODE.format(
+                    "self.chatter_pub.publish(String())\n\n"
+                    "    def left_callback(self, msg):\n        pass\n\n"
+                    "    def right_callback(self, msg):\n        pass\n"
+                ).replace(
+                    "        self.create_timer",
+                    "        self.create_subscription(String, 'left', self.left_callback, 10)\n"
+                    "        self.create_subscription(String, 'right', self.left_callback, 10)\n"
+                    "        self.create_timer",
+                )
+            },
+            Report("20:9", "callback 'right_callback' is never registered: it never runs"),
+        ),
+        Example(
+            "a publisher for each topic, and what is never called",
+            {
+                "talker.py": _NODE.format("self.chatter_pub.publish(String())\n\n{}").format(
+                    "    def add_joystick(self):\n"
+                    "        self.create_subscription(String, 'joy', print, 10)\n\n"
+                    "    def add_lanes(self):\n"
+                    "        for lane in ('a', 'b'):\n"
+                    "            self.lane_pub = self.create_publisher(String, lane, 10)\n"
+                    "        self.lane_pub.publish(String())\n"
+                ),
+                "other.py": "def start(node):\n    node.add_lanes()\n",
+            },
+            Report(
+                "talker.py:15:9",
+                "nothing calls add_joystick(): the subscription in it does not exist",
+            ),
+            Report(
+                "talker.py:20:29",
+                "each pass of the loop replaces 'lane_pub': messages go to the last "
+                "topic alone; keep the publishers in a list or a dict",
+            ),
+        ),
+        Example(
+            "a publisher that is used",
+            {"talker.py": _NODE.format("self.chatter_pub.publish(String(data='a'))")},
+        ),
+        Example(
+            "a publisher that another module uses",
+            {
+                "talker.py": _NODE.format("pass"),
+                "other.py": "def talk(node, message):\n    node.chatter_pub.publish(message)\n",
+            },
+        ),
+        Example(
+            "a publisher that is never used",
+            {"talker.py": _NODE.format("pass")},
+            Report("9:28", "publisher 'chatter_pub' is never used: no messages on 'chatter'"),
+        ),
+        Example(
+            "a group that is used",
+            {"talker.py": _NODE_GROUPS.format(", callback_group=self.group")},
+        ),
+        Example(
+            "a group that is unused",
+            {"talker.py": _NODE_GROUPS.format("")},
+            Report(
+                "8:22",
+                "callback group 'group' is given to nothing: all callbacks run one "
+                "at a time; pass callback_group=",
+            ),
+        ),
+    )
+
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_entities(package, file)
+        yield from self._check_groups(package, file)
+
+    def _check_entities(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.init_calls or file.module.in_tests:
+            return  # a class that other packages may inherit from, or use
+        path = file.module.path
+        for publisher in file.publishers:
+            name = _kept_in(file, publisher.call)
+            if not name:
+                continue
+            is_known = not isinstance(publisher.name, Unknown) and not publisher.is_conditional
+            if is_known and package.is_mentioned_once(name, path):
+                message = f"publisher {name!r} is never used: no messages on {publisher.name!r}"
+                yield self.report(publisher, message)
+            elif _is_replaced(file, publisher.call, name):
+                message = (
+                    f"each pass of the loop replaces {name!r}: messages go to the last topic "
+                    "alone; keep the publishers in a list or a dict"
+                )
+                yield self.report(publisher, message)
+        for class_ in file.classes:
+            for name, message in (*_setups(file, class_), *_callbacks(file, class_)):
+                if package.is_mentioned_once(name, path):
+                    yield self.report(file.module.name_location(class_.methods[name]), message)
+
+    def _check_groups(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        if not file.module.mentions("CallbackGroup(") or file.module.in_tests:
+            return
+        for call in file.module.walk(ast.Call):
+            if _GROUPS.isdisjoint(file.module.qualified_names(call.func)):
+                continue
+            attribute, variable = file.stored_in(call)
+            uses: list[ast.Attribute | ast.Name] = []
+            if attribute:
+                uses += file.module.index.attributes(attribute)
+            elif variable:
+                uses += file.module.index.names(variable)
+            else:
+                continue
+            if any(isinstance(use.ctx, ast.Load) for use in uses):
+                continue
+            if attribute and is_used_elsewhere(package, file, attribute):
+                continue
+            message = (
+                f"callback group {attribute or variable!r} is given to nothing: all callbacks run "
+                "one at a time; pass callback_group="
+            )
+            yield self.report(file.module.location(call), message)
+
+
+def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
+    """Yield the methods named like callbacks that only this package can register, and messages."""
+    if class_.is_lifecycle or file.module.mentions("getattr(self"):
+        return
+    if len(class_.node.bases) != 1:
+        return  # a mixin may register what has a certain name
+    for name, method in class_.methods.items():
+        takes_message = len(method.args.args) > 1
+        is_named = re.search(_NAMES, name) is not None and (
+            takes_message or name.endswith(("_callback", "_cb"))
+        )
+        if is_named and not method.decorator_list:
+            yield name, f"callback {name!r} is never registered: it never runs"
+
+
+def _kept_in(file: RclpyFile, call: ast.Call) -> str:
+    """Return the attribute that the result of a call is assigned to."""
+    match file.module.parent(call):
+        case ast.Assign(targets=[ast.Attribute(value=ast.Name(), attr=name)]):
+            return name
+        case ast.AnnAssign(target=ast.Attribute(value=ast.Name(), attr=name)):
+            return name
+    return ""
+
+
+def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
+    """Yield the methods without arguments that create entities, and messages."""
+    if class_.is_lifecycle or class_.base is not None or len(class_.node.bases) != 1:
+        return
+    if file.module.mentions("getattr("):
+        return
+    for name, method in class_.methods.items():
+        if len(method.args.args) != 1 or method.decorator_list or name.startswith("__"):
+            continue
+        made = [
+            _MADE.get(call.func.attr, "")
+            for call in file.calls_in(method)
+            if isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) == "self"
+        ]
+        created = [kind for kind in made if kind]
+        if created:
+            yield name, f"nothing calls {name}(): the {created[0]} in it does not exist"
+
+
+def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:
+    """Tell whether a loop over topics keeps each publisher in the same attribute, and no other."""
+    loop = next((x for x in file.module.parents(call) if isinstance(x, ast.For)), None)
+    if loop is None or file.function_of(loop) is not file.function_of(call):
+        return False
+    counters = {x.id for x in ast.walk(loop.target) if isinstance(x, ast.Name)}
+    topic = call.args[1] if len(call.args) > 1 else call
+    varies = any(isinstance(x, ast.Name) and x.id in counters for x in ast.walk(topic))
+    stores = [x for x in file.module.index.attributes(name) if isinstance(x.ctx, ast.Store)]
+    inside = [x for x in ast.walk(loop) if isinstance(x, ast.Attribute) and x.attr == name]
+    leaves = any(isinstance(x, ast.Break | ast.Return | ast.If) for x in ast.walk(loop))
+    return varies and not leaves and len(stores) == 1 and inside == stores

@@ -1,0 +1,295 @@
+"""ND057: live nodes are spun, by executors that have them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.programs import Shutdowns, used_of_executor
+from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
+
+_NODE = (
+    "import rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n\n\n"
+    "def main():\n    rclpy.init()\n    node = Talker()\n{}"
+)
+_NODE_EXECUTORS = (
+    "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n"
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n\n\n"
+    "def main():\n    rclpy.init()\n    node = Talker()\n"
+    "    executor = SingleThreadedExecutor()\n{}"
+)
+_ADD = "    executor.add_node(node)\n"
+_SPIN = "    executor.spin()\n"
+
+
+class SpunWrongly(RclpyRule):
+    """A class or executor is spun, a node after the shutdown, or an executor has none or no spin.
+
+    **Why.** No callback is ever called: an executor without nodes waits forever, and does nothing
+    unless it is spun; after ``rclpy.shutdown()``, for which ``rclpy.spin`` waits, spinning has no
+    effect. A class in place of a node is a ``TypeError: 'property' object is not iterable``. Two
+    threads cannot spin at the same time, and ``rclpy.spin(node)`` takes the node to another
+    executor, with one thread.
+
+    **Fix.** ``rclpy.spin(node)``, or ``executor.add_node(node)`` and ``executor.spin()``.
+
+    **Source.** ``rclpy/__init__.py``; ``rclpy/executors.py``.
+    """
+
+    code = "ND057"
+    name = "spun-wrongly"
+    other_severities = {Severity.WARNING: "callbacks run, but in one thread"}
+    examples = (
+        Example(
+            "a node that is spun",
+            {"talker.py": _NODE.format("    rclpy.spin(node)\n")},
+        ),
+        Example(
+            "a class for a node",
+            {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
+            Report("14:5", "'Talker' is a class, not a node: TypeError; write Talker()"),
+        ),
+        Example(
+            "a node after the shutdown",
+            {"talker.py": _NODE.format("    rclpy.shutdown()\n    rclpy.spin(node)\n")},
+            Report("15:5", "rclpy is already shut down in line 14: nothing is spun"),
+        ),
+        Example(
+            "an executor",
+            {
+                "talker.py": _NODE.format(
+                    "    executor = SingleThreadedExecutor()\n    executor.add_node(node)\n"
+                    "    rclpy.spin(executor)\n"
+                ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
+            },
+            Report("17:5", "this is an executor, not a node: AttributeError; call its spin()"),
+        ),
+        Example(
+            "two nodes, one after the other",
+            {"talker.py": _NODE.format("    rclpy.spin(node)\n    rclpy.spin(Talker())\n")},
+            Report(
+                "15:5",
+                "the spin of line 14 returns only at the shutdown: this node is "
+                "never spun; add both to an executor",
+            ),
+        ),
+        Example(
+            "a node that a thread spins",
+            {
+                "talker.py": "import threading\n"
+                + _NODE.format(
+                    "    threading.Thread(target=rclpy.spin, args=(node,)).start()\n"
+                    "    rclpy.spin_until_future_complete(node, node.ask())\n"
+                )
+            },
+            Report(
+                "16:5",
+                "the thread of line 15 spins 'node' already: ValueError: generator "
+                "already executing; wait for the future in another way",
+            ),
+        ),
+        Example(
+            "an executor with a node, spun", {"talker.py": _NODE_EXECUTORS.format(_ADD + _SPIN)}
+        ),
+        Example(
+            "a class added to an executor",
+            {"talker.py": _NODE_EXECUTORS.format(_ADD.replace("node)", "Talker)") + _SPIN)},
+            Report("16:23", "'Talker' is a class, not a node: TypeError; write Talker()"),
+        ),
+        Example(
+            "an executor without a node",
+            {"talker.py": _NODE_EXECUTORS.format(_SPIN)},
+            Report("16:5", "executor without nodes: no callback ever runs; call add_node() first"),
+        ),
+        Example(
+            "an executor that is not spun",
+            {"talker.py": _NODE_EXECUTORS.format(_ADD)},
+            Report("15:16", "executor is never spun: the callbacks of its nodes never run"),
+        ),
+        Example(
+            "one of many threads",
+            {
+                "talker.py": _NODE_EXECUTORS.replace("SingleThreaded", "MultiThreaded")
+                .replace("Executor()", "Executor(num_threads=1)")
+                .format(_ADD + _SPIN)
+            },
+            Report(
+                "15:16",
+                "a MultiThreadedExecutor with one thread runs callbacks one at a "
+                "time; leave num_threads out",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "with many threads that are not used",
+            {
+                "talker.py": _NODE_EXECUTORS.replace("SingleThreaded", "MultiThreaded").format(
+                    _ADD + "    rclpy.spin(node)\n"
+                )
+            },
+            Report(
+                "17:5",
+                "rclpy.spin() does not use the executor of line 15: callbacks run "
+                "one at a time; call spin() of the executor",
+                severity=Severity.WARNING,
+            ),
+        ),
+    )
+
+    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_spin(file)
+        yield from self._check_executors(file)
+
+    def _check_spin(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        shutdowns = Shutdowns(file)
+        for call in file.spin_calls:
+            problem = _problem(file, call, shutdowns)
+            if problem:
+                yield self.report(call, problem)
+        for thread, name in _spinning_threads(file):
+            for call in file.spin_calls:
+                node = call.call.args[0] if call.call.args else None
+                if call.name.startswith("executor.") or node is None:
+                    continue
+                if any(word.arg == "executor" for word in call.call.keywords):
+                    continue
+                if file.module.text(node) == name and _share_scope(file, thread, call.call):
+                    message = (
+                        f"the thread of line {thread.lineno} spins {name!r} already: ValueError: "
+                        "generator already executing; wait for the future in another way"
+                    )
+                    yield self.report(call, message)
+
+    def _check_executors(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        for call in file.module.walk(ast.Call):
+            added = _added_class(file, call)
+            if added:
+                message = f"'{added}' is a class, not a node: TypeError; write {added}()"
+                yield self.report(file.module.location(call.args[0]), message)
+            if _has_one_thread(file, call):
+                message = (
+                    "a MultiThreadedExecutor with one thread runs callbacks one at a time; "
+                    "leave num_threads out"
+                )
+                yield self.report(file.module.location(call), message, severity=Severity.WARNING)
+            used = used_of_executor(file, call)
+            if used is None:
+                continue
+            is_spun = any(name.startswith("spin") for name in used)
+            if is_spun and "add_node" not in used:
+                spin = used["spin"] if "spin" in used else next(iter(used.values()))
+                message = "executor without nodes: no callback ever runs; call add_node() first"
+                yield self.report(file.module.location(spin), message)
+            elif "add_node" in used and not is_spun and not file.spin_calls:
+                message = "executor is never spun: the callbacks of its nodes never run"
+                yield self.report(file.module.location(call), message)
+            elif "add_node" in used and not is_spun and _has_many_threads(call):
+                for other in _other_spins(file, used["add_node"]):
+                    message = (
+                        f"rclpy.spin() does not use the executor of line {call.lineno}: "
+                        "callbacks run one at a time; call spin() of the executor"
+                    )
+                    yield self.report(other, message, severity=Severity.WARNING)
+
+
+def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
+    """Return the message for a wrong call that spins."""
+    if call.name.startswith("executor.") or not call.call.args:
+        return ""
+    node = call.call.args[0]
+    value = file.evaluator.single_value(node)
+    class_ = file.evaluator.named_class(value)
+    if class_ is not None and file.node_class(class_) is not None:
+        return f"{class_.name!r} is a class, not a node: TypeError; write {class_.name}()"
+    if (class_of(file, node) or "").endswith("Executor"):
+        return "this is an executor, not a node: AttributeError; call its spin()"
+    other = shutdowns.before(call.call)
+    if other is not None:
+        return f"rclpy is already shut down in line {other.location.line}: nothing is spun"
+    line = _spun_before(file, call)
+    if line:
+        return (
+            f"the spin of line {line} returns only at the shutdown: this node is never spun; "
+            "add both to an executor"
+        )
+    return ""
+
+
+def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
+    """Yield the threads that spin a node, with what the node is called."""
+    for call in file.module.walk(ast.Call) if file.module.mentions("Thread(") else ():
+        if file.module.qualified_name(call.func) != "threading.Thread":
+            continue
+        words = {word.arg: word.value for word in call.keywords}
+        target, args = words.get("target"), words.get("args")
+        if target is None or file.module.qualified_name(target) != "rclpy.spin":
+            continue
+        if isinstance(args, ast.Tuple | ast.List) and len(args.elts) == 1:
+            yield call, file.module.text(args.elts[0])
+
+
+def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
+    """Return whether a name means the same node in two calls."""
+    functions = [file.module.enclosing_function(node) for node in (thread, call)]
+    classes = [file.module.enclosing_class(node) for node in (thread, call)]
+    if functions[0] is functions[1]:
+        return thread.lineno < call.lineno and not file.is_conditional(thread)
+    return classes[0] is not None and classes[0] is classes[1] and "self" in ast.unparse(call)
+
+
+def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
+    """Return the line of a call ahead in the same block that spins until the shutdown."""
+    statement = file.module.parent(call.call)
+    block = file.module.parent(statement) if isinstance(statement, ast.Expr) else None
+    for other in file.spin_calls if call.name == "spin" else ():
+        before = file.module.parent(other.call)
+        if other.name != "spin" or not isinstance(before, ast.Expr) or before is statement:
+            continue
+        if file.module.parent(before) is block and before.lineno < call.call.lineno:
+            return before.lineno if not _is_again(file, before, call.call) else 0
+    return 0
+
+
+def _is_again(file: RclpyFile, before: ast.stmt, call: ast.Call) -> bool:
+    """Return whether rclpy is started anew between two calls."""
+    return any(before.lineno < init.location.line < call.lineno for init in file.init_calls)
+
+
+def _added_class(file: RclpyFile, call: ast.Call) -> str:
+    """Return the name of a node class that is passed to ``add_node`` instead of a node."""
+    match call:
+        case ast.Call(func=ast.Attribute(attr="add_node"), args=[ast.Name() as node]):
+            class_ = file.evaluator.named_class(node)
+            if class_ is not None and file.node_class(class_) is not None:
+                return class_.name
+    return ""
+
+
+def _has_many_threads(call: ast.Call) -> bool:
+    return ast.unparse(call.func).endswith("MultiThreadedExecutor")
+
+
+def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
+    if not _has_many_threads(call) or file.module.in_tests:
+        return False
+    given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "num_threads")]
+    return bool(given) and file.evaluator.evaluate(given[0]) == 1
+
+
+def _other_spins(file: RclpyFile, add_node: ast.AST) -> Iterator[RclpyCall]:
+    """Yield the calls of ``rclpy.spin`` for the node that was added to an executor."""
+    added = file.module.parent(add_node)
+    for spin in file.spin_calls:
+        match added, spin.call:
+            case ast.Call(args=[ast.Name(id=node)]), ast.Call(args=[ast.Name(id=other)]):
+                if node == other and not spin.call.keywords and spin.name == "spin":
+                    yield spin
