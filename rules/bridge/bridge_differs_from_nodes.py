@@ -58,7 +58,7 @@ class BridgeDiffersFromNodes(Rule):
     other_severities = {Severity.WARNING: "it carries the data in the other direction"}
     examples = (
         Example(
-            "the same type; a topic that another type goes to; another topic",
+            "the same type; the other direction; another topic",
             {
                 "driver.py": _NODE,
                 "a.yaml": _ENTRY.format("/cmd_vel", "TwistStamped", "ROS_TO_GZ")
