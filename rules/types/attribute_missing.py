@@ -52,6 +52,20 @@ _HINT = (
     "        for logger in [self.get_logger()]:\n"
     "            logger.{}('hello')\n"
 )
+_STATES = (
+    "from dataclasses import dataclass, field\n\nfrom geometry_msgs.msg import Pose\n\n\n"
+    "@dataclass\nclass State:\n"
+    "    pose: Pose = field(default_factory=Pose)\n\n\n"
+    "class Keeper:\n"
+    "    def __init__(self):\n"
+    "        self.states = {{}}\n\n"
+    "    def keep(self, name):\n"
+    "        self.states[name] = State()\n"
+    "        print(self.states[name].{})\n\n"
+    "    def show(self):\n"
+    "        for state in self.states.values():\n"
+    "            print(state.{})\n"
+).replace("].{}", "].pose")
 _HOMING = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
     "class Homing(Node):\n"
@@ -528,6 +542,19 @@ class AttributeMissing(TypeRule):
             },
         ),
         Example(
+            "fields of a dataclass in a dictionary",
+            {"keep.py": _STATES.format("pose.position")},
+        ),
+        Example(
+            "another field of a dataclass in a dictionary",
+            {"keep.py": _STATES.format("pose.pose")},
+            Report(
+                "21:19",
+                "geometry_msgs.msg.Pose has no 'pose': AttributeError; it has "
+                "orientation, position",
+            ),
+        ),
+        Example(
             "not awaited",
             {"home.py": _HOMING.format("self.ask()", "success")},
             Report("15:15", "a coroutine has no 'success': AttributeError; await it"),
@@ -556,7 +583,7 @@ class AttributeMissing(TypeRule):
             return None
         name, owner = matched["name"], _without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
-        is_known = re.search(rf"""['"]{name}['"]""", finding.module.source.text) is not None
+        is_known = _is_named(finding, name, owner)
         is_known = is_known or _may_be_of_mock(finding, name)
         if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
@@ -582,6 +609,16 @@ class AttributeMissing(TypeRule):
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
         return self.report(finding, message, fix, severity=severity, cause=_cause(shown))
+
+
+def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
+    """Tell whether a text of the file names an attribute: something may set it, or ask for it."""
+    text = finding.module.source.text
+    if re.search(rf"""['"]{name}['"]""", text) is None:
+        return False
+    class_ = class_in(owner)  # a message takes no other attributes; its fields may be asked for
+    is_message = class_ is not None and _MESSAGE.fullmatch(full_name(class_)) is not None
+    return not is_message or finding.module.mentions("attr(", "get_fields_and_field_types")
 
 
 def _instead(shown: str, name: str, method: str) -> str:

@@ -67,6 +67,8 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
             if argument.arg not in written or not _is_text(argument.annotation):
                 yield "parameter", argument.annotation
     for variable in index.all_of(ast.AnnAssign):
+        if _is_made_so(variable):
+            continue
         yield "declaration" if variable.value is None else "variable", variable.annotation
 
 
@@ -114,6 +116,14 @@ def _referred_to(index: ScopeIndex) -> set[str]:
         if isinstance(node.ctx, ast.Load) and id(node) not in callees
     }
     return names | {node.id for node in index.all_of(ast.Name) if id(node) not in callees}
+
+
+def _is_made_so(variable: ast.AnnAssign) -> bool:
+    """Tell whether a field of a dataclass is made by the class that its annotation names."""
+    match variable.value:
+        case ast.Call(keywords=[ast.keyword(arg="default_factory", value=factory)]):
+            return ast.unparse(factory) == ast.unparse(variable.annotation)
+    return False
 
 
 def _is_text(annotation: ast.expr) -> bool:
