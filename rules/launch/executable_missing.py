@@ -53,6 +53,21 @@ class ExecutableMissing(Rule):
     examples = (
         Example("an entry point", {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk")}),
         Example(
+            "a node that is made, but never launched",
+            {
+                **_FILES,
+                "launch/a.launch.py": "from launch import LaunchDescription\n"
+                "from launch_ros.actions import Node\n\n\n"
+                "def generate_launch_description():\n"
+                "    description = LaunchDescription()\n"
+                "    face = Node(package='talker', executable='face')\n"
+                "    talk = Node(package='talker', executable='talk')\n"
+                "    # description.add_action(face)\n"
+                "    description.add_action(talk)\n"
+                "    return description\n",
+            },
+        ),
+        Example(
             "the module's name",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
             Report(

@@ -134,6 +134,15 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a database, which is made when it is opened",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'map.db'")
+                .replace("[os.path", "[{'database_path': os.path")
+                .replace("')])", "')}])"),
+            },
+        ),
+        Example(
             "a text of several lines, in a directory of which nothing is installed",
             {
                 **_FILES,

@@ -90,6 +90,10 @@ class WordsRunTogether(LaunchRule):
                 "7:62", "this is one argument with spaces in it: write one string for each word"
             ),
         ),
+        Example(
+            "the value of an option, which its program splits",
+            {"launch/a.launch.py": _LAUNCH.format("'--controller-ros-args', '--ros-args -r a:=b'")},
+        ),
         Example("a command with a space", _command("['xacro ', 'a.urdf']")),
         Example(
             "a command without one",
@@ -125,10 +129,17 @@ def _problems(launch: LaunchFile, call: LaunchCall) -> Iterator[tuple[ast.expr, 
             yield item, problem
     for name in _LISTS:
         node = call.given.get(name)
-        for item in node.elts if isinstance(node, ast.List) else ():
-            problem = _problem(launch, item)
+        items = node.elts if isinstance(node, ast.List) else []
+        for before, item in zip([None, *items], items, strict=False):
+            problem = "" if _takes_words(before) else _problem(launch, item)
             if problem:
                 yield item, problem
+
+
+def _takes_words(option: ast.expr | None) -> bool:
+    """Tell whether what follows is split by the program, as for ``--controller-ros-args``."""
+    text = option.value if isinstance(option, ast.Constant) else None
+    return isinstance(text, str) and text.endswith("-ros-args") and text != "--ros-args"
 
 
 def _joined_parts(node: ast.expr | None) -> Iterator[ast.expr]:

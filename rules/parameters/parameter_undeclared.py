@@ -71,6 +71,16 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "in a file that the node loads itself",
+            {
+                "talker.py": "import yaml\n"
+                + _NODE.format("")
+                + "        with open(self.declare_parameter('file', '').value) as stream:\n"
+                "            self.settings = yaml.safe_load(stream)\n",
+                "a.yaml": _FILE.format("topics: [{name: joy, topic: joy_vel}]"),
+            },
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),
@@ -101,7 +111,7 @@ class ParameterUndeclared(Rule):
                 declarations = [declared_by(owner, package) for owner in owners]
                 if not declarations or not all(node.complete for node in declarations):
                     continue
-                if not use_of(package, path).nodes and is_loaded(package, path):
+                if not use_of(package, path).nodes and is_loaded(package, path, owners):
                     continue
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in declarations):

@@ -17,7 +17,7 @@ from scaffold.api import (
     ViewError,
     fact,
 )
-from scaffold.api.install import moved_to
+from scaffold.api.install import is_elsewhere, moved_to
 from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
@@ -278,7 +278,7 @@ class EntryPointUnusable(Rule):
             if where is None and closest and not package.has(f"{root}.py"):
                 return f"the package has no module {root!r}; closest: {closest[0]}"
             return None
-        return f"there is no directory {root}/"
+        return None if is_elsewhere(package, module) else f"there is no directory {root}/"
 
     def _check_use(self, package: Package) -> Iterator[Diagnostic]:
         setup = package.setup_py

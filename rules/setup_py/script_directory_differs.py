@@ -68,6 +68,16 @@ class ScriptDirectoryDiffers(Rule):
             },
         ),
         Example(
+            "a script of that name is installed next to it",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": "from glob import glob\n"
+                + _SETUP.format(_ENTRY + "    data_files=[('lib/talker', glob('scripts/*'))],\n"),
+                "scripts/talker": "#!/usr/bin/env python3\nfrom talker.node import main\nmain()\n",
+                **_NODE,
+            },
+        ),
+        Example(
             "no setup.cfg",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format(_ENTRY), **_NODE},
             Report(

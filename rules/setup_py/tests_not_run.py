@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Package, Report, Rule, Severity
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Effect,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.distributions import target
 from scaffold.api.setup_py import IniFile, IniOption, SetupPy, setup_edit
 
@@ -52,6 +63,16 @@ class TestsNotRun(Rule):
     examples = (
         Example("said", {"setup.py": _SETUP.format(_EXTRA), "test/test_talker.py": _TEST}),
         Example("no tests", {"setup.py": _SETUP.format("")}),
+        Example(
+            "tests of unittest, which colcon runs without pytest",
+            {
+                "setup.py": _SETUP.format(""),
+                "test/__init__.py": "",
+                "test/test_talker.py": "import unittest\n\n\n"
+                "class TestTalker(unittest.TestCase):\n\n"
+                "    def test_talk(self):\n        self.assertTrue('talk')\n",
+            },
+        ),
         Example(
             "not said",
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
@@ -198,6 +219,7 @@ class TestsNotRun(Rule):
         if package.build_type != "ament_python" or setup.call is None:
             return
         tests = [*package.glob("test/test_*.py"), *package.glob("tests/test_*.py")]
+        tests = [path for path in tests if _needs_pytest(package, path)]
         if not tests or setup.has_unknown_keywords or self._has_extra(package):
             return
         edit = setup_edit.insert(setup, _NEW)
@@ -248,6 +270,19 @@ class TestsNotRun(Rule):
         # A list without pytest is as good as none: colcon looks for that very name.
         given = [extras.value[name] for name in EXTRAS if name in extras.value]
         return any(not isinstance(item, list) or _names_pytest(item) for item in given)
+
+
+def _needs_pytest(package: Package, path: str) -> bool:
+    """Tell whether unittest leaves a file of tests, or some of it, out."""
+    if not package.has(f"{path.rpartition('/')[0]}/__init__.py"):
+        return True
+    try:
+        module = package.module(path)
+    except ViewError:
+        return True
+    bases = [module.text(base) for item in module.classes.values() for base in item.node.bases]
+    is_written_for_it = any(base.endswith("TestCase") for base in bases)
+    return not is_written_for_it or any(name.startswith("test") for name in module.functions)
 
 
 def _setup_cfg(package: Package) -> IniFile | None:

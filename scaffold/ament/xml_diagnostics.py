@@ -43,6 +43,10 @@ from scaffold.source import Location
 _Problem = tuple[Location, str] | tuple[Location, str, Fix | None]
 _IN_EXPORT = frozenset({"architecture_independent", "build_type", "deprecated", "metapackage"})
 
+# linear: a declaration and comments each end at their first end mark
+_PROLOGUE = re.compile(rb"\s*(?:<\?xml[^>]*\?>)?\s*(?:<!--.*?-->\s*)*", re.DOTALL)
+"""Matches what is in front of the first element."""
+
 
 def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
     """Yield what ament_xmllint reports under one code.
@@ -92,8 +96,9 @@ def _is_read_anyway(package: Package, path: str, message: str) -> bool:
         return True
     if start.startswith(b"<library"):
         return True
-    is_launch = start.startswith((b"<launch", b"<?xml"))
-    return message.endswith("the end of the root element") and not is_launch
+    is_plugins = _PROLOGUE.sub(b"", start, count=1).startswith(b"<library")
+    is_whole = start.startswith((b"<launch", b"<?xml")) and not is_plugins
+    return message.endswith("the end of the root element") and not is_whole
 
 
 def _unreadable(package: Package) -> Iterator[_Problem]:

@@ -87,6 +87,8 @@ CASES: Mapping[str, tuple[Example, ...]] = {
                 "package.xml": "<package/>\n",
                 "resource/topics.xml": "<topic/>\n<data_writer/>\n",
                 "plugins.xml": '<library path="a"/>\n<library path="b"/>\n',
+                "more.xml": '<?xml version="1.0"?>\n<!-- two -->\n'
+                '<library path="a"/>\n<library path="b"/>\n',
             },
         ),
         Example(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import posixpath
 import re
 import sys
@@ -15,7 +16,7 @@ from scaffold.model.install.share import installed_files
 from scaffold.model.package import mentions
 from scaffold.model.python.facts import imports_by_path, imports_of
 from scaffold.model.python.module import is_in_tests
-from scaffold.model.workspace.gitignore import is_untracked
+from scaffold.model.workspace.gitignore import directories_above, is_untracked
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -76,6 +77,18 @@ def moved_to(package: Package, name: str) -> str:
         if file == f"{leaf}.py" and parent and directory.rpartition("/")[0] == parent:
             return directory
     return ""
+
+
+def is_elsewhere(package: Package, name: str) -> bool:
+    """Tell whether a directory of the checkout above a package has a module.
+
+    Then the package is put together somewhere else, such as in a container.
+    """
+    path = f"{name.replace('.', '/')}.py"
+    disk = package.outside
+    own = f"{disk.real(package.root)}/" if package.root else ""
+    places = (os.path.join(directory, path) for directory in directories_above(package))
+    return any(not place.startswith(own) and disk.is_file(place) for place in places)
 
 
 def may_be_made(package: Package, name: str) -> bool:

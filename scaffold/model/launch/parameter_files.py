@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING
 
@@ -100,11 +100,14 @@ def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
     return list(dict.fromkeys(result)) if len(result) == len(owners) else []
 
 
-def is_loaded(package: Package, path: str) -> bool:
+def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> bool:
     """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
 
-    Then it may hold what is for that code alone.
+    Then it may hold what is for that code alone. The code names the file, or is that of the nodes
+    that the file is for: those may be told its name.
     """
+    if any(owner.path in _code_loading_yaml(owner.home(package)) for owner in owners):
+        return True
     name = path.rpartition("/")[2]
     return any(
         mentions(other, code, name)

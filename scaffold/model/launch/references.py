@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
 from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.share_paths import is_never_used
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.model.released import is_released
@@ -42,7 +43,7 @@ class Reference(NamedTuple):
     """The program that is started from it; ``None`` where a file of it is looked for."""
     executable_location: Location
     is_optional: bool = False
-    """Looked for under a condition that Python decides: it may well not be there."""
+    """Looked for under a condition that Python decides, or never: it may well not be there."""
     program: str = ""
     """What is run by its name alone: ``xacro``, ``ros2 bag``."""
 
@@ -69,7 +70,9 @@ def _in_python(package: Package) -> Iterator[Reference]:
                 executable = launch.text(call, "executable") or UNKNOWN
                 node = call.given.get("executable")
                 at = launch.location(node) if node is not None else at
-            optional = launch.is_optional(use.node)
+            optional = launch.is_optional(use.node) or (
+                call is not None and is_never_used(launch, call.call, frozenset())
+            )
             yield Reference(use.name, use.location, executable, at, optional)
         for program, node in launch.programs:
             owner = _OWNERS.get(program)

@@ -27,6 +27,8 @@ _OF_MADE_FILES = frozenset(
 )
 """Functions that make, remove or ask for a file that need not be there."""
 
+_DATABASES = (".db", ".sqlite", ".sqlite3")
+
 _READING = re.compile(
     r"(?i:(?:im|safe_|full_)?(?:read|load)\w*|parse|fromfile|from_file|loadtxt|genfromtxt)"
 )
@@ -49,7 +51,7 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
                 continue
             if _is_next_to_source(package, launch, share_path):
                 continue
-            if _is_never_read(launch, share_path.node, frozenset()):
+            if is_never_used(launch, share_path.node, frozenset()):
                 continue
             if not _is_written(launch, share_path.node):
                 yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
@@ -130,14 +132,14 @@ def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
     return any(isinstance(item, ast.Name) and item.id == "getattr" for item in made)
 
 
-def _is_never_read(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bool:
-    """Tell whether a path only goes into a variable of a function that nothing uses.
+def is_never_used(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bool:
+    """Tell whether a path or an action only goes into a variable of a function that nothing uses.
 
     Classes of launch look at their files when they are performed, functions may do so at once.
 
     Args:
         launch: The launch file.
-        node: The path, or a variable that has it.
+        node: The path, the action, or a variable that has it.
         seen: Variables that led here.
     """
     names: set[str] = set()
@@ -162,7 +164,7 @@ def _is_never_read(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> b
         for item in ast.walk(function)
         if isinstance(item, ast.Name) and item.id in names and isinstance(item.ctx, ast.Load)
     ]
-    return names <= seen or all(_is_never_read(launch, use, seen | names) for use in uses)
+    return names <= seen or all(is_never_used(launch, use, seen | names) for use in uses)
 
 
 def _makes_object(call: ast.Call) -> bool:
@@ -244,8 +246,8 @@ def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
     made_of = [file for file in owner.files if _name(file).startswith(f"{_name(path)}.")]
     if any(not file.endswith(".xacro") or _is_converted(owner, file) for file in made_of):
         return None  # made from a template
-    if is_untracked(owner, path):
-        return None  # made on each machine
+    if is_untracked(owner, path) or path.endswith(_DATABASES):
+        return None  # made on each machine, a database by whoever opens it
     closest = get_close_matches(path, files, 1, 0.6)
     hint = f"; closest: {closest[0]}" if closest else ""
     return f"{owner.name} has no such file{hint}"

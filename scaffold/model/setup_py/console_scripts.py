@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.values import Glob
+from scaffold.model.setup_py.package_data import matches
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from scaffold.model.package import Package
     from scaffold.model.setup_py.setup_py import EntryPoint
 
@@ -15,11 +19,26 @@ def node_scripts(package: Package) -> list[EntryPoint]:
     """Return the console scripts that start nodes: their module imports rclpy.
 
     Others may be tools that rightly go to ``bin/``, such as the ament linters themselves, and
-    what extends the command ``ros2``, or is it.
+    what extends the command ``ros2``, or is it. Those that data_files put where ``ros2 run`` looks
+    are found there.
     """
     if any(entry.group.startswith("ros2cli.") for entry in package.setup_py.entry_points):
         return []
-    return [entry for entry in package.setup_py.console_scripts if _is_node(package, entry)]
+    found = {*_put_into_lib(package)}
+    return [
+        entry
+        for entry in package.setup_py.console_scripts
+        if entry.name not in found and _is_node(package, entry)
+    ]
+
+
+def _put_into_lib(package: Package) -> Iterator[str]:
+    """Yield the names of the files that data_files put where ``ros2 run`` looks."""
+    for data in package.setup_py.data_files:
+        if str(data.destination).rstrip("/") == f"lib/{package.name}":
+            for source in data.sources:
+                paths = matches(source, package.files) if isinstance(source, Glob) else [source]
+                yield from (str(path).rpartition("/")[2] for path in paths)
 
 
 def _is_node(package: Package, entry: EntryPoint) -> bool:

@@ -79,14 +79,14 @@ def _texts(package: Package, name: str) -> Iterator[tuple[str, str]]:
     with contextlib.suppress(OSError):
         yield "", package.bytes_of(name, _MOST_BYTES).decode(errors="replace")
     disk = package.outside
-    for directory in _parents(package):
+    for directory in directories_above(package):
         with contextlib.suppress(OSError):
             text = disk.read(os.path.join(directory, name), _MOST_BYTES).decode(errors="replace")
             way = os.path.relpath(disk.real(package.root or ""), directory)
             yield f"{way.replace(os.sep, '/')}/", text
 
 
-def _parents(package: Package) -> list[str]:
+def directories_above(package: Package) -> list[str]:
     """Return the directories above a package that belong to its checkout."""
     if package.root is None:
         return []
