@@ -47,6 +47,8 @@ _READ = re.compile(
 )
 _OF_MESSAGE = re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]?=[ ]?")
 """Matches what is before a value that becomes a field of an object."""
+_LINE_END = re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
+"""Matches where only a comment is left of a line."""
 _MOST_ADDED = 12
 _KEPT = "_ros2_kept"
 _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
@@ -168,7 +170,8 @@ def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
         return end, ""
     is_read = after in {"}", "!"} or _READ.search(before) is not None
     is_read = is_read or (
-        after in {"\n", ""} and _OF_MESSAGE.fullmatch(before.lstrip()) is not None
+        _LINE_END.match(text, end) is not None
+        and _OF_MESSAGE.fullmatch(before.lstrip()) is not None
     )
     return (end, "") if is_read and after != "." else None
 

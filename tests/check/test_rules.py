@@ -90,8 +90,8 @@ def test_imports_little(file: Path) -> None:
         for node in ast.walk(tree)
         if isinstance(node, ast.ImportFrom) and not node.level
     }
-    allowed = {"__future__", "ast", "collections", "difflib", "os", "posixpath", "re", "typing"}
-    allowed |= {"fnmatch", "itertools", "scaffold", "tokenize", "io", "sys"}
+    allowed = {"__future__", "ast", "collections", "contextlib", "difflib", "os", "posixpath"}
+    allowed |= {"fnmatch", "itertools", "re", "scaffold", "tokenize", "typing", "io", "sys"}
     assert {name.split(".")[0] for name in imported} <= allowed
 
 
