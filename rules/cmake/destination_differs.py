@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.cmake import Command, Install
+from scaffold.api.distributions import target
 from scaffold.api.launch import DATA_DIRECTORIES
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION {})\n"
@@ -37,6 +38,7 @@ class DestinationDiffers(Rule):
 
     code = "CM010"
     name = "destination-differs"
+    other_severities = {Severity.WARNING: "modules below the version of Python that ROS 2 runs on"}
     examples = (
         Example(
             "programs where ros2 run looks",
@@ -113,6 +115,17 @@ class DestinationDiffers(Rule):
                 "installs Python modules to lib/python3.8/site-packages, which only "
                 "that version of Python searches",
             ),
+        ),
+        Example(
+            "modules below the version of Python of the distribution",
+            {"CMakeLists.txt": _LISTS_PYTHON.format("lib/python3.10/site-packages")},
+            Report(
+                "2:38",
+                "installs Python modules to lib/python3.10/site-packages, which only "
+                "that version of Python searches",
+                severity=Severity.WARNING,
+            ),
+            distro="humble",
         ),
     )
 
@@ -213,7 +226,9 @@ class DestinationDiffers(Rule):
                     f"installs Python modules to {where}, which only that version of "
                     "Python searches"
                 )
-                yield self.report(argument, message)
+                is_searched = f"python{target().python_version}/" in where
+                severity = Severity.WARNING if is_searched else None
+                yield self.report(argument, message, severity=severity)
 
 
 def _is_asked_for(command: Command) -> bool:
