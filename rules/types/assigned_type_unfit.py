@@ -94,6 +94,26 @@ class AssignedTypeUnfit(TypeRule):
             ),
         ),
         Example(
+            "a name that a message gets in one branch",
+            {
+                "say.py": "from geometry_msgs.msg import Twist\nfrom std_msgs.msg import String\n\n\n"
+                "def answer(heard: String, is_moving):\n"
+                "    words = heard.data.strip()\n"
+                "    if not words:\n"
+                "        return None\n"
+                "    if is_moving:\n"
+                "        words = Twist()\n"
+                "    said = String()\n"
+                "    said.data = words\n"
+                "    return said\n"
+            },
+            Report(
+                "12:17",
+                "'data' of std_msgs.msg.String is a str, not a str or "
+                "geometry_msgs.msg.Twist: it cannot be published",
+            ),
+        ),
+        Example(
             "a time for tf2",
             {
                 "look.py": "import tf2_ros\nfrom rclpy.time import Time\n"

@@ -17,6 +17,8 @@ _BUILTINS = frozenset(
 _ANYTHING = re.compile(r"\b(?:Unknown|Any|object|Todo|Never|Divergent)\b|@")
 _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
+_NARROWED = re.compile(r"\(?([^()&]{1,200}) & ~Always(?:Falsy|Truthy)\)?")
+"""Matches a type of which a condition showed that it is true, or false: it is the same."""
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
@@ -126,7 +128,8 @@ def _alternatives(type_: str) -> list[str]:
 
 
 def _readable(name: str) -> str:
-    return full_name(name) if MARK in name else name
+    plain = _NARROWED.sub(r"\1", name)
+    return full_name(plain) if MARK in plain else plain
 
 
 def with_elements(type_: str) -> str:
