@@ -134,6 +134,19 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "a file that a shell writes; a name that is filled in later",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
+                    "    return",
+                    "    made = os.path.join(share, 'config', 'talk{}.yaml').format('er')\n"
+                    "    write = Node(package='talker', executable='talk', prefix=[\n"
+                    "        'date > ', os.path.join(share, 'config', 'date.txt')])\n"
+                    "    return LaunchDescription([write])\n    return",
+                ),
+            },
+        ),
+        Example(
             "a database, which is made when it is opened",
             {
                 **_FILES,

@@ -183,6 +183,18 @@ class CallInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a loop that ends with its first pass",
+            {
+                "caller.py": _NODE.format(
+                    "        future = self.client.call_async(Trigger.Request())\n"
+                    "        while not future.done():\n"
+                    "            try:\n                print(future.result())\n"
+                    "            except Exception as error:\n                print(error)\n"
+                    "            break\n"
+                )
+            },
+        ),
+        Example(
             "a loop as long as rclpy runs",
             {
                 "caller.py": "import rclpy\n"
@@ -254,10 +266,16 @@ def _waits(file: RclpyFile, function: ast.AST) -> Iterator[tuple[ast.AST, str, E
                 class_, what = _BLOCKING[method]
                 if class_of(file, asked) == class_ and not _has_timeout(node):
                     yield node, f"waits for {what}", client_at(file, asked)
-            case ast.While(test=test):
+            case ast.While(test=test) if not _ends_at_once(file, node):
                 future = _awaited(file, test)
                 if future is not None and "spin" not in ast.unparse(node):
                     yield node, "busy-waits for a future", client_of(file, future)
+
+
+def _ends_at_once(file: RclpyFile, loop: ast.While) -> bool:
+    """Tell whether a loop is left in its first pass at the latest."""
+    leaves = any(isinstance(item, ast.Break | ast.Return | ast.Raise) for item in loop.body)
+    return leaves and not any(file.module.below(loop, ast.Continue))
 
 
 def _has_timeout(call: ast.Call) -> bool:

@@ -78,6 +78,21 @@ class GoalNeverCanceled(RclpyRule):
             ),
         ),
         Example(
+            "a goal of which the cancel callback keeps that it is to be canceled",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS)
+                .replace("if goal_handle.is_cancel_requested:", "if self.is_stopped():")
+                .replace(
+                    "        return CancelResponse",
+                    "        self.stopped = True\n        return CancelResponse",
+                )
+                .replace(
+                    "    def cancel(",
+                    "    def is_stopped(self):\n        return self.stopped\n\n    def cancel(",
+                )
+            },
+        ),
+        Example(
             "canceled before it may be",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS).replace(
@@ -139,7 +154,12 @@ class GoalNeverCanceled(RclpyRule):
     def _check_unasked(self, file: RclpyFile) -> Iterator[Diagnostic]:
         """Check a file that never asks whether a goal is to be canceled."""
         for server in file.action_servers if not file.module.in_tests else ():
-            for function in _work(file, server):
+            work = _work(file, server)
+            kept = _kept_on_cancel(file, server)
+            used = (item for it in work for item in file.module.below(it, ast.Attribute))
+            if any(item.attr in kept for item in used):
+                continue
+            for function in work:
                 for call in _cancels(file, function):
                     message = (
                         "nobody asked to cancel the goal: canceled() raises RCLError; "
@@ -156,6 +176,19 @@ def _cancels(file: RclpyFile, function: FunctionNode | ast.Lambda) -> Iterator[a
             continue
         if class_of(file, func.value) == GOAL_HANDLE:
             yield call
+
+
+def _kept_on_cancel(file: RclpyFile, server: ActionServer) -> frozenset[str]:
+    """Return the attributes that the cancel callback sets, ``self.stopped``: the work may ask."""
+    given = server.argument("cancel_callback")
+    function = file.callback(given.node).function if given is not None else None
+    names: set[str] = set()
+    for item in file.module.below(function, ast.Attribute) if function is not None else ():
+        if isinstance(item.ctx, ast.Store):
+            names.add(item.attr)
+        elif item.attr == "set" and isinstance(item.value, ast.Attribute):
+            names.add(item.value.attr)  # an event
+    return frozenset(names)
 
 
 def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:

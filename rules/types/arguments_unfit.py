@@ -121,6 +121,14 @@ class ArgumentsUnfit(TypeRule):
             Report("9:5", "can_transform() lacks 'time': TypeError"),
             Report("10:5", "can_transform() has no argument 'wait': TypeError"),
         ),
+        Example(
+            "a name that is imported anew",
+            {
+                "spawn.py": "from rclpy.node import Node\n"
+                "from gz.transport14 import Node\n\n\n"
+                "def spawn():\n    return Node()\n"
+            },
+        ),
         Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
         Example(
             "a variable that is a class by default only",

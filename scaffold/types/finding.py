@@ -16,6 +16,7 @@ from scaffold.model.python.handlers import last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
+from scaffold.types.marks import MARKED, full_name
 from scaffold.types.passed import first_call
 from scaffold.types.ty import TyDiagnostic
 
@@ -157,7 +158,7 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
-        if self._is_patched(node):
+        if self._is_patched(node) or self._is_imported_anew(node):
             return False
         conditions = [*all_conditions(self.module, node)]
         if any(map(self._asks_what_there_is, conditions)) or self._asks_arguments(conditions):
@@ -190,6 +191,34 @@ class TypeFinding:
             if isinstance(call, ast.Call) and _PATCHING.search(module.text(call.func))
             for given in call.args
         )
+
+    def _is_imported_anew(self, node: ast.AST) -> bool:
+        """Tell whether a name in a function is that of a later import than the reported one.
+
+        The type checker takes such a name for one of all that are imported.
+        """
+        module = self.module
+        if module.enclosing_function(node) is None:
+            return False
+        reported = {full_name(it).partition(".")[0] for it in re.findall(MARKED, self.message)}
+        around = (node, *module.parents(node))
+        call = next((it for it in around if isinstance(it, ast.Call)), node)
+        for name in module.below(call, ast.Name):
+            *earlier, last = self._imports_of(name) or [""]
+            if last not in reported and not reported.isdisjoint(earlier):
+                return True
+        return False
+
+    def _imports_of(self, name: ast.Name) -> list[str]:
+        """Return from which packages a name is imported, one after the other, and nothing else."""
+        lookup = self.module.index.lookup(name.id, name)
+        bindings = lookup[1] if lookup else ()
+        if any(binding.kind != "import" for binding in bindings):
+            return []
+        statements = (self.module.parent(binding.node) for binding in bindings)
+        if any(it is None or self.module.parent(it) is not self.module.tree for it in statements):
+            return []  # one of them is for another version or platform
+        return [binding.target.partition(".")[0] for binding in bindings]
 
     def _is_of_several(self, node: ast.AST) -> bool:
         """Tell whether what is called or used may be another object than the reported one."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
@@ -178,6 +178,8 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
     holder = launch.module.parent(node)
     if isinstance(holder, ast.Dict) and _is_for_output(holder, node):
         return True
+    if isinstance(holder, ast.List) and _is_redirected_to(holder, node):
+        return True
     targets = holder.targets if isinstance(holder, ast.Assign) else ()
     names = {target.id for target in targets if isinstance(target, ast.Name)}
     for call in launch.module.walk(ast.Call) if names else ():
@@ -191,6 +193,13 @@ def _is_written(launch: LaunchFile, node: ast.expr) -> bool:
             ):
                 return not _is_demanded(launch, call)
     return False
+
+
+def _is_redirected_to(command: ast.List, path: ast.expr) -> bool:
+    """Tell whether the shell writes to a path: ``'date > '`` is in front of it."""
+    at = command.elts.index(path)
+    before = command.elts[at - 1] if at else None
+    return isinstance(before, ast.Constant) and str(before.value).rstrip().endswith(">")
 
 
 def _is_for_output(parameters: ast.Dict, path: ast.expr) -> bool:
@@ -228,7 +237,15 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
         return None
     if any(named.path.startswith(f"{nested}/") for nested in owner.tree.nested):
         return None  # the files of a package inside of this one are its own
+    if "{" in named.path and any(map(_before_field(named.path), share.files)):
+        return None  # the text is filled in later
     return _reason(owner, named.path, share.files)
+
+
+def _before_field(path: str) -> Callable[[str], bool]:
+    """Return what tells whether a file begins as a path does before ``{}``."""
+    start = path.partition("{")[0]
+    return lambda file: file.startswith(start)
 
 
 def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
