@@ -139,8 +139,9 @@ class SharePathMissing(Rule):
                 **_FILES,
                 "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'").replace(
                     "    return",
-                    "    made = os.path.join(share, 'config', 'talk{}.yaml').format('er')\n"
-                    "    write = Node(package='talker', executable='talk', prefix=[\n"
+                    "    words = os.path.join(share, 'config', 'talk{}.yaml')\n"
+                    "    write = Node(package='talker', executable='talk',\n"
+                    "                 arguments=[words.format('er')], prefix=[\n"
                     "        'date > ', os.path.join(share, 'config', 'date.txt')])\n"
                     "    return LaunchDescription([write])\n    return",
                 ),
