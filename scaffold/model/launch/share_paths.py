@@ -161,8 +161,9 @@ def is_never_used(launch: LaunchFile, node: ast.AST, seen: frozenset[str]) -> bo
         return False
     uses = [
         item
-        for item in ast.walk(function)
-        if isinstance(item, ast.Name) and item.id in names and isinstance(item.ctx, ast.Load)
+        for name in names
+        for item in launch.module.index.names(name)
+        if isinstance(item.ctx, ast.Load) and function in launch.module.parents(item)
     ]
     return names <= seen or all(is_never_used(launch, use, seen | names) for use in uses)
 
