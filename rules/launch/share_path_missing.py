@@ -71,6 +71,16 @@ class SharePathMissing(Rule):
             },
         ),
         Example(
+            "in a directory that another tool builds",
+            {
+                "package.xml": _FILES["package.xml"].replace("_python", "_cmake"),
+                ".gitignore": "dist/\n",
+                "CMakeLists.txt": "install(DIRECTORY web/dist/ DESTINATION share/talker/www)\n",
+                "web/public/page.html": "",
+                "launch/a.launch.py": _LAUNCH.format("'www', 'page.html'"),
+            },
+        ),
+        Example(
             "given to a function of which nothing is known",
             {
                 **_FILES,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 from scaffold.model.cmake.ament import has_unknown_commands
 from scaffold.model.python.values import Glob
 from scaffold.model.setup_py.package_data import matches
+from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -24,7 +25,9 @@ class Share(NamedTuple):
     files: dict[str, str]
     """Source by path relative to ``share/<package>``."""
     complete: bool
-    """Whether these are all."""
+    """Whether these are all, but for those in ``unread``."""
+    unread: Sequence[str] = ()
+    """How paths begin in directories that git leaves out, such as what another tool builds."""
 
     def has(self, path: str) -> bool:
         """Tell whether a file or a directory is there."""
@@ -70,6 +73,7 @@ def _by_cmake(package: Package) -> Share | None:
     complete = not has_unknown_commands(package) and not cmake.find("file", "configure_file")
     complete = complete and not cmake.find("add_custom_command", "add_custom_target")
     files: dict[str, str] = {"package.xml": "package.xml"}
+    unread: list[str] = []
     for install in cmake.installs:
         if install.kind not in {"DIRECTORY", "FILES", "PROGRAMS"}:
             complete = complete and install.kind not in {"SCRIPT", "CODE"}
@@ -80,9 +84,11 @@ def _by_cmake(package: Package) -> Share | None:
             continue
         for item in install.items:
             complete = complete and item.path is not None
-            for name, source in installed_files(package, install, item):
-                files[posixpath.join(below, name)] = source
-    return Share(files, complete)
+            installed = [*installed_files(package, install, item)]
+            files |= {posixpath.join(below, name): source for name, source in installed}
+            if item.path and not installed and is_untracked(package, item.path):
+                unread.append(posixpath.join(below, "", _base(item)))
+    return Share(files, complete, unread)
 
 
 def installed_files(
@@ -96,11 +102,16 @@ def installed_files(
         yield install.rename or path.rpartition("/")[2], path
         return
     inside = "" if path == "." else f"{path}/"
-    keeps = not (item.value or "").endswith("/") and path != "."
-    base = path.rpartition("/")[2] + "/" if keeps else ""
+    base = _base(item)
     for file in package.files:
         if file.startswith(inside) and _selected(install, file):
             yield base + file.removeprefix(inside), file
+
+
+def _base(item: InstallItem) -> str:
+    """Return where a directory goes below its destination: to its name, or ``""`` with a slash."""
+    keeps = not (item.value or "").endswith("/") and item.path not in {".", None}
+    return (item.path or "").rpartition("/")[2] + "/" if keeps else ""
 
 
 def _selected(install: Install, path: str) -> bool:

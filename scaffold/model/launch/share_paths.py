@@ -238,6 +238,8 @@ def why_missing(package: Package, named: NamedPath) -> str | None:
         return None
     if any(named.path.startswith(f"{nested}/") for nested in owner.tree.nested):
         return None  # the files of a package inside of this one are its own
+    if named.path.startswith(tuple(share.unread)):
+        return None
     if "{" in named.path and any(map(_before_field(named.path), share.files)):
         return None  # the text is filled in later
     return _reason(owner, named.path, share.files)
