@@ -96,7 +96,8 @@ class AssignedTypeUnfit(TypeRule):
         Example(
             "a name that a message gets in one branch",
             {
-                "say.py": "from geometry_msgs.msg import Twist\nfrom std_msgs.msg import String\n\n\n"
+                "say.py": "from geometry_msgs.msg import Twist\n"
+                "from std_msgs.msg import String\n\n\n"
                 "def answer(heard: String, is_moving):\n"
                 "    words = heard.data.strip()\n"
                 "    if not words:\n"
