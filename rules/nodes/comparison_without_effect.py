@@ -1,4 +1,4 @@
-"""ND134: no comparison stands alone as a statement."""
+"""ND134: what is compared is used."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NODE = (
 
 
 class ComparisonWithoutEffect(PythonRule):
-    """A comparison stands alone as a statement: ``==`` where ``=`` is meant.
+    """The result of a comparison is not used: ``==`` where ``=`` was intended.
 
     **Why.** Nothing is assigned, and Python does not complain: the value stays as it was.
 

@@ -31,10 +31,10 @@ class ManifestPlaceholder(Rule):
     other_severities = {
         Severity.ERROR: "it is the license, or there is no description: the package is not built"
     }
-    release_refused = "nobody may use the package, reads what it is for, or hears of its faults"
+    release_refused = "its license, its purpose or its maintainer would be unknown"
     examples = (
         Example(
-            "all is said",
+            "all three are written",
             {
                 "package.xml": "<package>\n"
                 "  <description>Talks.</description>\n"
