@@ -294,7 +294,7 @@ def _loops_over(module: PythonModule, items: ast.expr) -> Iterator[ast.For]:
 
 
 def _changes(loop: ast.For) -> bool:
-    """Tell whether a loop sets fields of what it is over."""
+    """Tell whether a loop sets fields of the elements that it iterates over."""
     names = {node.id for node in ast.walk(loop.target) if isinstance(node, ast.Name)}
     for node in ast.walk(loop):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):

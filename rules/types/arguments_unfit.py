@@ -129,6 +129,15 @@ class ArgumentsUnfit(TypeRule):
                 "def spawn():\n    return Node()\n"
             },
         ),
+        Example(
+            "a function that is defined again",
+            {
+                "spawn.py": "import rclpy\n\n\n"
+                "def spawn(name):\n    return rclpy.create_node(name)\n\n\n"
+                "def spawn(name, count):\n    return [rclpy.create_node(name)] * count\n\n\n"
+                "def main():\n    return spawn('talker', 2)\n"
+            },
+        ),
         Example("the arguments it takes", {"ticker.py": _NODE.format("0.1, self.tick")}),
         Example(
             "a variable that is a class by default only",

@@ -293,7 +293,7 @@ class AttributeMissing(TypeRule):
                 "        topic, data, stamp = reader.read_next()\n"
                 "        print(topic, stamp, last.linear.x, data.linear.x)\n"
             },
-            Report("10:44", "a bytes has no 'linear': AttributeError"),
+            Report("10:44", "bytes has no 'linear': AttributeError"),
         ),
         Example(
             "a client from a table that states its kind",

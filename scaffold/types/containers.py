@@ -141,7 +141,7 @@ def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
         result.append((place, found[1]))
     if any(re.search(rf"\b{re.escape(name)}\b", value) for _, value in result):
         return []
-    return result if name.startswith("self.") or result else []
+    return result
 
 
 def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:

@@ -158,7 +158,7 @@ class TypeFinding:
         node = self.innermost
         if node is None or self._is_of_several(node) or self._is_of_another(node):
             return False
-        if self._is_patched(node) or self._is_imported_anew(node):
+        if self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node):
             return False
         conditions = [*all_conditions(self.module, node)]
         if any(map(self._asks_what_there_is, conditions)) or self._asks_arguments(conditions):
@@ -208,6 +208,20 @@ class TypeFinding:
             if last not in reported and not reported.isdisjoint(earlier):
                 return True
         return False
+
+    def _is_defined_again(self, node: ast.AST) -> bool:
+        """Tell whether a function or class that is called in a function is defined more than once.
+
+        The type checker holds such a call against all definitions; the last one is called.
+        """
+        module = self.module
+        call = next((it for it in (node, *module.parents(node)) if isinstance(it, ast.Call)), None)
+        if call is None or not isinstance(call.func, ast.Name):
+            return False
+        lookup = module.index.lookup(call.func.id, call.func)
+        kinds = [binding.kind for binding in lookup[1]] if lookup else []
+        is_inside = module.enclosing_function(node) is not None
+        return is_inside and len(kinds) > 1 and not {"function", "class"}.isdisjoint(kinds)
 
     def _imports_of(self, name: ast.Name) -> list[str]:
         """Return from which packages a name is imported, one after the other, and nothing else."""

@@ -140,6 +140,8 @@ def with_elements(type_: str) -> str:
 
 
 def with_article(noun: str) -> str:
-    """Return a noun with ``a`` or ``an``; rclpy and rcl begin with the sound of an R by itself."""
+    """Return a noun with ``a`` or ``an``, bytes without; rcl begins with the sound of an R."""
+    if noun == "bytes":
+        return noun
     is_vowel = noun[:1].lower() in "aeio" or noun.startswith("rcl")
     return f"an {noun}" if is_vowel else f"a {noun}"

@@ -104,7 +104,7 @@ def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> 
     """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
 
     Then it may hold what is for that code alone. The code names the file, or is that of the nodes
-    that the file is for: those may be told its name.
+    that the file is for: they may get its name as a parameter.
     """
     if any(owner.path in _code_loading_yaml(owner.home(package)) for owner in owners):
         return True

@@ -274,7 +274,7 @@ class _DistributionEvaluator(Evaluator):
         return False
 
     def _ros_version_as(self, other: object) -> object:
-        """Return the version of ROS in the type of what it is compared with: 1 or '1'."""
+        """Return ROS_VERSION as a number or as text, like the value in the comparison."""
         if str(other) not in {"1", "2"} or not isinstance(other, int | str):
             return UNKNOWN
         self.note(_ROS_VERSION)
