@@ -1,4 +1,4 @@
-"""Which codes are asked for: ``--select`` and ``--ignore`` by code, prefix, name or ``ALL``."""
+"""Which codes ``--select`` and ``--ignore`` ask for: by code, prefix, name, area or ``ALL``."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING
 
 from scaffold.check.renamed_codes import new_codes
 from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
+
+if TYPE_CHECKING:
+    from scaffold.check.rule import Rule
 
 ALL = "ALL"
 """What means every code."""
@@ -50,12 +54,20 @@ class Selection(NamedTuple):
         )
 
 
-def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tuple[str, ...]:
+def area_prefixes(rules: Iterable[type[Rule]]) -> dict[str, str]:
+    """Return the letters that the codes of an area begin with, by the name of its directory."""
+    return {rule.__module__.split(".")[-2]: rule.code[:2] for rule in rules}
+
+
+def resolve(
+    words: Iterable[str], names: Mapping[str, str], areas: Mapping[str, str], origin: str
+) -> tuple[str, ...]:
     """Return the prefixes of codes that words mean.
 
     Args:
-        words: Codes, beginnings of codes, names of rules, or ``ALL``, in any case.
+        words: Codes, beginnings of codes, names of rules, areas, or ``ALL``, in any case.
         names: The names of all rules by their codes.
+        areas: The prefix of the codes of each area by its name.
         origin: Where the words come from.
 
     Raises:
@@ -69,10 +81,13 @@ def resolve(words: Iterable[str], names: Mapping[str, str], origin: str) -> tupl
             codes = [""]
         elif any(code.startswith(upper) for code in names):
             codes = [upper]
+        elif lower in areas:
+            codes = [areas[lower]]
         if not codes:
             is_name = "-" in word or not any(map(str.isdigit, word))
-            what, choices = ("name", names.values()) if is_name else ("code", names.keys())
-            hint = nearest(lower if is_name else upper, choices)
+            known = [*areas, *names.values()] if is_name else list(names)
+            what = "name" if is_name else "code"
+            hint = nearest(lower if is_name else upper, known)
             raise ConfigError(f"{origin}: no rule has the {what} {word!r}{hint}")
         result.update(dict.fromkeys(codes))
     return tuple(result)

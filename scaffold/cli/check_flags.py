@@ -32,7 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--select",
         action="append",
         metavar="RULES",
-        help="report only these codes, prefixes of codes or names, separated by commas, or ALL",
+        help="report only these codes, prefixes of codes, names or areas such as launch, separated "
+        "by commas, or ALL",
     )
     ignore = parser.add_argument(
         "--ignore",

@@ -26,6 +26,7 @@ class Choices:
         self._settings = settings
         self.rules = rules
         self._names: dict[str, str] = {}
+        self._areas: dict[str, str] = {}
 
     def selection(
         self, select: Sequence[str] | None = None, ignore: Sequence[str] | None = None
@@ -111,8 +112,8 @@ class Choices:
         from scaffold.check import selection
 
         if words and not self._names:
-            self._names = _names(self.rules)
-        return selection.resolve(words, self._names, origin)
+            self._names, self._areas = _names(self.rules), selection.area_prefixes(self.rules)
+        return selection.resolve(words, self._names, self._areas, origin)
 
 
 def _names(rules: Sequence[type[Rule]]) -> dict[str, str]:

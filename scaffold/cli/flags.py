@@ -61,13 +61,14 @@ def offer_directories(prefix: str, **_: object) -> list[str]:
 def offer_rules(prefix: str, **_: object) -> list[str]:
     """Offer the codes and names of rules to who presses tab, also after a comma."""
     from scaffold.ament.codes import CODES
-    from scaffold.check import registry
+    from scaffold.check import registry, selection
     from scaffold.check.session import all_rules
     from scaffold.configuration import content
 
     before, comma, word = prefix.rpartition(",")
-    rules = all_rules(registry.load(content.roots("rules")))
-    words = [text for rule in rules for text in (rule.code, rule.name)]
+    rules = registry.load(content.roots("rules"))
+    words = list(selection.area_prefixes(rules))
+    words += [text for rule in all_rules(rules) for text in (rule.code, rule.name)]
     words += [text for code, style in CODES.items() for text in (code, style.name)]
     matches = [text for text in dict.fromkeys(words) if text.startswith((word, word.upper()))]
     return [f"{before}{comma}{text}" for text in matches]

@@ -202,7 +202,7 @@ def test_selection(
 
 def test_an_unknown_code_is_refused_with_the_nearest() -> None:
     with pytest.raises(ConfigError, match=r"--select: no rule has the code 'CN001'.*CM001"):
-        selection.resolve(["PX", "CN001"], {"CM001": "a-name", "PX001": "b-name"}, "--select")
+        selection.resolve(["PX", "CN001"], {"CM001": "a-name", "PX001": "b-name"}, {}, "--select")
 
 
 @pytest.mark.parametrize(
@@ -210,7 +210,7 @@ def test_an_unknown_code_is_refused_with_the_nearest() -> None:
 )
 def test_a_former_code_is_refused_with_the_new_one(prefix: str, new: str) -> None:
     with pytest.raises(ConfigError, match=f"--select: .*{prefix!r}; renamed to {new}"):
-        selection.resolve([prefix], {"CM001": "a", "IM041": "b", "NM001": "c"}, "--select")
+        selection.resolve([prefix], {"CM001": "a", "IM041": "b", "NM001": "c"}, {}, "--select")
 
 
 def test_a_suppression_by_a_former_code_says_so() -> None:

@@ -228,9 +228,11 @@ def test_a_directory_in_a_package_is_the_package(
         (["--select", "ALL", "--ignore", "manifest-placeholder"], {"CM001"}),
         (["--ignore", "ALL"], set()),
         (["--ignore", "ALL", "--select", "PX"], {"PX001"}),
+        (["--select", "cmake"], {"CM001"}),
+        (["--ignore", "cmake,CM"], {"PX001"}),
     ],
 )
-def test_rules_are_selected_by_name_and_all(
+def test_rules_are_selected_by_name_area_and_all(
     words: list[str], codes: set[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["check", "--format", "json", *words])
@@ -248,6 +250,8 @@ def test_a_prefix_lists_rules_as_select_takes_them(capsys: pytest.CaptureFixture
     assert main(["rules", "--format", "json", "CM00"]) == 0
     listed = json.loads(capsys.readouterr().out)
     assert [one["code"] for one in listed] == [line.split()[0] for line in lines]
+    assert main(["rules", "bridge"]) == 0
+    assert all(line.startswith("BR") for line in capsys.readouterr().out.splitlines())
 
 
 @pytest.mark.usefixtures("package")

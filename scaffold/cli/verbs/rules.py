@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from scaffold.cli import flags, terminal
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from scaffold.check.rule import Rule
 
@@ -19,7 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "codes",
         nargs="*",
         metavar="RULE",
-        help="explain these: a code such as CM001, or a name; list those whose codes begin so: CM",
+        help="explain a code such as CM001 or a name; list an area such as cmake or the codes that "
+        "begin with CM",
     )
     codes.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
@@ -37,22 +38,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold.check import docs, registry
+    from scaffold.check import docs, registry, selection
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
     from scaffold.configuration import content
 
     own = settings.load(options.content).content
-    rules = all_rules(registry.load(content.roots("rules", own)))
+    loaded = registry.load(content.roots("rules", own))
+    rules, areas = all_rules(loaded), selection.area_prefixes(loaded)
     if options.write_docs:
         docs.write(options.write_docs, rules)
     elif options.format == "json":
-        chosen = [code for word in options.codes for code in _codes(word, rules)]
+        chosen = [code for word in options.codes for code in _codes(word, rules, areas)]
         terminal.show_json(
             [docs.as_data(rule) for rule in rules if not options.codes or rule.code in chosen]
         )
     elif options.codes:
-        shown = [_explained(word, rules) for word in options.codes]
+        shown = [_explained(word, rules, areas) for word in options.codes]
         terminal.show("\n".join(shown).removesuffix("\n"))
     else:
         terminal.show(_listed(rules, ()))
@@ -60,12 +62,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _explained(word: str, rules: list[type[Rule]]) -> str:
+def _explained(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> str:
     """Return what is known about the rules that a word means."""
     from scaffold.ament.codes import STYLE
     from scaffold.check import docs
 
-    codes = _codes(word, rules)
+    codes = _codes(word, rules, areas)
     if len(codes) > 1:
         chosen = [rule for rule in rules if rule.code in codes]
         return _listed(chosen, [code for code in codes if code in STYLE])
@@ -75,7 +77,7 @@ def _explained(word: str, rules: list[type[Rule]]) -> str:
     return docs.style_page(STYLE[codes[0]])
 
 
-def _codes(word: str, rules: list[type[Rule]]) -> list[str]:
+def _codes(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> list[str]:
     """Return the codes that a word means, as ``check --select`` takes it."""
     from scaffold.ament.codes import STYLE
     from scaffold.check import selection
@@ -88,7 +90,7 @@ def _codes(word: str, rules: list[type[Rule]]) -> list[str]:
     if word.upper() in names:
         return [word.upper()]
     try:
-        prefixes = selection.resolve([word], names, "RULE")
+        prefixes = selection.resolve([word], names, areas, "RULE")
     except ConfigError as error:
         raise InputError(str(error).partition(": ")[2]) from error
     return [code for code in names if code.startswith(prefixes)]
