@@ -198,6 +198,52 @@ def test_a_shell_for_another_distribution_is_noted(
 
 
 @pytest.mark.parametrize(
+    ("path", "text", "expected"),
+    [
+        (
+            "README.md",
+            "Tested with ROS 2 Humble + Nav2\n",
+            "README.md is for Humble: --distro humble",
+        ),
+        (
+            "docker/Dockerfile.robot",
+            "FROM ros:humble-ros-base\nENV ROS_DISTRO=rolling\n",
+            "docker/Dockerfile.robot is for Humble and Rolling: --distro humble,rolling",
+        ),
+        (
+            "README.md",
+            "sudo apt install ros-foxy-desktop\n",
+            "README.md is for Foxy, which has reached its end of life",
+        ),
+        ("README.md", "ROS 2 Humble or later\n", ""),
+        ("README.md", "ROS 2 Humble, ROS 2 Jazzy\n", ""),
+        ("README.md", "Heroshumble ROS Ironclad, see the ROS 2 documentation\n", ""),
+    ],
+)
+def test_a_repository_for_another_distribution_is_noted(
+    path: str,
+    text: str,
+    expected: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / ".git").mkdir()
+    package = write(tmp_path, "")
+    (tmp_path / path).parent.mkdir(exist_ok=True)
+    (tmp_path / path).write_text(text)
+    for _ in range(2):  # the second report is a remembered one
+        main(["check", str(package), "--select", "ND"])
+        *notes, _summary = capsys.readouterr().out.splitlines()
+        assert [note.removesuffix(" checks for that") for note in notes] == (
+            [f"checked for Jazzy, although {expected}"] if expected else []
+        )
+    main(["check", str(package), "--select", "ND", "--distro", "jazzy"])
+    assert "although" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
     ("shell", "expected"),
     [
         ("", ()),

@@ -39,7 +39,7 @@ __all__ = ["add_arguments", "run"]
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
-    from scaffold.cli import reports, standard_input
+    from scaffold.cli import reports, standard_input, stated_distro
     from scaffold.cli.choices import Choices
     from scaffold.cli.settings import validate_answers, warn
     from scaffold.configuration import config, content
@@ -69,7 +69,10 @@ def run(options: argparse.Namespace) -> int:
     named = wanted or [item for items in by_record.values() for item in items]
     options.distributions = distributions.ordered(named or [distributions.JAZZY])
     left_out = () if targets is None else options.notes
-    options.notes = (*distro.note(options.distributions), *left_out)
+    noted = distro.note(options.distributions)
+    if not (named or noted or is_unsaved):
+        noted = stated_distro.note(directory, options.distributions, disk)
+    options.notes = (*noted, *left_out)
     if len(options.distributions) > 1:
         from scaffold.check.several import AgreedSession
         from scaffold.cli.several_targets import SeveralTargets

@@ -1,0 +1,85 @@
+"""The distribution of ROS 2 that the README, the containers and the workflows of a repository name.
+
+It is not what packages are checked for: that a README is old is no reason for another verdict. A
+report for another distribution than the author has says so in one line.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import TYPE_CHECKING
+
+from scaffold import distributions
+from scaffold.cli.distro import FLAG
+from scaffold.model.discovery.colcon import repository_around
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from scaffold.distributions import Distribution
+    from scaffold.files.disk import Disk
+
+_PLACES = (
+    ("", ("README", "DOCKERFILE", "DOCKER-COMPOSE", ".GITLAB-CI")),
+    ("docker", ("DOCKERFILE",)),
+    (".devcontainer", ("DOCKERFILE", "DOCKER-COMPOSE")),
+    (os.path.join(".github", "workflows"), ()),
+)
+"""Directories of a repository, and how the files are called that are read there."""
+_MAX_BYTES = 200_000
+"""Of a file; what a repository is for is said at the top of a README."""
+_KNOWN = (*distributions.NAMES, *sorted(distributions.ENDED_ROS2))
+_NAMED = re.compile(
+    r"(?<![a-z])ros[ _-]?2?[ _-]?(?:distro(?:s|butions?)?)?[\W_]{1,4}"
+    rf"({'|'.join(_KNOWN)})(?![a-z])"
+    r"(?P<later>\+|\s+(?:onwards?|(?:or|and)\s+(?:above|higher|later|newer|up))\b)?",
+    re.IGNORECASE,
+)
+"""Matches ``ROS 2 Humble``, ``ros:humble``, ``ros-humble-desktop``, ``ROS_DISTRO=humble``."""
+
+
+def note(directory: str, targets: Sequence[Distribution], disk: Disk) -> tuple[str, ...]:
+    """Return the line about a repository that names other distributions than the targets, if any.
+
+    Args:
+        directory: What is checked, or the common directory of it.
+        targets: What it is checked for.
+        disk: Records what was accessed.
+    """
+    real = disk.real(directory)
+    top = repository_around(disk, real) or real
+    found: dict[str, list[str]] = {}
+    for path in _files(disk, top):
+        for match in _NAMED.finditer(_text(disk, path)):
+            if match["later"]:
+                return ()
+            found.setdefault(match[1].lower(), []).append(path)
+    if not found or found.keys() & {target.name for target in targets}:
+        return ()
+    usable = [name for name in distributions.NAMES if name in found]
+    ended = [name for name in found if name in distributions.ENDED]
+    path = os.path.relpath(found[(usable or ended)[0]][0], disk.real(os.curdir))
+    checked = f"checked for {distributions.titles(targets)}, although {path} is for"
+    if not usable:
+        return (f"{checked} {_titles(ended)}, which {distributions.ending(ended[0])}",)
+    return (f"{checked} {_titles(usable)}: {FLAG} {','.join(usable)} checks for that",)
+
+
+def _titles(names: Sequence[str]) -> str:
+    return distributions.enumerated(name.capitalize() for name in names)
+
+
+def _files(disk: Disk, top: str) -> Iterator[str]:
+    for directory, starts in _PLACES:
+        place = os.path.join(top, directory) if directory else top
+        for name in disk.entries(place, *starts):
+            yield os.path.join(place, name)
+
+
+def _text(disk: Disk, path: str) -> str:
+    """Return the text of a file; nothing if it is no text, or too large."""
+    try:
+        return disk.read(path, _MAX_BYTES).decode(errors="replace")
+    except OSError:
+        return ""
