@@ -1,7 +1,7 @@
 """Every key of the configuration: its type, its default and its documentation, in one table.
 
-What is refused, the table in docs/configuration.md, the JSON schema and `ros2-scaffold config` all
-come from here.
+The validation, the table in docs/configuration.md, the JSON schema and `ros2-scaffold config` are
+all derived from it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ FOREIGN = ("submodules", "ignored", "vendored", "copies")
 
 
 class Kind(NamedTuple):
-    """What a value may be."""
+    """The type of a value."""
 
     noun: str
     """With its article."""
@@ -57,7 +57,7 @@ def _is_text(value: object) -> bool:
 
 
 _CHARACTERS = re.compile(r"\[!?\]?[^\]]{0,99}\]")
-"""What stands for one of some characters in a pattern."""
+"""A character class in a pattern."""
 
 
 def _is_list_of_strings(value: object) -> bool:
@@ -80,7 +80,7 @@ def _refuse_patterns(value: Any) -> str:  # noqa: ANN401  likewise
         if pattern.startswith("/") or ".." in pattern.split("/") or not pattern.strip("./"):
             return f"has {pattern!r}: a pattern is a path below the directory of this file"
         if "[" in _CHARACTERS.sub("", pattern):
-            return f"has {pattern!r}: its '[' is never closed; write '[[]' for the character itself"
+            return f"has {pattern!r}: its '[' is never closed; write '[[]' for a literal '['"
     return ""
 
 
@@ -176,10 +176,10 @@ KEYS = (
         "content",
         DIRECTORIES,
         [],
-        "Directories with `rules/` and `templates/` of your own, relative to the file. They are "
-        "code: in a project's file they count only if you trust its directory.",
+        "Directories with your own `rules/` and `templates/`, relative to the file. They are code: "
+        "the file of a project may set this only if you trust its directory.",
     ),
-    Key("check", "select", STRINGS, [], "Report these rules only; empty for all."),
+    Key("check", "select", STRINGS, [], "Report only these rules; empty for all."),
     Key("check", "ignore", STRINGS, [], "Do not report these rules."),
     Key(
         "check",
@@ -202,8 +202,8 @@ KEYS = (
         "exclude",
         PATTERNS,
         [],
-        "Leave out the packages and files whose path, or a directory above, matches; relative to "
-        "the file.",
+        "Do not check packages and files whose path or a parent directory matches; relative to the "
+        "file.",
         is_projects=True,
     ),
     Key(
@@ -211,7 +211,7 @@ KEYS = (
         "leave-out",
         FOREIGN_KINDS,
         [*FOREIGN],
-        "Leave out what is not yours to change: submodules of git, files that git ignores, "
+        "Do not check code that somebody else maintains: git submodules, files that git ignores, "
         "vendored code, copies made by editors and file synchronization.",
     ),
     Key(
@@ -219,8 +219,8 @@ KEYS = (
         "style",
         STYLE,
         "all",
-        "`own` reports style and docstrings only in files on which the tests of their package run "
-        "that linter.",
+        "`own` reports style and docstring findings only in files on which the tests of the "
+        "package run that linter.",
     ),
     Key(
         "check",
@@ -228,14 +228,14 @@ KEYS = (
         NUMBER,
         99,
         "The maximum line length (E501) in packages whose tests do not run "
-        "`ament_flake8`; the others configure it there.",
+        "`ament_flake8`; the others set it there.",
     ),
     Key(
         "check",
         "licenses",
         STRINGS,
         [],
-        "The licenses that packages may have, as SPDX identifiers (SC008); empty for any.",
+        "The allowed licenses, as SPDX identifiers (SC008); empty for any.",
     ),
     Key(
         "check",
@@ -250,14 +250,14 @@ KEYS = (
         "distribution",
         DISTRIBUTION,
         distributions.DEFAULT,
-        "The distributions of ROS 2 that packages are for: `check`, and what `new` makes.",
+        "The distributions of ROS 2 that `check` checks for, and that `new` creates packages for.",
     ),
 )
 """In the order of the documentation."""
 
 ANSWERS = "new"
-"""The table with answers to questions: which keys it may have, the templates say."""
-ANSWERS_SUMMARY = "Answers to the questions of `new` and `add`, by their names."
+"""The table with answers to questions; the templates define its keys."""
+ANSWERS_SUMMARY = "Answers to the questions of `new` and `add`, by name."
 TABLES = (*dict.fromkeys(key.table for key in KEYS if key.table), ANSWERS)
 
 
