@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags."""
-    group = parser.add_argument_group("findings that are accepted")
+    group = parser.add_argument_group("accepted findings")
     group.add_argument(
         "--write-baseline",
         metavar="FILE",
-        help="write all findings into a file instead of reporting them",
+        help="write all findings to a file instead of reporting them",
     )
     group.add_argument(
         "--baseline",
@@ -48,7 +48,7 @@ def validate(options: argparse.Namespace, disk: Disk) -> None:
         for flag in ("baseline", "fix", "diff", "reference", "stdin_filename", "output_file"):
             if getattr(options, flag):
                 name = flag.replace("_", "-")
-                raise InputError(f"--write-baseline writes all findings: leave out --{name}")
+                raise InputError(f"--write-baseline writes all findings: omit --{name}")
     elif options.baseline is not None:
         from scaffold.reporters import baseline
 

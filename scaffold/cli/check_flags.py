@@ -32,14 +32,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--select",
         action="append",
         metavar="RULES",
-        help="report only these codes, prefixes of codes, names or areas such as launch, separated "
+        help="report only these rules: codes, prefixes, names or areas such as launch, separated "
         "by commas, or ALL",
     )
     ignore = parser.add_argument(
         "--ignore",
         action="append",
         metavar="RULES",
-        help="do not report these; the longest matching prefix decides",
+        help="do not report these rules; the longest matching prefix wins",
     )
     for action in (select, ignore):
         action.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
@@ -51,19 +51,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fix",
         action="store_true",
-        help="apply the fixes that do not change behavior; those of single files may change others "
-        "of their packages",
+        help="apply safe fixes; fixes of single files may change other files of the package",
     )
     parser.add_argument(
         "--unsafe-fixes",
         action="store_true",
-        help="with --fix or --diff, also apply unsafe fixes, which need review; else count them",
+        help="with --fix or --diff, also apply unsafe fixes, which need review; otherwise, count "
+        "them",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument(
         "--whole-packages",
         action="store_true",
-        help="check and fix the whole packages of single files, and skip files of no package",
+        help="check and fix the whole packages that single files belong to, and skip files "
+        "without a package",
     )
     _add_report_arguments(parser)
     baselines.add_arguments(parser)
@@ -81,8 +82,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--cluster",
         metavar="ADDRESS",
-        help="check on the workers of the Dask cluster whose scheduler is there, such as "
-        "tcp://host:8786; they get the sources",
+        help="check on the workers of a Dask cluster, given the address of its scheduler, such "
+        "as tcp://host:8786; sends them the sources",
     )
     parser.add_argument(
         "--no-types", action="store_true", help="skip the rules that need the type checker"
@@ -90,52 +91,53 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--stdin-filename",
         metavar="FILE",
-        help="check standard input in place of this file; with --fix, write it to standard output",
+        help="check standard input as this file; with --fix, write the result to standard output",
     )
     parser.add_argument(
         "--reference",
         action="store_true",
-        help="compare the docstring rules with pydocstyle, and show the differences instead",
+        help="compare the docstring rules with pydocstyle and show only the differences",
     )
     parser.add_argument(
         "--include-all",
         action="store_true",
-        help="also check submodules, files that git ignores, vendored code and copies of editors",
+        help="also check submodules, files that git ignores, vendored code and copies made by "
+        "editors",
     )
     parser.add_argument(
         "--reference-config",
         action="store_true",
-        help="check style with the configuration that ament ships with, not the one that the tests "
-        "of a package use",
+        help="check style with ament's default configuration instead of that of the package's "
+        "tests",
     )
     parser.add_argument(
         "--content",
         action="append",
         default=[],
         metavar="DIR",
-        help="a directory with rules/ of your own; its Python is run",
+        help="a directory with your own rules/, which are executed",
     )
 
 
 def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
     report = parser.add_argument_group(
-        "the report", "findings that are not shown still count for the exit code"
+        "the report", "hidden findings still count for the exit code"
     )
     report.add_argument(
         "--all",
         action="store_true",
-        help="show every finding, even if they do not fit on the screen",
+        help="show all findings, even if they do not fit on the screen",
     )
     report.add_argument(
         "--style",
         action="store_true",
-        help="show style and docstring findings where a terminal would only count them",
+        help="on a terminal, show style and docstring findings instead of only counting them",
     )
     report.add_argument(
         "--severity",
         choices=("error", "warning", "info"),
         default="info",
-        help="show findings of this level and above only",
+        help="show only findings of this severity and above",
     )
     report.add_argument(
         "--show-source",
@@ -143,9 +145,9 @@ def _add_report_arguments(parser: argparse.ArgumentParser) -> None:
         help="show the source line of each finding (default: on a terminal)",
     )
     report.add_argument(
-        "--statistics", action="store_true", help="show the number of findings per code instead"
+        "--statistics", action="store_true", help="show only the number of findings per code"
     )
-    report.add_argument("-q", "--quiet", action="store_true", help="leave out the summary")
+    report.add_argument("-q", "--quiet", action="store_true", help="omit the summary")
     report.add_argument(
         "--exit-zero", action="store_true", help="exit with 0 even if there are findings"
     )

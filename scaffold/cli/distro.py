@@ -80,8 +80,8 @@ def recorded(
     if names is None:
         if is_needed and (disk or Disk()).is_file(path):
             raise InputError(
-                f"{path}: damaged, so it is not known which distribution the package is for: "
-                f"restore it, or name the distribution with {FLAG}"
+                f"{path}: damaged, so the distribution of the package is unknown: restore the "
+                f"file, or use {FLAG}"
             )
         return None
     for name in names:

@@ -156,8 +156,8 @@ def _plan(fixed: Fixed, tree: Tree | None) -> WritePlan:
         is_content = file.path in fixed.changed or file.path in fixed.removed
         if is_content and file.before != fixed.before.get(file.path):
             raise ConflictError(
-                f"{file.path} in {plan.root} changed after it was read; "
-                "nothing was written: run this again"
+                f"{file.path} in {plan.root} changed after it was read; nothing was written; run "
+                "the command again"
             )
     return plan
 

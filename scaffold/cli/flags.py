@@ -38,8 +38,8 @@ def add_content(parser: Parser) -> None:
         action="append",
         default=[],
         metavar="DIR",
-        help="a directory with templates/ of your own, or URL@REV of a git repository with one "
-        "that `ros2-scaffold trust URL` trusts",
+        help="a directory with your own templates/, or URL@REV of a git repository that you "
+        "trust with `ros2-scaffold trust URL`",
     )
     action.completer = offer_directories  # type: ignore[attr-defined]  # argcomplete
 

@@ -43,10 +43,10 @@ VERBS = {
     "interfaces": "list the known messages, services and actions, or show some",
     "stubs": "write type stubs of rclpy, launch, tf2 and all interfaces for editors",
     "smoke": "build packages, run their executables and observe them",
-    "doctor": "show which ROS 2 there is, what is missing, and what will cost hours",
+    "doctor": "diagnose the ROS 2 environments and common mistakes",
     "config": "show the configuration and where each value comes from",
-    "cache": "show or clean what runs remember",
-    "trust": "let the configuration of a directory load rules and templates",
+    "cache": "show or clean the cache",
+    "trust": "trust a directory whose configuration loads rules and templates",
     "completion": "print the tab completion script of a shell",
 }
 """A verb is a module of this package with ``add_arguments`` and ``run``."""
@@ -141,7 +141,7 @@ def _refused(error: OSError | MemoryError) -> str:
     try:
         os.getcwd()
     except OSError:
-        return "the current directory no longer exists: change to another one"
+        return "the current directory no longer exists"
     reason = error.strerror or str(error) or type(error).__name__
     return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
 

@@ -254,7 +254,8 @@ def _refuse_changed(tree: DiskTree, path: str, before: bytes | None) -> None:
     seen = tree.digest_read(path)
     if seen is not None and seen != (digest(before) if before is not None else ""):
         raise ConflictError(
-            f"{path} in {tree.root} changed after it was read; nothing was written: run this again"
+            f"{path} in {tree.root} changed after it was read; nothing was written; run the "
+            "command again"
         )
 
 

@@ -410,6 +410,6 @@ def test_the_help_of_what_generates_is_in_groups(
     groups = [line.removesuffix(":") for line in lines if line.endswith(":") and line[0] != " "]
     wanted = ["the package", "nodes", "nodes: topics", "nodes: services and actions", "interfaces"]
     assert [group for group in groups if group in wanted] == wanted
-    assert groups[-2:] == ["where and how it is written", "templates"]
+    assert groups[-2:] == ["output", "templates"]
     assert len(lines[0]) < 80
     assert max(map(len, lines)) <= 80

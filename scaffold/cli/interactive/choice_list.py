@@ -102,8 +102,8 @@ class ChoiceList:
         return [choice for grade in grades for choice in grade]
 
     def _lines_of_head(self) -> list[str]:
-        how = "space chooses, enter ends" if self._takes_several else "enter chooses"
-        how = f"arrow keys move, {how}, typing searches, {BACK} goes back"
+        how = "space selects, enter confirms" if self._takes_several else "enter chooses"
+        how = f"arrow keys move, {how}, typing filters, {BACK} goes back"
         text = f"? {ended(self._question)} ({how}) {self._typed}"
         return textwrap.wrap(text, max(columns() - 1, 2))
 

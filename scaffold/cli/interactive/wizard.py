@@ -74,7 +74,7 @@ def ask(
     """
     try:
         with terminal():
-            say(f"{BACK} goes back to the question before; Ctrl+C ends, and nothing is written")
+            say(f"{BACK} returns to the previous question; Ctrl+C aborts, and nothing is written")
             answers = _Interview(templates, given, user, trial).answers()
     except EOFError:
         raise KeyboardInterrupt from None
@@ -152,8 +152,8 @@ class _Interview:
                 raise BackError from None
         choices = [
             Choice(_WRITE, "write these files"),
-            Choice(_CHANGE, "go back to the last question"),
-            Choice(_STOP, "end, and write nothing"),
+            Choice(_CHANGE, "return to the last question"),
+            Choice(_STOP, "abort, and write nothing"),
         ]
         decision = prompts.choose("Write the package?", choices, _WRITE)
         if decision == _CHANGE:

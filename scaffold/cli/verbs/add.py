@@ -38,30 +38,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     listed = "; ".join(
         f"{section}: {', '.join(names)}" for section, names in parts.sections(templates).items()
     )
-    kind = parser.add_argument("kind", metavar="KIND", help=f"what to add: {listed}")
+    kind = parser.add_argument("kind", metavar="KIND", help=f"{listed}")
     kind.completer = lambda **_: kinds  # type: ignore[attr-defined]  # argcomplete
     name = parser.add_argument(
         "name",
         metavar="NAME",
         nargs="?",
-        help="the name of the node, interface or program; extras have none",
+        help="name of the node, interface or program; not for extras",
     )
     name.completer = lambda **_: ()  # type: ignore[attr-defined]  # argcomplete
     package = parser.add_argument_group("the package")
     package.add_argument(
         "--package-directory",
         metavar="DIR",
-        help="the package (default: the one that contains the current directory)",
+        help="directory of the package (default: that of the current directory)",
     )
     package.add_argument(
         "--launch",
         metavar="FILE",
         default="",
-        help="a launch file of the package that starts the new node; no other is edited",
+        help="a launch file of the package to add the node to; no other is edited",
     )
     names_of_flags = {question.name for question in _asked(templates)}
     question_groups.add(parser, templates.values(), only=names_of_flags, package=package)
-    writing = parser.add_argument_group("where and how it is written")
+    writing = parser.add_argument_group("output")
     flags.add_answers(writing)
     flags.add_looking(writing)
     writing.add_argument(

@@ -13,7 +13,7 @@ _KILO = 1000
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
     parser.description = (
-        "Show where the cache is and how large, or clean it. What is in it only saves time: it may "
+        "Show the location and size of the cache, or clean it. The cache only saves time and can "
         "be removed at any moment."
     )
     parser.add_argument(
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         choices=ACTIONS,
         default="show",
-        help="show its place and size (the default), or remove everything in it",
+        help="show its location and size (default), or remove everything in it",
     )
 
 

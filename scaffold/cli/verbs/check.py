@@ -192,7 +192,7 @@ def note_unchecked(session: Session) -> None:
         terminal.error(f"{count(len(names), 'package')} not checked: {reason}: {', '.join(names)}")
     if session.types_failure:
         failure = session.types_failure
-        terminal.error(f"types are not checked: {failure}; --no-types leaves them out")
+        terminal.error(f"types are not checked: {failure}; --no-types skips them")
 
 
 def final_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:

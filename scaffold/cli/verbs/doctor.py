@@ -13,16 +13,16 @@ SHELLS = ("bash", "zsh", "fish")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
     parser.description = (
-        "Show which ROS 2 environments there are and which one `smoke` takes, what is missing and "
-        "the command that installs it, and what else costs hours. It reads variables and files; "
-        "nothing is sourced or run."
+        "List the ROS 2 environments and which one `smoke` uses, what is missing and how to "
+        "install it, and common mistakes. Only variables and files are read; nothing is sourced "
+        "or run."
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
         "--shell",
         choices=SHELLS,
-        help="print lines for the start file of a shell instead: setup files, an alias `build`, "
-        "and tab completion",
+        help="print lines for the startup file of a shell instead: setup files, an alias "
+        "`build`, and tab completion",
     )
 
 

@@ -20,15 +20,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "types",
         nargs="*",
         metavar="TYPE",
-        help="show these: std_msgs/msg/String, std_msgs/String or String; "
-        "a package lists its interfaces (default: list all)",
+        help="show these types, such as std_msgs/msg/String, std_msgs/String or String, or list "
+        "those of a package (default: list all)",
     )
     types.completer = lambda **_: _definitions(".").all_names()  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument(
         "--workspace",
         default=".",
         metavar="DIR",
-        help="packages whose own interfaces come first (default: the current directory)",
+        help="packages whose interfaces take precedence (default: the current directory)",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
 

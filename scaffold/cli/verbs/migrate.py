@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
 
-_ADVICE = "name the one to move to, and with --keep those that packages are to run on as well"
+_ADVICE = "use --to for the distribution to move to, and --keep for those that must keep working"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,32 +31,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="packages or workspaces (default: the current directory)",
     )
     parser.add_argument(
-        "--to", required=True, metavar="NAME", help="the distribution that the packages move to"
+        "--to", required=True, metavar="NAME", help="the distribution to move the packages to"
     )
     parser.add_argument(
         "--from",
         dest="origin",
         metavar="NAME",
-        help=f"the one that they run on (default: {distro.KEY} of the configuration, else what "
+        help=f"the distribution to move them from (default: {distro.KEY} of the configuration, "
+        "else what "
         f"`new --distro` made them for, else {distributions.DEFAULT})",
     )
     parser.add_argument(
         "--keep",
         action="append",
         metavar="NAMES",
-        help="distributions that they are to run on as well, separated by commas: fixes write "
-        "only what all of them have",
+        help="distributions that must keep working, separated by commas: fixes use only what all "
+        "of them have",
     )
     parser.add_argument(
         "--fix",
         action="store_true",
-        help="apply what is safe, and report what is left; a package is recorded for the new "
-        "distribution once nothing in it breaks or changes silently, and all of it can be read",
+        help="apply safe fixes and report what is left; the new distribution is recorded in a "
+        "package once nothing in it breaks or changes silently and all files can be read",
     )
     parser.add_argument(
         "--unsafe-fixes",
         action="store_true",
-        help="also apply fixes that may need a look: links to packages that may export no targets",
+        help="also apply fixes that need review, such as links to packages that may export no "
+        "targets",
     )
     parser.add_argument("--diff", action="store_true", help="show what --fix would change")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
@@ -141,7 +143,7 @@ def _nothing_found(options: argparse.Namespace) -> str:
     """Return why there is no package to move."""
     if options.notes:
         return f"no package to move; {'; '.join(options.notes)}"
-    return f"{', '.join(options.paths)}: in no ROS 2 package, which is what moves"
+    return f"{', '.join(options.paths)}: not in a ROS 2 package"
 
 
 def _put(

@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
     parser.epilog = question_groups.SEE_ALSO
     question_groups.add(parser, _in_order(templates), kinds)
-    writing = parser.add_argument_group("where and how it is written")
+    writing = parser.add_argument_group("output")
     writing.add_argument(
         "--destination-directory",
         metavar="DIR",

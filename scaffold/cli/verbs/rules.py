@@ -19,8 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "codes",
         nargs="*",
         metavar="RULE",
-        help="explain a code such as CM001 or a name; list an area such as cmake or the codes that "
-        "begin with CM",
+        help="explain a rule, given its code or name; list the rules of an area such as cmake, "
+        "or with a prefix such as CM",
     )
     codes.completer = flags.offer_rules  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
@@ -29,10 +29,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="DIR",
-        help="a directory with rules/ of your own",
+        help="a directory with your own rules/",
     )
     parser.add_argument(
-        "--write-docs", metavar="DIR", help="write a page per rule into a directory instead"
+        "--write-docs", metavar="DIR", help="write one page per rule to a directory instead"
     )
 
 

@@ -22,9 +22,9 @@ SIGNALS = {"INT": ("SIGINT",), "TERM": ("SIGTERM",), "both": ("SIGINT", "SIGTERM
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
     parser.description = (
-        "Build packages with colcon, run each of their executables in a ROS domain of its own on "
-        "the loopback network, observe it from another process, compare that with what its source "
-        "says, and stop it. This is the one verb that runs the code of the packages."
+        "Build packages with colcon and run each of their executables in a separate ROS domain "
+        "on the loopback network. Observe it from another process, compare the result with its "
+        "source, and stop it. This is the only verb that runs the code of the packages."
     )
     parser.add_argument(
         "paths",
@@ -38,54 +38,54 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--packages-select",
         nargs="+",
         metavar="NAME",
-        help="run these packages only; what they need of the others is built as well",
+        help="run only these packages; their dependencies are built as well",
     )
     selection.add_argument(
         "--packages-up-to",
         nargs="+",
         metavar="NAME",
-        help="run these packages and those that they need",
+        help="run these packages and their dependencies",
     )
     selection.add_argument(
         "--since",
         metavar="REV",
-        help="run the packages that differ from a commit of git, and those that depend on them",
+        help="run the packages that differ from this git commit, and those that depend on them",
     )
     parser.add_argument(
         "--together",
         action="store_true",
-        help="also run all executables of a package in one domain, and find what keeps their "
-        "nodes from connecting: types, quality of service, names",
+        help="also run all executables of a package in one domain, and report why nodes do not "
+        "connect: types, quality of service, names",
     )
     parser.add_argument(
         "--launch",
         action="store_true",
-        help="also run the launch files of a package, each in a domain of its own",
+        help="also run the launch files of a package, each in a separate domain",
     )
     parser.add_argument(
         "--test",
         action="store_true",
-        help="run `colcon test` as well: a test or linter that fails is a problem",
+        help="also run `colcon test`; failing tests and linters are problems",
     )
     parser.add_argument(
         "--distro",
         action="append",
         metavar="NAMES",
-        help="the distributions of ROS 2 to observe on, separated by commas: with others nothing "
-        "is run (default: check.distribution of the configuration, else what `new --distro` made "
+        help="the distributions of ROS 2 to run on, separated by commas; on others, nothing is "
+        "run (default: check.distribution of the configuration, else what `new --distro` made "
         "the packages for, else ROS_DISTRO, else the one that is there)",
     )
     parser.add_argument(
         "--ros",
         metavar="WHICH",
-        help="take this ROS 2: 'sourced', 'wheels', the name of an installation in /opt/ros, or a "
-        "directory with its setup.bash (default: the first that can be used)",
+        help="use this ROS 2 environment: 'sourced', 'wheels', the name of an installation in "
+        "/opt/ros, or a directory with a setup.bash (default: the first usable one)",
     )
     parser.add_argument(
         "--cluster",
         metavar="ADDRESS",
-        help="run the packages on the workers of the Dask cluster whose scheduler is there, such "
-        "as tcp://host:8786; they get the sources, and run them",
+        help="run the packages on the workers of a Dask cluster, given the address of its "
+        "scheduler, such as tcp://host:8786; sends them the sources",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="output format")
     parser.add_argument(
@@ -96,27 +96,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--report",
         metavar="DIR",
-        help="write a page with plots, graphs and tables to DIR/index.html as well",
+        help="also write a page with plots, graphs and tables to DIR/index.html",
     )
     parser.add_argument(
         "--verbose",
         action="store_true",
-        help="show intervals, sizes, quality of service, parameters, logs and resources as well",
+        help="also show intervals, sizes, quality of service, parameters, logs and resources",
     )
     parser.add_argument(
         "--duration",
         type=_seconds,
         default=5.0,
         metavar="S",
-        help="seconds to observe each executable after its first sign of life (default: 5)",
+        help="seconds to observe each executable once its node appears (default: 5)",
     )
     parser.add_argument(
         "--timeout",
         type=_seconds,
         default=20.0,
         metavar="S",
-        help="seconds from the start of an executable in which its node has to appear and its "
-        "first messages have to come (default: 20)",
+        help="seconds within which the node and the first messages of an executable must appear "
+        "(default: 20)",
     )
     parser.add_argument(
         "--build-timeout",
@@ -129,15 +129,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--signal",
         choices=tuple(SIGNALS),
         default="INT",
-        help="how to stop: ^C, what systemd and containers send, or both one after the other "
-        "(default: INT)",
+        help="signal to stop with: as sent by Ctrl+C, by systemd and containers, or both in "
+        "separate runs (default: INT)",
     )
     parser.add_argument(
         "--jobs",
         type=_positive,
         default=4,
         metavar="N",
-        help="executables to run in parallel, isolated from each other (default: 4)",
+        help="number of executables to run in parallel (default: 4)",
     )
     parser.add_argument(
         "--workspace",

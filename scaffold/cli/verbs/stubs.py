@@ -26,17 +26,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "paths",
         nargs="*",
         metavar="PATH",
-        help="packages or workspaces whose own interfaces get stubs "
-        "(default: the current directory)",
+        help="packages or workspaces whose interfaces get stubs (default: the current directory)",
     )
     parser.add_argument(
         "--output",
         default=TYPINGS,
         metavar="DIR",
-        help=f"where the stubs go (default: {TYPINGS}, where Pylance and pyright look for them)",
+        help=f"directory of the stubs (default: {TYPINGS}, where Pylance and pyright look for "
+        "them)",
     )
     parser.add_argument(
-        "--force", action="store_true", help="overwrite files that this verb has not written"
+        "--force", action="store_true", help="overwrite files that this verb did not write"
     )
     parser.add_argument(
         "--distro",

@@ -26,21 +26,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         choices=ACTIONS,
         default="list",
-        help="list the templates (the default), test them: render their examples and check the "
-        "packages with every rule, or copy one to start from: copy NAME DIR, or one file of it: "
-        "copy NAME/FILE DIR",
+        help="list the templates (default); test them: render their examples and check the "
+        "packages with every rule; or copy a template as a starting point (copy NAME DIR), or "
+        "one of its files (copy NAME/FILE DIR)",
     )
     words = parser.add_argument(
         "words",
         nargs="*",
         metavar="DIR",
-        help="a directory with templates/ of your own: those in it (default: all)",
+        help="a directory with your own templates/ (default: all templates)",
     )
     words.completer = _offer  # type: ignore[attr-defined]  # argcomplete
-    parser.add_argument("--name", metavar="NAME", default="", help="what the copy is called")
-    place = parser.add_argument(
-        "--content", metavar="DIR", help="another way to name the directory"
-    )
+    parser.add_argument("--name", metavar="NAME", default="", help="name of the copy")
+    place = parser.add_argument("--content", metavar="DIR", help="the same as DIR")
     place.completer = flags.offer_directories  # type: ignore[attr-defined]  # argcomplete
     parser.add_argument("--build", action="store_true", help="also build the packages with colcon")
 

@@ -11,16 +11,15 @@ from scaffold.cli import terminal
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb."""
     parser.description = (
-        "Let the configuration in a directory (ros2-scaffold.toml or pyproject.toml) name rules "
-        "and templates of its own: rules are Python that every later run there executes. Trust is "
-        "for this directory, not for those below it, and lasts until it is removed."
+        "Trust the configuration in a directory (ros2-scaffold.toml or pyproject.toml) to load "
+        "its own rules and templates. Rules are Python code that later runs in the directory "
+        "execute. Trust applies to this directory, not to those below it, until you remove it."
     )
     parser.add_argument(
         "directory",
         nargs="?",
         metavar="DIR",
-        help="the directory that has the configuration, or the URL of a git repository that "
-        "--content names",
+        help="the directory with the configuration, or the URL of a git repository for --content",
     )
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--list", action="store_true", help="list the trusted directories")
@@ -38,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
             raise InputError("--list takes no DIR")
         _list()
     elif options.directory is None:
-        raise InputError("DIR is required: the directory that has the ros2-scaffold.toml")
+        raise InputError("DIR is required: the directory with the ros2-scaffold.toml")
     elif options.remove:
         terminal.show(f"no longer trusted: {trust.remove(options.directory)}")
     elif content.is_url(options.directory):

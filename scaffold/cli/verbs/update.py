@@ -25,13 +25,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default=".",
         metavar="DIR",
-        help="a package that `new` made (default: the current directory)",
+        help="a package created by `new` (default: the current directory)",
     )
     parser.add_argument(
         distro.FLAG,
         action="append",
         metavar="NAMES",
-        help="make it a package for these distributions of ROS 2, separated by commas",
+        help="change the distributions of ROS 2 that the package is for, separated by commas",
     )
     flags.add_looking(parser)
     flags.add_content(parser)
