@@ -18,11 +18,13 @@ from scaffold.model.install.unused import (
 )
 from scaffold.model.package import Package
 from scaffold.model.python.guards import is_unevaluated
+from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 _OF_LINTERS = ("E9", "F")
+_UNDEFINED = "F821"
 
 
 class Adjustments(NamedTuple):
@@ -104,6 +106,8 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     path, code = diagnostic.location.path, diagnostic.code
     if diagnostic.severity is not Severity.ERROR or not path.endswith(".py"):
         return False
+    if code == _UNDEFINED and _is_unevaluated(package, diagnostic):
+        return True
     is_of_linters = code.startswith(_OF_LINTERS)
     if is_of_linters and runs_linter(package, diagnostic):
         return False
@@ -115,24 +119,33 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is in a function that is not called, or after the spin.
-
-    Or in an annotation that is not evaluated.
-    """
-    if undefined.code != "F821":
+    """Tell whether an undefined name is in a function that is not called, or after the spin."""
+    if undefined.code != _UNDEFINED:
         return False
     at = undefined.location
     try:
-        module = package.module(at.path)
         if is_in_uncalled_function(package, at.path, at.line):
             return True
     except ViewError:
         return False
-    return any(
-        only_while_stopping(module, name) or is_unevaluated(module, name)
-        for name in (*module.walk(ast.Name), *module.walk(ast.Constant))
-        if (name.lineno, name.col_offset + 1) == (at.line, at.column)
-    )
+    return any(only_while_stopping(*name) for name in _names_at(package, undefined))
+
+
+def _is_unevaluated(package: Package, undefined: Diagnostic) -> bool:
+    """Tell whether an undefined name is in an annotation that Python does not evaluate."""
+    return any(is_unevaluated(*name) for name in _names_at(package, undefined))
+
+
+def _names_at(package: Package, diagnostic: Diagnostic) -> Iterator[tuple[PythonModule, ast.expr]]:
+    """Yield the names and texts at the place of a finding, with their module."""
+    at = diagnostic.location
+    try:
+        module = package.module(at.path)
+    except ViewError:
+        return
+    for name in (*module.walk(ast.Name), *module.walk(ast.Constant)):
+        if (name.lineno, name.col_offset + 1) == (at.line, at.column):
+            yield module, name
 
 
 def runs_linter(package: Package, style: Diagnostic) -> bool:
