@@ -63,6 +63,20 @@ class ConfigurationUndeclared(LaunchRule):
             },
         ),
         Example(
+            "set by a file that puts the name of this one together",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "launch/c.launch.py": _LAUNCH.format("", "LaunchConfiguration('who')"),
+                "launch/all.py": "from ament_index_python import get_package_share_directory\n"
+                "from launch.actions import IncludeLaunchDescription\n\n"
+                "SHARE = get_package_share_directory('talker')\n\n\n"
+                "def generate_launch_description(kind):\n"
+                "    path = f'{SHARE}/launch/{kind}.launch.py'\n"
+                "    who = {'who': 'me'}\n"
+                "    return IncludeLaunchDescription(path, launch_arguments=who.items())\n",
+            },
+        ),
+        Example(
             "set by a file that another one includes before this one",
             {
                 "launch/a.launch.py": _LAUNCH.format("", _USED),

@@ -51,7 +51,8 @@ _COMMAND = (
     "             parameters=[{{'robot_description': {}}}]),\n    ])\n"
 )
 _NAMES_SOMETHING = (
-    r"(?:^|_)(?:file|filename|path|dir|directory|folder|topic|url|uri|frame|frame_id|namespace)$"
+    r"(?:^|_)(?:file|filename|path|dir|directory|folder|topic|url|uri|frame|frame_id|namespace"
+    r"|ip|ip_address|host|hostname)$"
 )
 """Matches parameters whose values name something: no such name reads as a number or a truth."""
 
@@ -94,6 +95,16 @@ class TextReadAsYaml(Rule):
             "a path, which is no number",
             {
                 path: text.replace("'text'", "'map_file'")
+                for path, text in {
+                    **_FILES,
+                    "launch/a.launch.py": _LAUNCH.format("text"),
+                }.items()
+            },
+        ),
+        Example(
+            "an address, which is no number",
+            {
+                path: text.replace("'text'", "'robot_ip'")
                 for path, text in {
                     **_FILES,
                     "launch/a.launch.py": _LAUNCH.format("text"),

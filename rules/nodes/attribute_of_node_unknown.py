@@ -145,7 +145,8 @@ class AttributeOfNodeUnknown(RclpyRule):
             module = node.facts.module
             is_late = only_while_stopping(module, attribute)
             severity = Severity.WARNING if is_late else Severity.ERROR
-            yield self.report(module.location(attribute), message, severity=severity)
+            cause = f"attributes of {node.name} in {module.path}"
+            yield self.report(module.location(attribute), message, severity=severity, cause=cause)
 
 
 def _names_of_rclpy() -> Iterator[str]:

@@ -78,6 +78,19 @@ class GoalNeverCanceled(RclpyRule):
             ),
         ),
         Example(
+            "a goal that nobody asked to cancel, in a coroutine that awaits nothing",
+            {
+                "server.py": _NODE.format(_CANCEL, _THREADS)
+                .replace("if goal_handle.is_cancel_requested:", "if self.failed:")
+                .replace("    def work", "    async def work")
+            },
+            Report(
+                "18:17",
+                "nobody asked to cancel the goal: canceled() raises RCLError; check "
+                "is_cancel_requested, or call abort()",
+            ),
+        ),
+        Example(
             "a goal of which the cancel callback keeps that it is to be canceled",
             {
                 "server.py": _NODE.format(_CANCEL, _THREADS)
@@ -194,9 +207,16 @@ def _kept_on_cancel(file: RclpyFile, server: ActionServer) -> frozenset[str]:
 def _work(file: RclpyFile, server: ActionServer) -> list[FunctionNode | ast.Lambda]:
     """Return the execute callback and what it calls; none if it may give way to others."""
     function = server.callback.function if server.callback else None
-    if function is None or isinstance(function, ast.AsyncFunctionDef):
+    if function is None or _gives_way(file, function):
         return []
     return [*file.reached(function)]
+
+
+def _gives_way(file: RclpyFile, function: FunctionNode | ast.Lambda) -> bool:
+    """Tell whether the executor may go on with other work before a callback is done."""
+    return isinstance(function, ast.AsyncFunctionDef) and any(
+        file.module.below(function, ast.Await, ast.AsyncFor, ast.AsyncWith)
+    )
 
 
 def _where_asked(file: RclpyFile, server: ActionServer) -> ast.Attribute | None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, fact
 from scaffold.api.launch import started_nodes
 from scaffold.api.parameters import parameter_file, parameter_paths
-from scaffold.api.python import is_handled, joined_names
+from scaffold.api.python import PythonModule, is_handled, joined_names
 from scaffold.api.rclpy import PARAMETER, Parameter, RclpyFile, class_of, is_of_node
 
 _TYPES = "rcl_interfaces.msg.ParameterType.PARAMETER_"
@@ -63,7 +63,8 @@ class ParameterDefaultUnusable(RclpyRule):
     code = "ND083"
     name = "parameter-default-unusable"
     other_severities = {
-        Severity.WARNING: "the parameter has no default, and a file of the package sets it"
+        Severity.WARNING: "the parameter has no default, and a file of the package sets it, or the "
+        "code only tests whether it is true"
     }
     examples = (
         Example("a default", {"talker.py": _NODE.format("1.0", "description='Hz'", "'slow'")}),
@@ -107,6 +108,40 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "only a name",
             {"talker.py": _PLAIN.format("'rate'")},
+            Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
+        ),
+        Example(
+            "names whose values are only tested",
+            {
+                "talker.py": _PLAIN.format("'quiet'")
+                + "        self.declare_parameter('dry_run')\n"
+                "        self.quiet = self.get_parameter('quiet').value\n"
+                "        self.mode = 'dry' if self.get_parameter('dry_run').value else 'wet'\n\n"
+                "    def talk(self):\n"
+                "        if not self.quiet:\n"
+                "            self.get_logger().info(self.mode)\n",
+            },
+            Report(
+                "7:32",
+                "parameter 'quiet' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "8:32",
+                "parameter 'dry_run' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a name whose value is tested here, and used there",
+            {
+                "talker.py": _PLAIN.format("'rate'")
+                + "        self.rate = self.get_parameter('rate').value\n\n"
+                "    def talk(self):\n"
+                "        if self.rate:\n"
+                "            self.get_logger().info('fast')\n"
+                "        return 1.0 / self.rate\n",
+            },
             Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
         ),
         Example(
@@ -215,11 +250,13 @@ class ParameterDefaultUnusable(RclpyRule):
             yield from self._check_commas(file, parameter)
             problem = _missing_problem(parameter)
             if problem:
-                is_set = parameter.default_node is None and parameter.name in _set_names(package)
+                is_harmless = parameter.default_node is None and (
+                    parameter.name in _set_names(package) or _is_only_tested(file, parameter)
+                )
                 yield self.report(
                     parameter.name_location,
                     problem,
-                    severity=Severity.WARNING if is_set else Severity.ERROR,
+                    severity=Severity.WARNING if is_harmless else Severity.ERROR,
                     cause=_NO_DEFAULT if parameter.default_node is None else "",
                 )
 
@@ -250,6 +287,40 @@ def _set_names(package: Package) -> frozenset[str]:
     names = {entry.name for section in sections for entry in section.entries}
     names |= {given.name for node in started_nodes(package) for given in node.parameters}
     return frozenset(names)
+
+
+def _is_only_tested(file: RclpyFile, parameter: Parameter) -> bool:
+    """Tell whether the code reads a parameter, and does with it only what None is good for."""
+    module = file.module
+    reads = [read.call for read in file.parameter_reads if read.name == parameter.name]
+    values = [value for call in reads for value in _uses(module, call)]
+    return bool(values) and all(_is_tested(module, value) for value in values)
+
+
+def _uses(module: PythonModule, call: ast.Call) -> Sequence[ast.AST]:
+    """Return where the value of ``get_parameter(...)`` is used; maybe through one variable."""
+    value = module.parent(call)
+    if not isinstance(value, ast.Attribute) or value.attr != "value":
+        return [call]
+    match module.parent(value):
+        case ast.Assign(targets=[ast.Attribute(attr=name)]):
+            named = [node for node in module.walk(ast.Attribute) if node.attr == name]
+            return [node for node in named if isinstance(node.ctx, ast.Load)]
+        case ast.Assign(targets=[ast.Name(id=name)]):
+            loads = [node for node in module.walk(ast.Name) if node.id == name]
+            return [node for node in loads if isinstance(node.ctx, ast.Load)]
+    return [value]
+
+
+def _is_tested(module: PythonModule, value: ast.AST) -> bool:
+    match module.parent(value):
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test):
+            return test is value
+        case ast.UnaryOp(op=ast.Not()):
+            return True
+        case ast.Compare(ops=[ast.Is() | ast.IsNot() | ast.Eq() | ast.NotEq()]):
+            return True
+    return False
 
 
 def _default_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -> str:

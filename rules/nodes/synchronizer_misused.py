@@ -44,7 +44,9 @@ class SynchronizerMisused(MessageRule):
 
     code = "ND104"
     name = "synchronizer-misused"
-    other_severities = {Severity.WARNING: "the slop is too large"}
+    other_severities = {
+        Severity.WARNING: "the slop is too large, or the file uses other filters than this one"
+    }
     examples = (
         Example("matches", {"viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER)}),
         Example(
@@ -70,6 +72,21 @@ class SynchronizerMisused(MessageRule):
                 "9:22",
                 "no callback is registered, and no synchronizer gets this filter: "
                 "its messages are dropped; call registerCallback()",
+            ),
+        ),
+        Example(
+            "a filter that nobody reads, next to others",
+            {
+                "viewer.py": _NODE.format("Image", "10, 0.1", _REGISTER).replace(
+                    "        self.sync =",
+                    "        self.old = Subscriber(self, Image, 'old')\n        self.sync =",
+                )
+            },
+            Report(
+                "12:20",
+                "no callback is registered, and no synchronizer gets this filter: "
+                "its messages are dropped; call registerCallback()",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -116,14 +133,15 @@ class SynchronizerMisused(MessageRule):
                 yield self.report(synchronizer, message)
             yield from self._check_arguments(synchronizer)
             yield from self._check_inputs(types, synchronizer)
-        for subscription in file.subscriptions:
-            is_filter = subscription.argument("node") is not None
-            if is_filter and not subscription.callback and is_unused(package, file, subscription):
-                message = (
-                    "no callback is registered, and no synchronizer gets this filter: "
-                    "its messages are dropped; call registerCallback()"
-                )
-                yield self.report(subscription, message)
+        filters = [x for x in file.subscriptions if x.argument("node") is not None]
+        unused = [x for x in filters if not x.callback and is_unused(package, file, x)]
+        severity = Severity.ERROR if len(unused) == len(filters) else Severity.WARNING
+        for subscription in unused:
+            message = (
+                "no callback is registered, and no synchronizer gets this filter: "
+                "its messages are dropped; call registerCallback()"
+            )
+            yield self.report(subscription, message, severity=severity)
 
     def _check_arguments(self, synchronizer: Synchronizer) -> Iterator[Diagnostic]:
         for name in ("slop", "queue_size"):

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Fix, Package, Report, Rule
-from scaffold.api.distributions import ENDED, NAMES
 
-_DEBIAN = rf"ros-({'|'.join((*NAMES, *sorted(ENDED)))})-(.+)"
+from ._debian import key_of_debian
+
 _MODULES = (".msg", ".srv", ".action")
 _OF_PYTHON_2 = frozenset(
     {"lxml", "matplotlib", "numpy", "opencv", "pandas", "pil", "psutil", "pyqt5", "requests"}
@@ -109,10 +109,9 @@ class DependencyMalformed(Rule):
 
 
 def _problem(name: str) -> str:
-    debian = re.fullmatch(_DEBIAN, name)
+    key = key_of_debian(name)
     problem = ""
-    if debian:
-        key = debian[2].replace("-", "_")
+    if key:
         problem = f"{name!r} is a Debian package; its rosdep key is {key!r}"
     elif re.search(r"[<>=~!]", name):
         problem = (

@@ -11,6 +11,8 @@ from scaffold.api.distributions import removed_package, target
 from scaffold.api.manifest import declared, declaring, required_packages, requirements
 from scaffold.api.python import rospack_lookups
 
+from ._debian import key_of_debian
+
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
 _INDEX = frozenset({"torch", "torchvision"})
@@ -321,6 +323,15 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "declared by the name of its Debian package",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>ros-jazzy-std-msgs</exec_depend>\n</package>\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "from std_msgs.msg import String\n",
+            },
+        ),
+        Example(
             "a node of ROS 1, kept next to its successor",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
@@ -406,6 +417,8 @@ class ImportUndeclared(Rule):
                 continue
             if need.module in _INDEX and _is_required(package, need.module):
                 continue
+            if any(key_of_debian(item.name) in need.keys for item in manifest.dependencies):
+                continue  # dependency-malformed says it
             if need.module == "rospkg" and rospack_lookups(package, need.location.path):
                 continue  # module-of-ros1-imported says it
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data

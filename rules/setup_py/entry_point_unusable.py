@@ -22,6 +22,7 @@ from scaffold.api.python import exports_of
 from scaffold.api.rclpy import rclpy_file
 from scaffold.api.setup_py import EntryPoint
 
+_MISSING = "there is no"
 _SETUP = (
     "from setuptools import setup\n\n"
     "setup(\n    entry_points={{'console_scripts': [\n{}    ]}},\n)\n"
@@ -237,7 +238,10 @@ class EntryPointUnusable(Rule):
                 message = f"`ros2 run` of {entry.name!r} fails: {problem}"
                 directory = moved_to(package, entry.module)
                 root = entry.module.partition(".")[0]
-                cause = "" if package.has_directory(root) else f"directory {root}"
+                is_module = package.has_directory(root)
+                cause = (
+                    (_MISSING if _MISSING in problem else "") if is_module else f"directory {root}"
+                )
                 cause = f"moved to {directory}" if directory else cause
                 yield self.report(entry, message, cause=cause)
 
@@ -251,7 +255,7 @@ class EntryPointUnusable(Rule):
             modules = [path for path in package.python_files if not path.endswith("__.py")]
             closest = get_close_matches(f"{base}.py", modules, n=1)
             hint = f"; closest: {closest[0]}" if closest else ""
-            return f"there is no {base}.py{hint}"
+            return f"{_MISSING} {base}.py{hint}"
         try:
             exports = exports_of(package, path)
         except ViewError:

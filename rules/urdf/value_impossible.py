@@ -23,6 +23,8 @@ _ROBOT_ANGLES = (
 )
 _SMALLEST = 15
 """Degrees; a whole number of radians from here on is no angle that anybody writes."""
+_LARGEST = 3600
+"""Degrees; a larger number, such as 100000, stands for no limit at all."""
 _STEP = 5
 _RADIAN = 3.14159265 / 180
 
@@ -97,6 +99,10 @@ class ValueImpossible(Rule):
                 '    <parent link="a"/>\n    <child link="b"/>\n'
                 '    <origin rpy="0 0 ${pi - yaw * pi / 180 }"/>\n  </joint>\n</robot>\n',
             },
+        ),
+        Example(
+            "no limits",
+            {"robot.urdf": _ROBOT_ANGLES.format("revolute", "0", "-100000", "1e16")},
         ),
         Example(
             "degrees",
@@ -195,5 +201,5 @@ def _degrees(text: str) -> float | None:
         number = float(text) if is_known(text) else 0.0
     except ValueError:
         return None
-    is_whole = abs(number) >= _SMALLEST and number % _STEP == 0
+    is_whole = _SMALLEST <= abs(number) <= _LARGEST and number % _STEP == 0
     return number if is_whole else None

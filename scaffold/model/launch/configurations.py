@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 _SETTERS = ("DeclareLaunchArgument", "SetLaunchConfiguration", "SetLaunchConfigurationFrom")
 _BY_LAUNCH = frozenset({"ros_namespace", "global_params", "ros_remaps", "launch_file_directory"})
 _ENDINGS = (".py", ".xml", ".yaml", ".yml")
+_COMPUTED = re.compile(r"(?:[}%]|\+ ?['\"])([\w.-]*launch\.(?:py|xml|ya?ml))")
+"""Matches the known end of a name that is put together, ``f'{world}.launch.py'``."""
 
 
 def set_names(
@@ -48,13 +51,22 @@ def may_be_set_elsewhere(package: Package, launch: LaunchFile, name: str) -> boo
     Or includes, next to this one, a third file that sets it.
     """
     basename = launch.path.rpartition("/")[2]
-    including = [text for _, text in _others(package, launch) if basename in text]
+    including = [
+        text
+        for _, text in _others(package, launch)
+        if basename in text or (package.name in text and _may_compute(text, basename))
+    ]
     if any(name in text for text in including):
         return True
     return bool(including) and any(
         name in text and any(other in item for item in including)
         for other, text in _others(package, launch)
     )
+
+
+def _may_compute(text: str, basename: str) -> bool:
+    """Tell whether a launch file puts together names of files that may be this one."""
+    return any(basename.endswith(match[1]) for match in _COMPUTED.finditer(text))
 
 
 def _others(package: Package, launch: LaunchFile) -> Iterator[tuple[str, str]]:
