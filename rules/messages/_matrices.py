@@ -19,8 +19,8 @@ _SIZES = {36: 6, 9: 3}
 """The rows of the matrices in messages, by their elements."""
 _ACROSS = frozenset({"w", "width", "cols", "columns", "img_w", "img_width", "image_width"})
 _DOWN = frozenset({"h", "height", "rows", "img_h", "img_height", "image_height"})
-
-
+_MOST_ARRAYS = 20
+"""Arrays that one is a part of, before the search for them ends."""
 _SHAPED = (".shape = ", "reshape((w", "reshape(w")
 """What code contains that gives its arrays their width first."""
 
@@ -38,7 +38,8 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
         if turned:
             yield call.args[0], f"an image or a map has rows first: write reshape({turned})"
     for assigned in module.walk(ast.Assign):
-        if _is_shape_turned(assigned) and not module.mentions(*_SHAPED):
+        image = _turned_image(assigned)
+        if image and not module.mentions(*_SHAPED) and not _is_transposed(types, image):
             message = "a shape has the height first: write height, width = ....shape[:2]"
             yield assigned.targets[0], message
         count = _first_row(types, assigned)
@@ -109,7 +110,7 @@ def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
         case ast.Attribute(attr="reshape"), [
             ast.Attribute(attr="width", value=first),
             ast.Attribute(attr="height", value=second),
-        ] if module.text(first) == module.text(second):
+        ] if module.text(first) == module.text(second) and _has_rows(types, first):
             function = module.enclosing_function(call)
             text = module.text(function or module.tree)
             if any(word in text for word in _TURNED):
@@ -121,14 +122,38 @@ def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
     return ""
 
 
-def _is_shape_turned(assigned: ast.Assign) -> bool:
-    """Tell whether the first two numbers of the shape of an image are taken the wrong way."""
+def _has_rows(types: MessageTypes, message: ast.expr) -> bool:
+    """Tell whether the data of a message is in rows by its definition."""
+    type_ = types.type_of(message)
+    if type_ is None and isinstance(message, ast.Name):
+        lookup = types.module.index.lookup(message.id, message)
+        for binding in lookup[1] if lookup is not None else ():
+            annotation = getattr(binding.node, "annotation", None)
+            type_ = types.class_of(annotation) if annotation is not None else None
+    return type_ is not None and (type_.name, "width") in _WIDTHS
+
+
+def _turned_image(assigned: ast.Assign) -> ast.expr | None:
+    """Return the image of whose shape the first two numbers are taken the wrong way."""
     match assigned:
         case ast.Assign(
             targets=[ast.Tuple(elts=[ast.Name(id=first), ast.Name(id=second), *_])],
             value=ast.Attribute(attr="shape", value=image)
             | ast.Subscript(value=ast.Attribute(attr="shape", value=image)),
         ):
-            is_plain = not any(word in ast.unparse(image) for word in _TURNED)
-            return is_plain and first in _ACROSS and second in _DOWN
+            return image if first in _ACROSS and second in _DOWN else None
+    return None
+
+
+def _is_transposed(types: MessageTypes, image: ast.expr) -> bool:
+    """Tell whether an array, or what it is a part or a copy of, has its columns first."""
+    pending = [image]
+    for array in pending:
+        if any(word in types.module.text(array) for word in _TURNED):
+            return True
+        match array:
+            case ast.Subscript(value=whole) | ast.Call(func=ast.Attribute(value=whole)):
+                pending.append(whole)
+            case ast.Name() | ast.Attribute() if len(pending) < _MOST_ARRAYS:
+                pending += types.facts.evaluator.values(array)
     return False

@@ -186,6 +186,24 @@ class ValueImplausible(MessageRule):
             Report("17:5", "a shape has the height first: write height, width = ....shape[:2]"),
         ),
         Example(
+            "a part of a map that is transposed; a layout of one's own",
+            {
+                "explore.py": "import numpy as np\nfrom nav_msgs.msg import OccupancyGrid\n\n\n"
+                "class Map:\n"
+                "    def __init__(self):\n"
+                "        self.map = []\n\n"
+                "    def fill(self, grid: OccupancyGrid):\n"
+                "        shape = (grid.info.height, grid.info.width)\n"
+                "        self.map = np.array(grid.data).reshape(shape).T\n\n"
+                "    def size(self, x, y):\n"
+                "        part = self.map[x:x + 5, y:y + 5].copy()\n"
+                "        w, h = part.shape\n"
+                "        return w, h\n\n\n"
+                "def own(cells):\n"
+                "    return np.array(cells.data).reshape(cells.width, cells.height)\n"
+            },
+        ),
+        Example(
             "rows for columns",
             {
                 "map.py": "from nav_msgs.msg import MapMetaData\n\n\n"

@@ -54,6 +54,9 @@ _SEEKING = ("get_subscription_count", "count_subscribers", "get_subscriptions_in
 """What asks whether anybody subscribes."""
 _WAITING = ("spin", "sleep", "wait", *_SEEKING, "input(", "Thread(", "asyncio")
 """What programs contain that last longer, or look for subscribers."""
+_LOOPS = (ast.For, ast.While, ast.AsyncFor)
+_MOST_CALLS = 5
+"""Functions between the start of a program and what publishes."""
 
 
 class LatchedTopicVolatile(RclpyRule):
@@ -150,6 +153,23 @@ class LatchedTopicVolatile(RclpyRule):
                 "the only message on 'map' is published in the constructor: later "
                 "subscribers miss it; use TRANSIENT_LOCAL",
             ),
+        ),
+        Example(
+            "published for every key",
+            {
+                "keys.py": "import sys\n\nimport rclpy\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Keys(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('keys')\n"
+                "        self.key_pub = self.create_publisher(String, 'key', 10)\n\n"
+                "    def send(self, key):\n"
+                "        self.key_pub.publish(String(data=key))\n\n"
+                "    def run(self):\n"
+                "        while rclpy.ok():\n"
+                "            self.send(sys.stdin.read(1))\n\n\n"
+                "def main():\n    rclpy.init()\n    Keys().run()\n"
+            },
         ),
         Example(
             "published by a program that ends, or that waits",
@@ -252,6 +272,15 @@ def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
 
 def _waits(file: RclpyFile, call: ast.Call) -> bool:
     """Tell whether a program may last until its message is sent."""
-    loops = (ast.For, ast.While, ast.AsyncFor)
-    in_loop = any(isinstance(x, loops) for x in file.module.parents(call))
-    return in_loop or file.module.in_tests or file.module.mentions(*_WAITING)
+    return file.module.in_tests or file.module.mentions(*_WAITING) or _is_repeated(file, call, 0)
+
+
+def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
+    """Tell whether something is in a loop, or in a function that is called in one or repeatedly."""
+    module = file.module
+    function = file.function_of(node)
+    if any(isinstance(it, _LOOPS) for it in module.parents(node)) or depth == _MOST_CALLS:
+        return True
+    name = getattr(function, "name", "")
+    calls = [*module.index.names(name), *module.index.attributes(name)] if name else []
+    return len(calls) > 1 or any(_is_repeated(file, it, depth + 1) for it in calls)

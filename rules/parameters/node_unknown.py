@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
 from scaffold.api.launch import StartedNode, names_alike, node_names, use_of
 from scaffold.api.parameters import (
     ParameterFile,
     Section,
+    declared_by,
     own_nodes,
     parameter_file,
     parameter_paths,
 )
+from scaffold.api.programs import KnownNode
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -54,6 +56,9 @@ class NodeUnknown(Rule):
     code = "PF003"
     name = "node-unknown"
     effect = Effect.IGNORED
+    other_severities = {
+        Severity.WARNING: "no launch file names the file, and no node has the parameters"
+    }
     examples = (
         Example(
             "the name of the node, all nodes, a node of another package",
@@ -70,6 +75,19 @@ class NodeUnknown(Rule):
             Report(
                 "config/a.yaml:1:1",
                 "no node of this package is named 'talker_node'; did you mean 'talker'?",
+            ),
+        ),
+        Example(
+            "a section for a node that is gone",
+            {
+                "talker.py": _NODE.replace("'talker'", "'gate_detector_node'"),
+                "config/a.yaml": "drum_detector_node:\n  ros__parameters:\n    least_area: 800\n",
+            },
+            Report(
+                "config/a.yaml:1:1",
+                "no node of this package is named 'drum_detector_node' or has these parameters: "
+                "nothing reads this section",
+                severity=Severity.WARNING,
             ),
         ),
         Example(
@@ -189,10 +207,11 @@ class NodeUnknown(Rule):
             alike = names_alike(file, names, name)
             is_renamed = name not in everywhere or name in codes
             if alike or (useless and use.complete and is_renamed):
-                first = use.nodes[0].location
+                meant = alike or sorted(names)
+                first = next(it for it in use.nodes if it.name(package) in meant).location
                 message = (
                     f"no node is named {name!r}: the section is ignored; "
-                    f"{first.path}:{first.line} starts {', '.join(alike or sorted(names))}"
+                    f"{first.path}:{first.line} starts {', '.join(meant)}"
                 )
                 yield self.report(section.key, message)
 
@@ -204,9 +223,14 @@ class NodeUnknown(Rule):
         for section in file.sections if complete else ():
             name = section.name
             alike = names_alike(file, names, name)
-            if alike and name not in everywhere and not section.is_pattern:
-                message = f"no node of this package is named {name!r}; did you mean {alike[0]!r}?"
-                yield self.report(section.key, message)
+            if not alike or name in everywhere or section.is_pattern:
+                continue
+            message = f"no node of this package is named {name!r}"
+            if _is_left_over(package, section, [it for it in nodes if it.node_name in alike]):
+                message += " or has these parameters: nothing reads this section"
+                yield self.report(section.key, message, severity=Severity.WARNING)
+            else:
+                yield self.report(section.key, f"{message}; did you mean {alike[0]!r}?")
 
     def _check_namespaces(self, package: Package) -> Iterator[Diagnostic]:
         for path in parameter_paths(package):
@@ -230,6 +254,14 @@ class NodeUnknown(Rule):
                         f"{name!r}"
                     )
                     yield self.report(section.key, message)
+
+
+def _is_left_over(package: Package, section: Section, nodes: list[KnownNode]) -> bool:
+    """Tell whether a section sets no parameter of the nodes whose names are like its own."""
+    declarations = [declared_by(node, package) for node in nodes]
+    return all(declared.complete for declared in declarations) and not any(
+        entry.name in declared.types for entry in section.entries for declared in declarations
+    )
 
 
 def _other_node(package: Package, section: Section, nodes: list[StartedNode]) -> StartedNode | None:

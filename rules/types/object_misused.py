@@ -119,6 +119,21 @@ class ObjectMisused(TypeRule):
             Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
         ),
         Example(
+            "entries of a dictionary that have different lengths",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/gate.py": "from rclpy.node import Node\n\n\n"
+                "class Gate(Node):\n"
+                "    def tick(self, areas):\n"
+                "        posts = []\n"
+                "        for x, y in areas:\n"
+                "            posts.append({'center': (x, y), 'box': (x, y, 8, 9)})\n"
+                "        post = posts[-1]\n"
+                "        x, y, width, height = post['box']\n",
+            },
+        ),
+        Example(
             "tuples whose first element tells their kind",
             {
                 "package.xml": "<package><name>rover</name></package>\n",

@@ -81,7 +81,7 @@ class DiskTree:
             self._broken.extend(parent + name for name in broken)
             for name in children:
                 path = parent + name
-                if self._is_skipped(path, name, at_root=not parent):
+                if self._is_skipped(path, name):
                     continue
                 directories.append(path)
                 pending.append(path + "/")
@@ -140,7 +140,7 @@ class DiskTree:
         for depth, name in enumerate(above, 1):
             parent = "/".join(above[:depth])
             if parent not in self.directories:
-                is_skipped = self._is_skipped(parent, name, at_root=depth == 1)
+                is_skipped = self._is_skipped(parent, name)
                 own = os.path.join(self.disk.real(self.root), parent)
                 is_link = self.disk.real(own) != own
                 return not (is_skipped or parent in self.nested or is_link)
@@ -150,10 +150,10 @@ class DiskTree:
         """Tell whether the file has an executable bit."""
         return self.disk.is_executable(os.path.join(self.root, path))
 
-    def _is_skipped(self, path: str, name: str, *, at_root: bool) -> bool:
+    def _is_skipped(self, path: str, name: str) -> bool:
         if name.startswith(".") or name == "__pycache__" or name.endswith(".egg-info"):
             return True
-        if at_root and name in BUILD_DIRECTORIES:
+        if name in BUILD_DIRECTORIES:
             # What colcon makes inside a package carries its marker; a folder of that name may not.
             return self.disk.exists(os.path.join(self.root, path, "COLCON_IGNORE"))
         return False

@@ -242,7 +242,10 @@ class TypeFinding:
             (it for it in self.module.parents(node) if isinstance(it, ast.Assign)), None
         )
         if assigned is not None and "to unpack" in self.message:
-            return origins.is_attribute(self.module, assigned.value)
+            value = assigned.value
+            if isinstance(value, ast.Subscript) and origins.is_of_several(self.module, value):
+                return True
+            return origins.is_attribute(self.module, value)
         call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), None)
         called: list[ast.AST] = [it.func for it in (node, call) if isinstance(it, ast.Call)]
         if any(isinstance(func, ast.Subscript) for func in called):

@@ -172,3 +172,14 @@ def test_a_file_of_a_nested_package_stands_for_the_one_that_colcon_sees(
     monkeypatch.chdir(outer / "test")
     (target,) = discovery.find(["data/inner/package.xml"], whole_packages=True)
     assert target.package.directory == ".."
+
+
+def test_products_of_a_nested_workspace(tmp_path: Path) -> None:
+    package = make_package(tmp_path / "only")
+    for place in ("build", "driver/install", "driver/src"):
+        (package / place).mkdir(parents=True)
+        (package / place / "file.cmake").touch()
+    for place in ("build", "driver/install"):
+        (package / place / "COLCON_IGNORE").touch()
+    (target,) = discovery.find([str(package)])
+    assert list(target.package.files) == ["driver/src/file.cmake", "package.xml"]
