@@ -115,6 +115,23 @@ class StepWithoutFraction(RclpyRule):
             Report("15:19", "nanoseconds are added to seconds: divide 'nanosec' by 1e9"),
         ),
         Example(
+            "another factor, or no zeros in front of the nanoseconds",
+            {
+                "odometry.py": _NODE.format(
+                    "now.sec + now.nanosec / 1e9\n"
+                    "            in_ms = now.sec * 1000 + now.nanosec // 1_000_000\n"
+                    "            fraction = now.nanosec * 1e-6\n"
+                    "            late = now.sec + fraction\n"
+                    "            late = float(now.sec) + float(now.nanosec) / 10e9\n"
+                    "            late = float(f'{now.sec}.{now.nanosec:09}') - in_ms\n"
+                    "            late = float(f'{now.sec}.{now.nanosec}')"
+                )
+            },
+            Report("17:20", "'nanosec' is added in another unit than 'sec': multiply it by 1e-09"),
+            Report("18:20", "'nanosec' is added in another unit than 'sec': multiply it by 1e-09"),
+            Report("20:26", "'nanosec' has no zeros in front: 5 becomes .5; divide it by 1e9"),
+        ),
+        Example(
             "seconds to wait",
             {
                 "odometry.py": _NODE.format(
@@ -169,9 +186,6 @@ class StepWithoutFraction(RclpyRule):
             for node, problem in unit_problems(file):
                 yield self.report(file.module.location(node), problem)
         for node in file.module.walk(ast.BinOp):
-            if isinstance(node.op, ast.Add) and _is_of_one_time(file, node.left, node.right):
-                message = "nanoseconds are added to seconds: divide 'nanosec' by 1e9"
-                yield self.report(file.module.location(node), message)
             if not isinstance(node.op, ast.Sub):
                 continue
             for part in _PARTS:
@@ -196,14 +210,6 @@ def _needs_other_part(file: RclpyFile, node: ast.BinOp, part: str) -> bool:
     if _has_other_part(file, node, part) or not _is_step(file, node):
         return False
     return part != "sec" or not _is_meant_whole(file, node)
-
-
-def _is_of_one_time(file: RclpyFile, left: ast.expr, right: ast.expr) -> bool:
-    """Tell whether two expressions are ``x.sec`` and ``x.nanosec``."""
-    match left, right:
-        case ast.Attribute(attr="sec", value=first), ast.Attribute(attr="nanosec", value=second):
-            return file.module.text(first) == file.module.text(second)
-    return False
 
 
 def _is_part(file: RclpyFile, node: ast.expr, part: str) -> bool:

@@ -35,9 +35,12 @@ def unit_problems(file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
             yield from _mixed(node)
         elif isinstance(node.op, ast.Mult) and _is_outermost(file, node):
             yield from _multiplied(file, node)
+        elif isinstance(node.op, ast.Add):
+            yield from _added(file, node)
     for call in file.module.walk(ast.Call):
         yield from _made_of_seconds(file, call)
         yield from _written_in_seconds(file, call)
+        yield from _joined(call)
 
 
 def _compared(file: RclpyFile, time: ast.expr, limit: ast.expr) -> Iterator[tuple[ast.expr, str]]:
@@ -76,6 +79,59 @@ def _mixed(node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
     if names == {"nanoseconds", "nanosec"}:
         message = "'nanosec' is only the part of a time below a second, 'nanoseconds' is all of it"
         yield node, message + "; use Time.from_msg(stamp).nanoseconds"
+
+
+def _added(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``stamp.sec + stamp.nanosec / 1e6``, and the sum of both parts as they are."""
+    for one, other in ((node.left, node.right), (node.right, node.left)):
+        first, second = _part(file, one, "sec"), _part(file, other, "nanosec")
+        if first is None or second is None or first[0] != second[0]:
+            continue
+        right = first[1] * 1e-9
+        if abs(second[1] / right - 1.0) < _NEAR:
+            continue
+        if first[1] == second[1] == 1.0:
+            yield node, "nanoseconds are added to seconds: divide 'nanosec' by 1e9"
+        else:
+            yield node, f"'nanosec' is added in another unit than 'sec': multiply it by {right:g}"
+
+
+def _part(file: RclpyFile, node: ast.expr, part: str) -> tuple[str, float] | None:
+    """Return the time whose part an expression is, and the factor that the part has."""
+    value = node if isinstance(node, ast.Attribute) else file.evaluator.single_value(node)
+    match value:
+        case ast.Attribute(attr=name, value=time) if name == part:
+            return file.module.text(time), 1.0
+        case ast.Call(func=ast.Name(id="float" | "int" | "round"), args=[inner]):
+            return _part(file, inner, part)
+        case ast.BinOp(left=left, op=ast.Mult() | ast.Div() | ast.FloorDiv() as op, right=right):
+            if isinstance(op, ast.Mult) and _part(file, left, part) is None:
+                left, right = right, left
+            found, factor = _part(file, left, part), file.evaluator.number(right)
+            if found is None or not isinstance(factor, int | float) or not factor:
+                return None
+            return found[0], found[1] * factor if isinstance(op, ast.Mult) else found[1] / factor
+    return None
+
+
+def _joined(call: ast.Call) -> Iterator[tuple[ast.expr, str]]:
+    """Find ``float(f"{stamp.sec}.{stamp.nanosec}")``."""
+    match call:
+        case ast.Call(
+            func=ast.Name(id="float"),
+            args=[
+                ast.JoinedStr(
+                    values=[
+                        ast.FormattedValue(value=ast.Attribute(attr="sec")),
+                        ast.Constant(value="."),
+                        ast.FormattedValue(
+                            value=ast.Attribute(attr="nanosec"), format_spec=None
+                        ) as part,
+                    ]
+                )
+            ],
+        ):
+            yield part.value, "'nanosec' has no zeros in front: 5 becomes .5; divide it by 1e9"
 
 
 def _is_outermost(file: RclpyFile, node: ast.BinOp) -> bool:
