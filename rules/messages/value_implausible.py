@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
 from scaffold.api.messages import MessageTypes
 
-from . import _angles, _images, _matrices
+from . import _angles, _components, _fractions, _images, _matrices
 
 _NODE = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import BatteryState, Image\n"
@@ -204,6 +204,57 @@ class ValueImplausible(MessageRule):
             },
         ),
         Example(
+            "parts of vectors: one twice, one left out; uniform, or turned",
+            {
+                "copy_pose.py": "from geometry_msgs.msg import Pose, PoseStamped, Vector3\n\n\n"
+                "def copied(pose: Pose, q):\n"
+                "    out = PoseStamped()\n"
+                "    out.pose.position.x = pose.position.x\n"
+                "    out.pose.position.y = pose.position.y\n"
+                "    out.pose.position.z = pose.position.y\n"
+                "    turned = out.pose.orientation\n"
+                "    turned.x, turned.y, turned.z = q[0], q[1], q[2]\n"
+                "    turned.x = q[0]\n"
+                "    return out, Vector3(x=q[2], y=-q[0], z=-q[1])\n",
+                "grow.py": "import math\n\nfrom geometry_msgs.msg import Pose, Quaternion\n"
+                "from visualization_msgs.msg import Marker\n\n\n"
+                "def grown(marker: Marker, pose: Pose, size, yaw):\n"
+                "    marker.scale.x = size.x\n"
+                "    marker.scale.y = size.y\n"
+                "    marker.scale.z = size.x\n"
+                "    pose.orientation.z = math.sin(yaw / 2)\n"
+                "    return Quaternion(x=pose.orientation.x, y=pose.orientation.y,\n"
+                "                      z=pose.orientation.z)\n",
+                "w.py": "import math\n\nfrom geometry_msgs.msg import Pose, Quaternion\n\n\n"
+                "def grown(pose: Pose, yaw):\n"
+                "    pose.orientation.z = math.sin(yaw / 2)\n"
+                "    q = pose.orientation\n"
+                "    q.w = math.cos(yaw / 2)\n"
+                "    return Quaternion(z=0.0)\n",
+            },
+            Report("copy_pose.py:8:27", "z gets the y of pose.position, which y gets as well"),
+            Report(
+                "grow.py:12:25",
+                "w of this quaternion stays 1.0: it is another rotation; set it as well",
+            ),
+        ),
+        Example(
+            "fractions of a second",
+            {
+                "stamp.py": "from builtin_interfaces.msg import Time\n\n\n"
+                "def stamps(now):\n"
+                "    whole = int(now)\n"
+                "    yield Time(sec=whole, nanosec=int((now - whole) * 1e9))\n"
+                "    yield Time(sec=whole, nanosec=int((now - whole) * 1e6))\n"
+                "    stamp = Time(sec=whole)\n"
+                "    stamp.nanosec = int(now % 1 * 1000)\n"
+                "    stamp.nanosec = int(now % 1000 * 1000000)\n"
+                "    yield stamp\n"
+            },
+            Report("7:55", "a second has 1e9 nanoseconds, this multiplies by 1e6"),
+            Report("9:35", "a second has 1e9 nanoseconds, this multiplies by 1000"),
+        ),
+        Example(
             "rows for columns",
             {
                 "map.py": "from nav_msgs.msg import MapMetaData\n\n\n"
@@ -222,7 +273,7 @@ class ValueImplausible(MessageRule):
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         module = types.module
-        for part in (_angles, _images, _matrices):
+        for part in (_angles, _components, _fractions, _images, _matrices):
             for at, message in part.flaws(types):
                 yield self.report(module.location(at), message)
         for item in types.assigned:

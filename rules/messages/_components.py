@@ -1,0 +1,93 @@
+"""Vectors and quaternions that are copied part by part, one part from a wrong place or not."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from scaffold.api.messages import MessageTypes
+
+Flaw = tuple[ast.expr, str]
+"""The place, and what is wrong there."""
+_QUATERNION = "geometry_msgs/msg/Quaternion"
+_PARTS: Mapping[str, str] = {
+    **{f"geometry_msgs/msg/{name}": "xyz" for name in ("Point", "Point32", "Vector3")},
+    _QUATERNION: "xyzw",
+}
+_UNIFORM = frozenset({"scale", "dimensions", "size"})
+"""What may take one part of another vector for several of its own."""
+_DIRECTIONS = 3
+_Parts = dict[str, ast.expr]
+"""The values of the parts of a vector, by their letters."""
+
+
+def flaws(types: MessageTypes) -> Iterator[Flaw]:
+    """Yield parts that are copied from the one of another letter, and quaternions without w."""
+    groups: dict[tuple[ast.AST | None, str, str], _Parts] = {}
+    written: set[tuple[ast.AST | None, str, str]] = set()
+    for item in types.assigned:
+        letters = _PARTS.get(item.owner.name, "")
+        if item.field.name in letters:
+            at = item.holder if isinstance(item.holder, ast.Call) else None
+            function = types.module.enclosing_function(item.holder)
+            place: ast.AST | None = at or function
+            key = (place, types.module.text(item.holder), item.owner.name)
+            if item.field.name in groups.get(key, {}):
+                written.add(key)
+            groups.setdefault(key, {})[item.field.name] = item.value
+    for key, parts in groups.items():
+        if key in written:
+            continue
+        name = key[1].rpartition(".")[2]
+        if name not in _UNIFORM:
+            yield from _taken_twice(types, parts, _PARTS[key[2]])
+        if key[2] == _QUATERNION:
+            yield from _without_w(types, parts)
+
+
+def _source(types: MessageTypes, value: ast.expr, letters: str) -> tuple[str, str]:
+    """Return the text of a vector and the letter of the part of it that a value is."""
+    match value:
+        case ast.Call(func=ast.Name(id="float"), args=[inner]):
+            return _source(types, inner, letters)
+        case ast.Attribute(attr=letter, value=vector) if letter in letters:
+            return types.module.text(vector), letter
+        case ast.Subscript(value=vector, slice=ast.Constant(value=int(index))) if 0 <= index < len(
+            letters
+        ) and not isinstance(index, bool):
+            return types.module.text(vector), letters[index]
+    return "", ""
+
+
+def _taken_twice(types: MessageTypes, parts: _Parts, letters: str) -> Iterator[Flaw]:
+    """Find ``a.x = b.x; a.y = b.y; a.z = b.y``."""
+    sources = {letter: _source(types, value, letters) for letter, value in parts.items()}
+    taken = [letter for _, letter in sources.values()]
+    if len(parts) != len(letters) or len({vector for vector, _ in sources.values()}) != 1:
+        return
+    if not all(taken) or len(set(taken)) == len(letters):
+        return
+    wrong = [letter for letter, (_, other) in sources.items() if letter != other]
+    if len(wrong) == 1 or (letters == "xyzw" and len(set(taken)) == 1):
+        vector, other = sources[wrong[0]]
+        yield (
+            parts[wrong[0]],
+            f"{wrong[0]} gets the {other} of {vector}, which {other} gets as well",
+        )
+
+
+def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
+    """Find ``q.z = math.sin(yaw / 2)`` without ``q.w``, which is 1.0 then."""
+    place = types.module.enclosing_function(next(iter(parts.values())))
+    if "w" in parts or place is None:
+        return
+    if any(isinstance(node.ctx, ast.Store) for node in types.module.index.attributes("w")):
+        return  # possibly of this one, under another name
+    for letter, value in parts.items():
+        is_sine = isinstance(value, ast.Call) and (
+            types.module.qualified_name(value.func) in {"math.sin", "numpy.sin"}
+        )
+        is_copied = _source(types, value, "xyzw")[1] == letter and len(parts) == _DIRECTIONS
+        if is_sine or is_copied:
+            yield value, "w of this quaternion stays 1.0: it is another rotation; set it as well"
+            return
