@@ -42,7 +42,36 @@ class ArraysOfTwoLengths(MessageRule):
     other_severities = {Severity.WARNING: "they are velocities or efforts of a joint state"}
     examples = (
         Example("one length, or empty", {"a.py": _NODE.format("[0.0, 1.0]", "[]")}),
-        Example("not known", {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")}),
+        Example(
+            "a product",
+            {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")},
+            Report(
+                "7:20",
+                "position has 3 values for 2 names: the message is ignored; give one for each",
+            ),
+        ),
+        Example(
+            "names that the node keeps, and those that it finds later",
+            {
+                "a.py": "from rclpy.node import Node\nfrom sensor_msgs.msg import JointState\n\n"
+                "ARM = ['shoulder', 'elbow']\n\n\n"
+                "class Joints(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('joints')\n"
+                "        self.names = [*ARM, 'gripper']\n"
+                "        self.found = ['base']\n\n"
+                "    def find(self, name, angle):\n"
+                "        self.found.append(name)\n"
+                "        angles = [angle]\n"
+                "        angles.append(0.0)\n"
+                "        first = JointState(name=self.found, position=angles)\n"
+                "        return first, JointState(name=self.names, position=angles)\n"
+            },
+            Report(
+                "18:60",
+                "position has 2 values for 3 names: the message is ignored; give one for each",
+            ),
+        ),
         Example(
             "two lengths",
             {"a.py": _NODE.format("[0.0]", "[1.0, 2.0]")},
@@ -71,9 +100,9 @@ class ArraysOfTwoLengths(MessageRule):
                 given.setdefault(key, {}).setdefault(item.field.name, []).append(item.value)
         for (_, _, owner), fields in given.items():
             names, others = _PARALLEL[owner]
-            count = _length(fields.get(names, []))
+            count = _length(types, fields.get(names, []))
             for name in others:
-                length = _length(fields.get(name, []))
+                length = _length(types, fields.get(name, []))
                 if count and length and count != length:
                     message = (
                         f"{name} has {length} values for {count} names: {{}}; give one for each"
@@ -86,9 +115,16 @@ class ArraysOfTwoLengths(MessageRule):
                     )
 
 
-def _length(values: list[ast.expr]) -> int | None:
-    """Return the length of a list that is written as such, and assigned once."""
-    match values:
-        case [ast.List(elts=items) | ast.Tuple(elts=items)]:
-            return None if any(isinstance(item, ast.Starred) for item in items) else len(items)
-    return None
+def _length(types: MessageTypes, values: list[ast.expr]) -> int | None:
+    """Return the length of a list whose elements are all known, and that is assigned once."""
+    if len(values) != 1:
+        return None
+    given = values[0]
+    if isinstance(given, ast.Attribute):
+        uses = types.module.index.attributes(given.attr)
+        if any(isinstance(types.module.parent(use), ast.Attribute | ast.AugAssign) for use in uses):
+            return None  # such as names.append()
+        given = types.facts.evaluator.single_value(given)
+    elements = types.facts.evaluator.elements(given)
+    is_known = elements.complete and not any(item.conditional for item in elements.items)
+    return len(elements.items) if is_known else None
