@@ -1,4 +1,4 @@
-"""MS010: messages with a header have their stamp and frame set."""
+"""MS010: messages have the stamp, the frame and the other fields that they need."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
-from scaffold.api.messages import MessageTypes, childless, unstamped
+from scaffold.api.messages import MessageTypes, childless, lacking, unstamped
 from scaffold.api.rclpy import is_used_elsewhere
 
 _NODE = (
@@ -24,11 +24,11 @@ _NODE = (
 
 
 class HeaderIncomplete(MessageRule):
-    """A message is published with a frame and without a stamp, or the other way round.
+    """A message is published with its data, and without its stamp, frame, size or range.
 
     **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
     finds a match, RViz drops the message. An empty frame is none that tf2 knows: RViz shows
-    nothing, and Nav2 refuses the goal.
+    nothing, and Nav2 refuses the goal. A scan with ``range_max`` 0 has no reading in its range.
 
     **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()`` and
     ``message.header.frame_id = 'map'``.
@@ -95,6 +95,40 @@ class HeaderIncomplete(MessageRule):
             ),
         ),
         Example(
+            "a scan that reaches nowhere, odometry of nowhere; a scan that a driver completes",
+            {
+                "scan.py": "from nav_msgs.msg import Odometry\nfrom rclpy.node import Node\n"
+                "from sensor_msgs.msg import LaserScan\n\n\n"
+                "class Fake(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('fake')\n"
+                "        self.scans = self.create_publisher(LaserScan, 'scan', 10)\n"
+                "        self.odometry = self.create_publisher(Odometry, 'odom', 10)\n\n"
+                "    def tick(self, driver):\n"
+                "        scan = LaserScan(angle_min=-1.5, angle_max=1.5, angle_increment=0.1)\n"
+                "        scan.ranges = [1.0] * 31\n"
+                "        scan.range_min = 0.1\n"
+                "        self.scans.publish(scan)\n"
+                "        other = LaserScan(ranges=[1.0])\n"
+                "        driver.complete(other)\n"
+                "        self.scans.publish(other)\n"
+                "        self.scans.publish(LaserScan())\n"
+                "        here = Odometry(child_frame_id='base_link')\n"
+                "        here.header.stamp = self.get_clock().now().to_msg()\n"
+                "        self.odometry.publish(here)\n"
+            },
+            Report(
+                "13:16",
+                "sensor_msgs/msg/LaserScan is published in line 16 with its data, "
+                "and range_max is left at its default, zero or empty: set it",
+            ),
+            Report(
+                "21:16",
+                "nav_msgs/msg/Odometry is published in line 23 without a frame; set "
+                "header.frame_id",
+            ),
+        ),
+        Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
     )
@@ -117,6 +151,14 @@ class HeaderIncomplete(MessageRule):
                 message = (
                     f"{unset.message.name} is sent in line {line} without a child frame; "
                     "set child_frame_id"
+                )
+                yield self.report(types.module.location(unset.made), message)
+        for unset in lacking(types):
+            if _is_ours(package, types, unset.sent.args[0]):
+                line = types.module.location(unset.sent).line
+                message = (
+                    f"{unset.message.name} is published in line {line} with its data, and "
+                    f"{unset.missing} is left at its default, zero or empty: set it"
                 )
                 yield self.report(types.module.location(unset.made), message)
 

@@ -9,7 +9,7 @@ from scaffold.model.messages.inference import (
     MessageTypes,
     message_paths,
 )
-from scaffold.model.messages.stamps import childless, unstamped
+from scaffold.model.messages.stamps import childless, lacking, unstamped
 
 __all__ = [
     "PARTS",
@@ -18,6 +18,7 @@ __all__ = [
     "TypeMismatches",
     "ValueTypes",
     "childless",
+    "lacking",
     "message_paths",
     "rclpy_time",
     "unstamped",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
 from scaffold.model.messages.inference import MessageClass, MessageTypes
@@ -14,7 +14,8 @@ _HEADER = "std_msgs/msg/Header"
 _MEASURED = ("sensor_msgs/msg/", "nav_msgs/msg/Odometry", "geometry_msgs/msg/TransformStamped")
 """What is of a certain time. Zero means "now" in a trajectory, "the latest" in a pose or marker."""
 _PLACED = frozenset(
-    {f"nav_msgs/msg/{name}" for name in ("Path", "OccupancyGrid", "GridCells")}
+    {f"nav_msgs/msg/{name}" for name in ("Path", "OccupancyGrid", "GridCells", "Odometry")}
+    | {f"sensor_msgs/msg/{name}" for name in ("LaserScan", "PointCloud2")}
     | {"geometry_msgs/msg/PoseArray", "geometry_msgs/msg/PolygonStamped"}
     | {"geometry_msgs/msg/TransformStamped", "visualization_msgs/msg/Marker"}
 )
@@ -32,6 +33,15 @@ _BRIDGED = {
 }
 """The methods of ``CvBridge`` that make messages; the third argument is the header."""
 _WITH_CHILD = frozenset({"nav_msgs/msg/Odometry", _TRANSFORM})
+_NEEDED: Mapping[str, tuple[str, tuple[str, ...]]] = {
+    "sensor_msgs/msg/LaserScan": ("ranges", ("range_max", "angle_increment")),
+    "sensor_msgs/msg/Range": ("range", ("max_range",)),
+    "sensor_msgs/msg/Image": ("data", ("height", "width", "encoding", "step")),
+    "sensor_msgs/msg/CompressedImage": ("data", ("format",)),
+    "sensor_msgs/msg/PointCloud2": ("data", ("width", "height", "fields", "point_step")),
+    "nav_msgs/msg/OccupancyGrid": ("data", ("info",)),
+}
+"""What is no use without some of its other fields, whose default is zero or empty."""
 _SENDS = frozenset({"publish", "sendTransform"})
 
 
@@ -81,21 +91,64 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
 def childless(types: MessageTypes) -> Iterator[Unstamped]:
     """Yield the odometry and the transforms of a file that are sent without a child frame."""
     seen: set[ast.Call] = set()
+    for method, made, message, sent in _sent(types):
+        if made not in seen and message.name in _WITH_CHILD:
+            with suppress(_Doubt):
+                topic = _topic(types, method)
+                if not _names_child(types, made, sent.args[0], needs_twist="odom" not in topic):
+                    seen.add(made)
+                    yield Unstamped(made, message, sent, "child_frame_id")
+
+
+def lacking(types: MessageTypes) -> Iterator[Unstamped]:
+    """Yield messages that are sent with their data, and without a field that it is no use without.
+
+    Each once, for the first such field.
+    """
+    seen: set[ast.Call] = set()
+    for _, made, message, sent in _sent(types):
+        if made in seen or message.name not in _NEEDED or made.args:
+            continue
+        data, needed = _NEEDED[message.name]
+        with suppress(_Doubt):
+            given = _fields(types, made, sent.args[0])
+            missing = [field for field in needed if field not in given]
+            if data in given and missing:
+                seen.add(made)
+                yield Unstamped(made, message, sent, missing[0])
+
+
+def _sent(
+    types: MessageTypes,
+) -> Iterator[tuple[ast.Attribute, ast.Call, MessageClass, ast.Call]]:
+    """Yield the messages that are made and sent: the method, the making, its class, the sending."""
     index = types.module.index
     for method in [*index.attributes("publish"), *index.attributes("sendTransform")]:
         sent = types.module.parent(method)
         if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
             continue
         made = types.facts.evaluator.single_value(sent.args[0])
-        if not isinstance(made, ast.Call) or made in seen or not _is_sender(types, method):
-            continue
-        message = types.class_of(made.func)
-        if message is not None and message.name in _WITH_CHILD:
-            with suppress(_Doubt):
-                topic = _topic(types, method)
-                if not _names_child(types, made, sent.args[0], needs_twist="odom" not in topic):
-                    seen.add(made)
-                    yield Unstamped(made, message, sent, "child_frame_id")
+        if isinstance(made, ast.Call) and _is_sender(types, method):
+            message = types.class_of(made.func)
+            if message is not None:
+                yield method, made, message, sent
+
+
+def _fields(types: MessageTypes, made: ast.Call, sent: ast.expr) -> set[str]:
+    """Return the fields of a message that are set or filled; doubt if anything else may do so."""
+    words = {word.arg for word in made.keywords}
+    if None in words:
+        raise _Doubt
+    result = {word for word in words if word is not None}
+    for use in _uses(types, made, sent) if sent is not made else ():
+        match types.module.parent(use):
+            case ast.Attribute(attr=field):
+                result.add(field)
+            case ast.Call(func=ast.Attribute(attr=name)) if name in _SENDS:
+                pass
+            case _:
+                raise _Doubt
+    return result
 
 
 def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_twist: bool) -> bool:
