@@ -16,6 +16,8 @@ from scaffold.api.programs import (
 )
 from scaffold.api.rclpy import RclpyFile
 
+from ._asked import attributes_asked
+
 _NODE = (
     "import threading\nimport time\n\nfrom rclpy.node import Node\n"
     "from std_msgs.msg import String\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -77,6 +79,48 @@ class WaitsForCallback(RclpyRule):
             },
             Report(
                 "22:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+        ),
+        Example(
+            "loops over what is true, a sum, a number of messages, a result",
+            {
+                "relay.py": _NODE.format(
+                    "        while self.last:\n"
+                    "            time.sleep(0.1)\n"
+                    "        while abs(self.last - self.goal) > 0.1:\n"
+                    "            time.sleep(0.1)\n"
+                    "        while len(self.last) < request.count:\n"
+                    "            pass\n"
+                    "        while not self.has_come():\n"
+                    "            pass\n"
+                    "        while self.last and time.time() < 5.0:\n"
+                    "            pass\n"
+                    "        while self.goal > 0.1:\n"
+                    "            pass\n"
+                ).replace(
+                    "    def hear",
+                    "    def has_come(self):\n        return self.last is not None\n\n    def hear",
+                )
+            },
+            Report(
+                "25:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+            Report(
+                "27:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+            Report(
+                "29:9",
+                "callback 'answer' waits for self.last, which another callback "
+                "sets: that one never runs meanwhile, and the node hangs",
+            ),
+            Report(
+                "31:9",
                 "callback 'answer' waits for self.last, which another callback "
                 "sets: that one never runs meanwhile, and the node hangs",
             ),
@@ -188,8 +232,9 @@ class WaitsForCallback(RclpyRule):
         executions = (*in_callbacks(file), *in_constructors(file), *in_tasks(file))
         callbacks = {x.function for x in executions if x.entity is not None}
         for executed in executions:
-            for node, name in _waits(file, executed):
-                setters = _setters(file, name, node)
+            for node, names in _waits(file, executed):
+                set_by = {name: _setters(file, name, node) for name in sorted(names)}
+                setters = set().union(*set_by.values())
                 if (
                     node in seen
                     or _calls(node, setters)
@@ -197,6 +242,7 @@ class WaitsForCallback(RclpyRule):
                     or not setters <= callbacks - {executed.function}
                 ):
                     continue
+                name = next(name for name, functions in set_by.items() if functions)
                 if may_run_meanwhile(file, executed) and not _excludes(file, executed, setters):
                     continue
                 seen.add(node)
@@ -223,8 +269,8 @@ def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None])
     return all(share_group(file, entity, other) for other in others)
 
 
-def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, str]]:
-    """Yield what waits in a function, with the attribute of ``self`` that ends it."""
+def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast.While, set[str]]]:
+    """Yield what waits in a function, with the attributes of ``self`` that may end it."""
     for node in file.module.below(executed.function, ast.While, ast.Call):
         if file.function_of(node) is not executed.function:
             continue
@@ -235,11 +281,11 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
                     file.module.qualified_name(made.func) == "threading.Event"
                 )
                 if is_event and (not _is_limited(node) or _is_asked(file, node)):
-                    yield node, name
+                    yield node, {name}
             case ast.While() if not _leaves(node):
-                name = _attribute_asked(file, node.test)
-                if name:
-                    yield node, name
+                names = attributes_asked(file, node)
+                if names:
+                    yield node, names
 
 
 def _is_limited(node: ast.AST) -> bool:
@@ -255,27 +301,6 @@ def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
         case ast.If():
             return True
     return False
-
-
-def _attribute_asked(file: RclpyFile, test: ast.expr) -> str:
-    """Return the attribute of ``self`` that a loop waits for: ``self.last is None``."""
-    match test:
-        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name() as owner, attr=name)):
-            return name if file.evaluator.self_class(owner) else ""
-        case ast.Compare(left=ast.Attribute() as left, comparators=[ast.Constant()]):
-            while isinstance(left.value, ast.Attribute):  # a field of a message
-                left = left.value
-            return left.attr if file.evaluator.self_class(left.value) else ""
-        case ast.BoolOp(op=operator, values=values):
-            is_and = isinstance(operator, ast.And)
-            asked = [value for value in values if not (is_and and _is_ok(file, value))]
-            attributes = [_attribute_asked(file, value) for value in asked]
-            return attributes[0] if attributes and all(attributes) else ""
-    return ""
-
-
-def _is_ok(file: RclpyFile, test: ast.expr) -> bool:
-    return isinstance(test, ast.Call) and file.module.qualified_name(test.func) == "rclpy.ok"
 
 
 def _leaves(loop: ast.While) -> bool:
