@@ -21,6 +21,8 @@ from scaffold.api.rclpy import (
     names_of_bases,
 )
 
+from ._helpers import too_early
+
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
@@ -86,6 +88,40 @@ class AttributeUsedBeforeSet(RclpyRule):
             ),
         ),
         Example(
+            "in a method that the constructor calls, also before the one of the base class",
+            {
+                "talker.py": _NODE.format("        self.say('first')\n" + _MAKE)
+                + "        self.say('then')\n        self.greet()\n\n"
+                "    def say(self, text):\n"
+                "        self.pub.publish(String(data=text))\n\n"
+                "    def greet(self):\n"
+                "        if self.is_polite:\n            self.say(self.polite)\n\n\n"
+                "class Loud(Talker):\n"
+                "    def __init__(self):\n"
+                "        self.say('early')\n"
+                "        super().__init__()\n"
+                "        self.say('late')\n"
+                "        self.is_polite = False\n",
+                "other.py": _NODE.format("").replace(
+                    "        super", "        self.setup()\n        super"
+                )
+                + "\n    def setup(self):\n        self.create_publisher(String, 'a', 1)\n",
+            },
+            Report(
+                "other.py:7:9",
+                "setup() uses self.create_publisher() before super().__init__() in "
+                "line 8: AttributeError",
+            ),
+            Report(
+                "talker.py:8:9",
+                "say() uses self.pub, which is set later, in line 9: AttributeError",
+            ),
+            Report(
+                "talker.py:23:9",
+                "say() uses self.pub, which is set later, in line 24: AttributeError",
+            ),
+        ),
+        Example(
             "a timer that uses what a message brings",
             {
                 "talker.py": _TIMER.format("", "self.last"),
@@ -114,6 +150,8 @@ class AttributeUsedBeforeSet(RclpyRule):
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
+            for call, message in too_early(file, node):
+                yield self.report(file.module.location(call), message)
             if node.base is None and node.name not in names_of_bases(package):
                 yield from self._check_timers(package, file, node)
             if node.constructor is None or node.base is not None or len(node.node.bases) != 1:
