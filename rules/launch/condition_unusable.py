@@ -11,6 +11,9 @@ from scaffold.api.launch import LaunchCall, LaunchFile, failure, never_equal, ne
 _TRUTHS = frozenset({"true", "false", "1", "0"})
 _CONDITIONS = ("IfCondition", "UnlessCondition")
 _BY_NAME = ("LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
+_SUBSTITUTIONS = tuple(
+    f"{name}Substitution" for name in ("And", "Or", "Not", "Any", "All", "Equals", "NotEquals")
+)
 _LAUNCH = (
     "from launch import LaunchDescription\n"
     "from launch.actions import DeclareLaunchArgument\n"
@@ -137,6 +140,32 @@ class ConditionUnusable(LaunchRule):
                 "LaunchConfigurationEquals takes the name of the launch argument, a string",
             ),
         ),
+        Example(
+            "conditions in a substitution",
+            {
+                "launch/a.launch.py": _LAUNCH.format(
+                    "true", "OrSubstitution(IfCondition(use), use)"
+                ).replace("import Launch", "import OrSubstitution, Launch"),
+                "launch/b.launch.py": _LAUNCH.format(
+                    "true", "AndSubstitution(use, LaunchConfigurationEquals('use', '1'))"
+                )
+                .replace("import Launch", "import AndSubstitution, Launch")
+                .replace("import If", "import LaunchConfigurationEquals, If"),
+                "launch/c.launch.py": _LAUNCH.format(
+                    "true", "AndSubstitution(use, NotSubstitution(use))"
+                ).replace("import Launch", "import AndSubstitution, NotSubstitution, Launch"),
+            },
+            Report(
+                "launch/a.launch.py:12:80",
+                "OrSubstitution takes substitutions, not the condition IfCondition: "
+                "write its value",
+            ),
+            Report(
+                "launch/b.launch.py:12:86",
+                "AndSubstitution takes substitutions, not the condition "
+                "LaunchConfigurationEquals: use EqualsSubstitution",
+            ),
+        ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
@@ -149,12 +178,8 @@ class ConditionUnusable(LaunchRule):
                 why, is_sure = never_equals(launch, call)
                 if why:
                     yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
-        for call in launch.calls:
-            listed = call.given.get("condition")
-            is_value = call.kind == "IfElseSubstitution"
-            if isinstance(listed, ast.List | ast.Tuple) and not is_value:
-                message = "a condition is one object such as IfCondition(...), not a list"
-                yield self.report(launch.location(listed), message)
+        for node, problem in _misplaced(launch):
+            yield self.report(launch.location(node), problem)
         for call in launch.find("PythonExpression"):
             why = failure(launch, call.given.get("expression"))
             if why:
@@ -163,6 +188,24 @@ class ConditionUnusable(LaunchRule):
             why, is_sure = never_equal(launch, call.given.get("expression"))
             if why:
                 yield self.report(call, why, severity=None if is_sure else Severity.WARNING)
+
+
+def _misplaced(launch: LaunchFile) -> Iterator[tuple[ast.expr, str]]:
+    """Yield lists for conditions, and conditions for substitutions."""
+    for call in launch.calls:
+        listed = call.given.get("condition")
+        is_value = call.kind == "IfElseSubstitution"
+        if isinstance(listed, ast.List | ast.Tuple) and not is_value:
+            yield listed, "a condition is one object such as IfCondition(...), not a list"
+    for call in launch.find(*_SUBSTITUTIONS):
+        for node in dict.fromkeys((*call.given.values(), *call.call.args)):
+            view = launch.call_of(node)
+            if view is not None and view.kind in {*_CONDITIONS, *_BY_NAME}:
+                is_plain = view.kind in _CONDITIONS
+                hint = "write its value" if is_plain else "use EqualsSubstitution"
+                message = f"{call.kind} takes substitutions, not the condition {view.kind}: {hint}"
+                yield node, message
+                break
 
 
 def _problem(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> str:
