@@ -146,7 +146,7 @@ class ShareFileNotInstalled(Rule):
         for path in launch_files(package):
             if path not in installed and not _is_copy(path, stems):
                 message = f"data_files does not install {path}: `ros2 launch` does not find it"
-                yield self.report(at, message)
+                yield self.report(at, message, cause=f"files in {path.rpartition('/')[0]}/")
         for directory in DATA_DIRECTORIES:
             files = data_files(package, directory)
             if files and not installed.intersection(files):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
 from scaffold.api.formats import Element
@@ -129,6 +129,16 @@ class ElementRefused(Rule):
             ),
         ),
         Example(
+            "several attributes of one element",
+            {
+                "robot.urdf": '<robot name="r">\n  <link name="a"/>\n  <link name="b"/>\n'
+                '  <joint name="c" type="revolute">\n'
+                '    <parent link="a"/>\n    <child link="b"/>\n'
+                '    <limit lower="-1" upper="1"/>\n  </joint>\n</robot>\n'
+            },
+            Report("7:6", "<limit> has no 'effort' or 'velocity': urdfdom refuses the whole file"),
+        ),
+        Example(
             "an argument without a default",
             {"robot.xacro": _XACRO.format("")},
             Report("2:4", "<xacro:arg> has no 'default': xacro stops here"),
@@ -222,12 +232,13 @@ class ElementRefused(Rule):
                 yield self.report(robot.root, message)
         for part in filter(_is_urdf, urdf_parts(package)):
             holder = part.holder.tag if part.holder is not None else ""
-            for name in _OF_URDF.get((holder, part.tag), ()):
-                if name not in part.attributes:
-                    closest = closest_name(package, name, list(part.attributes), 0.6)
-                    hint = f"; {closest!r} is not read" if closest else ""
-                    message = f"<{part.tag}> has no {name!r}: urdfdom refuses the whole file{hint}"
-                    yield self.report(part, message)
+            names = _OF_URDF.get((holder, part.tag), ())
+            missing = [name for name in names if name not in part.attributes]
+            if missing:
+                near = [closest_name(package, it, list(part.attributes), 0.6) for it in missing]
+                hint = "".join(f"; {closest!r} is not read" for closest in near if closest)
+                which = f"<{part.tag}> has no {_listed(missing)}"
+                yield self.report(part, f"{which}: urdfdom refuses the whole file{hint}")
         for path in robot_paths(package):
             try:
                 file = robot_file(package, path)
@@ -283,6 +294,12 @@ class ElementRefused(Rule):
                         "whole file"
                     )
                     yield self.report(part.at(name), message)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return names as a sentence has them: ``'ixx', 'iyy' or 'izz'``."""
+    *others, last = [repr(name) for name in names]
+    return f"{', '.join(others)} or {last}" if others else last
 
 
 def _is_urdf(part: Part) -> bool:

@@ -28,6 +28,9 @@ _TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "
 """Begins the cause of what only happens on a machine that lacks a package."""
+_UNDEFINED = "F821"
+_SEVERAL = 3
+"""Undefined names, from which on it is the imports that a file lacks."""
 
 
 class Place(NamedTuple):
@@ -62,23 +65,36 @@ class Entry(NamedTuple):
         return self.first.severity
 
 
-def by_cause(result: Result) -> list[Entry]:
+def by_cause(result: Result, *, everything: bool = False) -> list[Entry]:
     """Return the findings of a package as entries.
 
-    Findings have one cause if their rules say so, or if they read the same.
+    Findings have one cause if their rules say so, or if they read the same. A manifest without
+    dependencies and a file without imports are one cause as well, unless everything is shown.
     """
+    bare: set[str] = set() if everything else _without_imports(result.diagnostics)
     causes: dict[tuple[str, ...], list[Place]] = {}
     for diagnostic in result.diagnostics:
-        key = (
-            (diagnostic.cause,)
-            if diagnostic.cause
-            else (diagnostic.code, diagnostic.message, diagnostic.severity.value)
-        )
+        key: tuple[str, ...] = (diagnostic.code, diagnostic.message, diagnostic.severity.value)
+        if diagnostic.code == _UNDEFINED and diagnostic.location.path in bare:
+            key = (diagnostic.code, diagnostic.location.path)
+        elif diagnostic.cause.startswith(DEPENDENCY) and not everything:
+            key = (DEPENDENCY, diagnostic.severity.value)
+        elif diagnostic.cause:
+            key = (diagnostic.cause,)
         causes.setdefault(key, []).append(Place(result.package, diagnostic))
     return [
         Entry(tuple(sorted(places, key=lambda place: SEVERITIES.index(place.finding.severity))))
         for places in causes.values()
     ]
+
+
+def _without_imports(diagnostics: Sequence[Diagnostic]) -> set[str]:
+    """Return the files in which several names are undefined."""
+    names: dict[str, set[str]] = {}
+    for diagnostic in diagnostics:
+        if diagnostic.code == _UNDEFINED:
+            names.setdefault(diagnostic.location.path, set()).add(diagnostic.message)
+    return {path for path, messages in names.items() if len(messages) >= _SEVERAL}
 
 
 def merged(entries: Sequence[Entry]) -> list[Entry]:

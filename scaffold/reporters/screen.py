@@ -68,7 +68,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
             [
                 entry
                 for result in kept
-                for entry in by_cause(result)
+                for entry in by_cause(result, everything=options.everything)
                 if SEVERITIES.index(entry.severity) <= SEVERITIES.index(options.severity)
             ]
         )

@@ -107,3 +107,15 @@ def test_other_findings_of_the_same_cause_are_other_entries() -> None:
     first.diagnostics[0] = first.diagnostics[0]._replace(cause="dependency a")
     entries = [entry for result in (first, second) for entry in by_cause(result)]
     assert merged(entries) == entries
+
+
+def test_what_a_manifest_or_the_imports_of_a_file_lack_is_one_entry() -> None:
+    result = _result("talker", "PX020", "a.py")
+    (found,) = result.diagnostics
+    names = ("rclpy", "std_msgs", "yaml")
+    result.diagnostics[:] = [
+        *(found._replace(message=name, cause=f"dependency {name}") for name in names),
+        *(found._replace(code="F821", message=name) for name in names),
+    ]
+    assert [len(entry.places) for entry in by_cause(result)] == [3, 3]
+    assert [len(entry.places) for entry in by_cause(result, everything=True)] == [1] * 6
