@@ -50,6 +50,14 @@ class MarkerNotShown(MessageRule):
     examples = (
         Example("colored, numbered", {"show.py": _NODE.format("number", "a", "marker.ns = 'a'")}),
         Example(
+            "numbered, in one assignment with its namespace",
+            {
+                "show.py": _NODE.format("number", "a", "pass").replace(
+                    "marker.id = number", "marker.ns, marker.id = 'a', number"
+                )
+            },
+        ),
+        Example(
             "made by a function that a loop calls: no alpha, one id",
             {
                 "show.py": "from visualization_msgs.msg import Marker, MarkerArray\n\n\n"
@@ -352,9 +360,20 @@ def _given(
     if field in words:
         yield words[field]
     for use in uses:
-        above = types.module.parent(use)
-        if use.attr == field and isinstance(above, ast.Assign) and isinstance(use.ctx, ast.Store):
-            yield above.value
+        if use.attr == field and isinstance(use.ctx, ast.Store):
+            yield _assigned(types, use)
+
+
+def _assigned(types: MessageTypes, target: ast.Attribute) -> ast.expr:
+    """Return what is assigned to a target, alone or with others; the target if unknown."""
+    match above := types.module.parent(target):
+        case ast.Assign(value=value):
+            return value
+        case ast.Tuple(elts=targets):
+            match types.module.parent(above):
+                case ast.Assign(value=ast.Tuple(elts=values)) if len(values) == len(targets):
+                    return values[targets.index(target)]
+    return target
 
 
 def _ends_early(loop: ast.AST) -> bool:

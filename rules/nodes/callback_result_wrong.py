@@ -10,7 +10,7 @@ from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
 from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
-from scaffold.api.rclpy import ActionServer, Service
+from scaffold.api.rclpy import ActionServer, Service, is_overridden
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 _NODE = (
@@ -129,6 +129,23 @@ class CallbackResultWrong(MessageRule):
             ),
         ),
         Example(
+            "a method that every class of the package replaces",
+            {
+                "server.py": _NODE_SERVICES.format("").replace("Server", "Base")
+                + "\n\nclass Server(Base):\n    def report(self, request, response):\n"
+                "        super().report(request, response)\n        return response\n"
+            },
+        ),
+        Example(
+            "a method that a class replaces, and another one does not",
+            {
+                "server.py": _NODE_SERVICES.format("").replace("Server", "Base")
+                + "\n\nclass Server(Base):\n    def report(self, request, response):\n"
+                "        return response\n\n\nbase = Base()\n"
+            },
+            Report("10:9", "report() does not return the response (service of line 8): TypeError"),
+        ),
+        Example(
             "a response returned", {"server.py": _NODE_SERVICES.format("        return response\n")}
         ),
         Example(
@@ -229,7 +246,7 @@ class CallbackResultWrong(MessageRule):
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
         if package.name != "rclpy":
             yield from self._check_actions(types)
-        yield from self._check_services(types)
+        yield from self._check_services(package, types)
 
     def _check_actions(self, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[tuple[str, FunctionNode]] = set()
@@ -241,7 +258,7 @@ class CallbackResultWrong(MessageRule):
                     expected = _expected_by_action(types, server, function, _ANSWERS.get(name, ""))
                     yield from self._check(types, function, expected)
 
-    def _check_services(self, types: MessageTypes) -> Iterator[Diagnostic]:
+    def _check_services(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[FunctionNode] = set()
         for service in types.facts.services:
             callback = service.callback
@@ -249,6 +266,9 @@ class CallbackResultWrong(MessageRule):
             if function is None or isinstance(function, ast.Lambda) or function in seen:
                 continue
             if callback and (callback.is_called or function.decorator_list):
+                continue
+            class_ = types.module.enclosing_class(function)
+            if class_ is not None and is_overridden(package, function, class_):
                 continue
             seen.add(function)
             if not is_generator(function):

@@ -12,6 +12,10 @@ from scaffold.api.rclpy import RclpyFile
 
 MOST = 2
 """Number of arguments without an executor: the node, and a future."""
+_ENDING = re.compile(r"\b(?:destroy_node|shutdown|exit)\(")
+"""Matches what ends a node."""
+_PLAIN = (ast.Expr, ast.Raise)
+"""Statements that are executed on every way through a block."""
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Caller(Node):\n"
@@ -108,6 +112,28 @@ class SpinInCallback(RclpyRule):
             ),
         ),
         Example(
+            "a spin, after which the program ends",
+            {
+                "caller.py": _NODE.format(
+                    "rclpy.spin_until_future_complete(self, future)\n        rclpy.shutdown()"
+                )
+            },
+        ),
+        Example(
+            "a spin, after which the program may end",
+            {
+                "caller.py": _NODE.format(
+                    "rclpy.spin_until_future_complete(self, future)\n"
+                    "        if not future.done():\n            rclpy.shutdown()"
+                )
+            },
+            Report(
+                "12:9",
+                "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
+                "the same node: no callback runs after that",
+            ),
+        ),
+        Example(
             "a spin when a future is done",
             {
                 "caller.py": _NODE.format("future.add_done_callback(self.answer)")
@@ -166,6 +192,8 @@ class SpinInCallback(RclpyRule):
                 if spun is None or (called and called not in file.related_classes(spun)):
                     continue  # another node than that of the callback
                 if _is_last(file, function) or _waits_once(file, call.call):
+                    continue
+                if any(isinstance(x, _PLAIN) for x in _endings_after(file, call.call)):
                     continue
                 message = f"rclpy.{call.name}({node.id}) runs in {origin} of the same node"
                 yield self.report(call, f"{message}: no callback runs after that")
@@ -230,19 +258,22 @@ def _only_counts(file: RclpyFile, name: str) -> bool:
 
 
 def _ends_after(file: RclpyFile, node: ast.AST) -> bool:
-    """Tell whether the block of a call goes on with what ends the node."""
+    """Tell whether the block of a call goes on with what may end the node."""
+    return any(True for _ in _endings_after(file, node))
+
+
+def _endings_after(file: RclpyFile, node: ast.AST) -> Iterator[ast.stmt]:
+    """Yield the statements after a call, in its block, that end the node or hold what does."""
     child = node
     for parent in file.module.parents(node):
         block = getattr(parent, "body", None)
         if isinstance(block, list) and child in block:
-            later = block[block.index(child) + 1 :]
-            return any(
-                isinstance(statement, ast.Raise)
-                or re.search(r"\b(?:destroy_node|shutdown|exit)\(", file.module.text(statement))
-                for statement in later
-            )
+            for statement in block[block.index(child) + 1 :]:
+                is_end = re.search(_ENDING, file.module.text(statement))
+                if is_end or isinstance(statement, ast.Raise):
+                    yield statement
+            return
         child = parent
-    return False
 
 
 def _is_self(file: RclpyFile, call: ast.Call) -> bool:

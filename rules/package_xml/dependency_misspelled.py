@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
 from scaffold.api.catalog import OTHER_NAMES, similar_key, similar_package
+from scaffold.api.interfaces import KINDS
 
 
 class DependencyMisspelled(Rule):
@@ -40,6 +41,26 @@ class DependencyMisspelled(Rule):
                 "2:11", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
+        ),
+        Example(
+            "misspelled in the code as well",
+            {
+                "package.xml": "<package>\n  <depend>std_msg</depend>\n</package>\n",
+                "talker.py": "from std_msg.msg import String\n",
+            },
+            Report(
+                "package.xml:2:11",
+                "no package 'std_msg' is known; closest: 'std_msgs'",
+                fix="write std_msgs",
+            ),
+            fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
+        ),
+        Example(
+            "a package with a similar name that has other interfaces",
+            {
+                "package.xml": "<package>\n  <depend>trajectory_msg</depend>\n</package>\n",
+                "talker.py": "from trajectory_msg.srv import Follow\n",
+            },
         ),
         Example(
             "for another distribution, and for whoever asks for it",
@@ -104,10 +125,22 @@ class DependencyMisspelled(Rule):
                 message = f"no rosdep key {name!r} is known; closest: {key!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
             closest = similar_package(name)
-            if closest is not None:
+            if closest is not None and not _has_others(package, name, closest):
                 message = f"no package {name!r} is known; closest: {closest!r}"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
                 yield self.report(dependency, message, Fix(f"write {closest}", (edit,)))
+
+
+def _has_others(package: Package, name: str, closest: str) -> bool:
+    """Tell whether the code imports interfaces of a package that the closest one does not have."""
+    definitions = package.workspace.interfaces
+    for module in package.modules(mentioning=(name,)):
+        for item in module.imports_by_root.get(name, ()):
+            kind = item.module.partition(".")[2]
+            known = definitions.names(closest, kind) or () if kind in KINDS else None
+            if known is not None and any(imported.name not in known for imported in item.names):
+                return True
+    return False
 
 
 def _is_known(package: Package, name: str) -> bool:

@@ -15,6 +15,7 @@ from scaffold.model.rclpy.api import (
 from scaffold.model.rclpy.attributes import (
     defined_by,
     given_from_outside,
+    is_overridden,
     is_read_in_full,
     is_unused,
     is_used_elsewhere,
@@ -124,6 +125,7 @@ __all__ = [
     "is_method",
     "is_of_node",
     "is_of_rclpy",
+    "is_overridden",
     "is_read_in_full",
     "is_spun_by_listener",
     "is_tried",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ _LIFECYCLE = "rclpy.lifecycle.node.LifecycleNode"
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
+    from scaffold.model.python.scopes import FunctionNode
     from scaffold.model.rclpy.entities import Entity
     from scaffold.model.rclpy.file import RclpyFile
     from scaffold.model.rclpy.nodes import NodeClass
@@ -128,6 +129,42 @@ def names_of_bases(package: Package) -> frozenset[str]:
     return _of_all_files(package, _bases_in)
 
 
+def is_overridden(package: Package, method: FunctionNode, class_: ast.ClassDef) -> bool:
+    """Tell whether the package makes no object of a class, but derives from it with this method."""
+    if class_.name not in names_of_bases(package):
+        return False
+    overriding = f"{class_.name}.{method.name}" in _overridden_methods(package)
+    return overriding and class_.name not in _classes_called(package)
+
+
+@fact
+def _overridden_methods(package: Package) -> frozenset[str]:
+    return _of_all_files(package, _overridden_in)
+
+
+@fact
+def _overridden_in(package: Package, path: str) -> frozenset[str]:
+    return frozenset(
+        f"{base}.{method.name}"
+        for class_ in package.module(path).walk(ast.ClassDef)
+        for base in _base_names(class_)
+        for method in class_.body
+        if isinstance(method, ast.FunctionDef | ast.AsyncFunctionDef)
+    )
+
+
+@fact
+def _classes_called(package: Package) -> frozenset[str]:
+    return _of_all_files(package, _called_in)
+
+
+@fact
+def _called_in(package: Package, path: str) -> frozenset[str]:
+    called = [call.func for call in package.module(path).walk(ast.Call)]
+    names = {func.id for func in called if isinstance(func, ast.Name)}
+    return frozenset(names | {func.attr for func in called if isinstance(func, ast.Attribute)})
+
+
 @fact
 def given_from_outside(package: Package) -> frozenset[str]:
     """Return the attributes that code of the package sets on other objects than ``self``."""
@@ -146,12 +183,14 @@ def _of_all_files(
 
 @fact
 def _bases_in(package: Package, path: str) -> frozenset[str]:
-    return frozenset(
-        base.attr if isinstance(base, ast.Attribute) else base.id
-        for class_ in package.module(path).walk(ast.ClassDef)
-        for base in class_.bases
-        if isinstance(base, ast.Attribute | ast.Name)
-    )
+    classes = package.module(path).walk(ast.ClassDef)
+    return frozenset(name for class_ in classes for name in _base_names(class_))
+
+
+def _base_names(class_: ast.ClassDef) -> Iterator[str]:
+    for base in class_.bases:
+        if isinstance(base, ast.Attribute | ast.Name):
+            yield base.attr if isinstance(base, ast.Attribute) else base.id
 
 
 @fact
