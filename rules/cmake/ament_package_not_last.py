@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api.cmake import Command
 
+_LINTERS = "ament_lint_auto_find_test_dependencies"
 FATAL = (
     "ament_export_definitions",
     "ament_export_dependencies",
@@ -16,7 +18,7 @@ FATAL = (
     "ament_export_link_flags",
     "ament_export_targets",
     "ament_environment_hooks",
-    "ament_lint_auto_find_test_dependencies",
+    _LINTERS,
     "ament_python_install_package",
     "ament_python_install_module",
     "pluginlib_export_plugin_description_file",
@@ -31,8 +33,9 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
 class AmentPackageNotLast(Rule):
     """A call that has to come before ``ament_package()`` comes after it.
 
-    **Why.** CMake stops at an export, a linter or interfaces after it; a Python package or a plugin
-    after it is never registered, for ``ament_package()`` does that. ``install()`` works there.
+    **Why.** CMake stops at an export, at interfaces and where it looks for ament_lint_auto after
+    it; a Python package, a plugin or a linter after it is never registered, for ``ament_package()``
+    does that. ``install()`` works there.
 
     **Fix.** Move ``ament_package()`` to the end. No automatic fix: comments would be torn apart.
 
@@ -42,7 +45,10 @@ class AmentPackageNotLast(Rule):
     code = "CM003"
     name = "ament-package-not-last"
     effect = Effect.STOPS_BUILD
-    other_severities = {Severity.INFO: "the call is ``install()``"}
+    other_severities = {
+        Severity.WARNING: "linters are registered too late to run",
+        Severity.INFO: "the call is ``install()``",
+    }
     examples = (
         Example(
             "last", {"CMakeLists.txt": f"{_LISTS}ament_export_libraries(talker)\nament_package()\n"}
@@ -59,6 +65,32 @@ class AmentPackageNotLast(Rule):
                 "rosidl_generate_interfaces(talker msg/A.msg)\n"
             },
             Report("4:1", "rosidl_generate_interfaces() comes after ament_package() in line 3"),
+        ),
+        Example(
+            "linters after it",
+            {
+                "CMakeLists.txt": f"{_LISTS}ament_package()\nif(BUILD_TESTING)\n"
+                "  find_package(ament_lint_auto REQUIRED)\n"
+                "  ament_lint_auto_find_test_dependencies()\nendif()\n"
+            },
+            Report(
+                "6:3",
+                "ament_lint_auto_find_test_dependencies() comes after ament_package() in line 3",
+            ),
+        ),
+        Example(
+            "linters that are found before it, and registered after it",
+            {
+                "CMakeLists.txt": f"{_LISTS}find_package(ament_lint_auto REQUIRED)\n"
+                "ament_package()\nif(BUILD_TESTING)\n"
+                "  ament_lint_auto_find_test_dependencies()\nendif()\n"
+            },
+            Report(
+                "6:3",
+                "ament_lint_auto_find_test_dependencies() comes after ament_package() in line 4: "
+                "no linter runs",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "an installation before it",
@@ -83,9 +115,20 @@ class AmentPackageNotLast(Rule):
         for command in package.cmake.find(*FATAL):
             if command.index > calls[0].index:
                 message = f"{command.name}() comes after ament_package() in line {line}"
-                yield self.report(command.name_location, message)
+                severity = Severity.ERROR
+                if command.name == _LINTERS and not _finds_linters(package, calls[0]):
+                    severity, message = Severity.WARNING, f"{message}: no linter runs"
+                yield self.report(command.name_location, message, severity=severity)
         later = [call for call in package.cmake.find("install") if call.index > calls[0].index]
         if later:
             more = f", and {len(later) - 1} more" if len(later) > 1 else ""
             message = f"install() comes after ament_package() in line {line}{more}"
             yield self.report(later[0].name_location, message, severity=Severity.INFO)
+
+
+def _finds_linters(package: Package, last: Command) -> bool:
+    """Tell whether linters are looked for after ``ament_package()``, where CMake stops."""
+    return any(
+        command.index > last.index and command.values[:1] == ["ament_lint_auto"]
+        for command in package.cmake.find("find_package")
+    )

@@ -20,6 +20,7 @@ from scaffold.api.install import paths_imported_by
 
 _LISTS = "project(talker)\ninstall(PROGRAMS talker/node.py DESTINATION lib/${PROJECT_NAME})\n"
 _NODE = "#!/usr/bin/env python3\n"
+_CAUSE = "not executable"
 _COPIED = ("RENAME", "PERMISSIONS", "CONFIGURATIONS", "COMPONENT")
 """With one of these CMake itself installs the file, and sets the bit."""
 _NODE_KIND = (
@@ -237,7 +238,7 @@ class ProgramNotExecutable(Rule):
                 "`colcon build --symlink-install` makes an executable that does not start"
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
-            yield self.report(package.start_of(path), message, fix, cause="not executable")
+            yield self.report(package.start_of(path), message, fix, cause=_CAUSE)
 
     def _check_kind(self, package: Package) -> Iterator[Diagnostic]:
         programs = {
@@ -320,7 +321,8 @@ class ProgramNotExecutable(Rule):
             text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline
             fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
             is_crlf = what.startswith("CRLF")
-            yield self.report(package.start_of(path), what, None if is_crlf else fix)
+            at = package.start_of(path)
+            yield self.report(at, what, None if is_crlf else fix, cause=_CAUSE)
 
 
 def _is_run_by_cmake(package: Package, path: str) -> bool:

@@ -8,7 +8,13 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.distributions import removed_package, target
-from scaffold.api.manifest import declared, declaring, required_packages, requirements
+from scaffold.api.manifest import (
+    declared,
+    declaring,
+    is_in_requirements,
+    required_packages,
+    requirements,
+)
 from scaffold.api.python import rospack_lookups
 
 from ._debian import key_of_debian
@@ -36,8 +42,8 @@ class ImportUndeclared(Rule):
     name = "import-undeclared"
     other_severities = {
         Severity.WARNING: "it comes with `ros2 launch` and launch files alone import it, only "
-        "scripts in the share directory import it, or it is torch, which many "
-        "install with pip",
+        "scripts in the share directory import it, requirements.txt names it, or it is torch, "
+        "which many install with pip",
     }
     examples = (
         Example(
@@ -69,6 +75,30 @@ class ImportUndeclared(Rule):
                 "tools/__init__.py": "",
                 "tools/draw.py": "import matplotlib\n",
                 "tools/requirements.txt": "matplotlib\n",
+            },
+        ),
+        Example(
+            "a script among sources in C++; a launch file that is named like a test",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>launch</exec_depend>\n"
+                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n",
+                "CMakeLists.txt": "project(talker)\nadd_subdirectory(src)\n"
+                "install(DIRECTORY launch DESTINATION share/talker)\n",
+                "src/CMakeLists.txt": "add_executable(talk talk.cpp)\n",
+                "src/plot.py": "import matplotlib\n",
+                "launch/test_arm.launch.py": "import launch\nimport xacro\n",
+            },
+            Report(
+                "launch/test_arm.launch.py:2:1",
+                "imports 'xacro', which no dependency in package.xml provides; add "
+                "<exec_depend>xacro</exec_depend>",
+                fix="declare xacro",
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>launch</exec_depend>\n  <exec_depend>xacro</exec_depend>\n"
+                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n"
             },
         ),
         Example(
@@ -323,6 +353,26 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a library that pip is asked for under another name",
+            {
+                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "requirements.txt": "# hardware\npyserial>=3.5\n",
+                "talker/__init__.py": "",
+                "talker/node.py": "import serial\n",
+            },
+            Report(
+                "talker/node.py:1:1",
+                "imports 'serial', which no dependency in package.xml provides; add "
+                "<exec_depend>python3-serial</exec_depend>",
+                fix="declare python3-serial",
+                severity=Severity.WARNING,
+            ),
+            fixed={
+                "package.xml": '<package format="3">\n  <name>talker</name>\n'
+                "  <exec_depend>python3-serial</exec_depend>\n</package>\n"
+            },
+        ),
+        Example(
             "declared by the name of its Debian package",
             {
                 "package.xml": '<package format="3">\n  <name>talker</name>\n'
@@ -415,13 +465,15 @@ class ImportUndeclared(Rule):
             there = declared(package, for_tests=need.for_tests)
             if any(key in there.direct or key in there.along for key in need.keys):
                 continue
-            if need.module in _INDEX and _is_required(package, need.module):
+            is_from_pip = is_in_requirements(package, need.module)
+            if need.module in _INDEX and (is_from_pip or _is_required(package, need.module)):
                 continue
             if any(key_of_debian(item.name) in need.keys for item in manifest.dependencies):
                 continue  # dependency-malformed says it
             if need.module == "rospkg" and rospack_lookups(package, need.location.path):
                 continue  # module-of-ros1-imported says it
             comes_otherwise = _comes_with_launch(need) or need.module in _INDEX or need.in_data
+            comes_otherwise = comes_otherwise or is_from_pip
             severity = Severity.WARNING if comes_otherwise else Severity.ERROR
             purposes = ("run", "test") if need.for_tests else ("run",)
             other = manifest.left_out(need.keys, *purposes)
@@ -459,12 +511,7 @@ def _comes_with_launch(need: requirements.Requirement) -> bool:
 
 
 def _is_required(package: Package, module: str) -> bool:
-    """Return whether setup.py or a file of requirements asks pip for a module."""
+    """Return whether setup.py asks pip for a module."""
     wanted = re.compile(rf"(?:[ \t]*|.*['\"]){module}\b(?!\.)")
-    files = [path for path in package.files if re.search(r"(^|/)requirements[^/]*\.txt$", path)]
-    return any(
-        wanted.match(line)
-        for path in [*files, "setup.py"]
-        if package.has(path)
-        for line in package.source(path).text.splitlines()
-    )
+    text = package.source("setup.py").text if package.has("setup.py") else ""
+    return any(wanted.match(line) for line in text.splitlines())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from scaffold.model.discovery.declaring import declaring, way_back
+from scaffold.model.discovery.pip import is_in_requirements
 from scaffold.model.manifest import requirements
 from scaffold.model.manifest.conditions import (
     ConditionError,
@@ -26,6 +27,7 @@ __all__ = [
     "declared",
     "declaring",
     "holds",
+    "is_in_requirements",
     "is_never_true",
     "is_placeholder",
     "is_placeholder_address",

@@ -12,6 +12,7 @@ from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
+    is_beside_programs,
     is_copy_of_old_code,
     is_in_uncalled_function,
     is_out_of_reach,
@@ -24,6 +25,8 @@ from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 _OF_LINTERS = ("E9", "F")
+_OF_PROGRAMS = ("IM", "MS", "ND", "TY")
+"""Areas of rules about what happens when code runs."""
 _UNDEFINED = "F821"
 
 
@@ -112,6 +115,8 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     if is_of_linters and runs_linter(package, diagnostic):
         return False
     if is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
+        return True
+    if code.startswith(_OF_PROGRAMS) and is_beside_programs(package, path):
         return True
     return is_of_linters and (
         is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)

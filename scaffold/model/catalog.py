@@ -335,7 +335,7 @@ _SYSTEM_KEYS = frozenset({"git", "graphviz", "lark", "yaml"})
 
 _INDEX_NAMES = {
     "PIL": "pillow",
-    "cv2": "opencv-python opencv python3-cv2",
+    "cv2": "opencv-python opencv-python-headless opencv-contrib-python opencv python3-cv2",
     "bs4": "beautifulsoup4",
     "git": "GitPython",
     "serial": "pyserial",

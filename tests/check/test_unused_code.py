@@ -167,6 +167,20 @@ def test_a_test_in_python_that_cmake_does_not_run(
     assert severities(capsys, "F821") == {"tests/idea.py": "error"}
 
 
+def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (package / "setup.py").unlink()
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+    write(package / "scripts" / "relay.py", MISTAKE)
+    write(package / "CMakeLists.txt", lists.format("# install(PROGRAMS scripts/relay.py)\n"))
+    assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}  # started by hand
+    write(package / "CMakeLists.txt", lists.format("add_executable(talk talk.cpp)\n"))
+    assert severities(capsys, "MS002") == {"scripts/relay.py": "warning"}
+    write(package / "CMakeLists.txt", lists.format("install(PROGRAMS scripts/relay.py)\n"))
+    assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
+
+
 def test_an_annotation_that_is_not_evaluated(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

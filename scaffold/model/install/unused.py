@@ -21,6 +21,7 @@ _COPY = re.compile(
 """Matches the name of a module that somebody has kept beside the one that is used."""
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches what a CMakeLists.txt calls when it runs or checks Python."""
+_INSTALLS_PROGRAMS = re.compile(rb"\b(?:add_executable|PROGRAMS)\b")
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (".py", ".txt", ".cfg", ".toml", ".xml", ".yaml", ".yml", ".cmake", ".launch", ".sh")
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "conftest.py", "__init__.py", "__main__.py"})
@@ -60,6 +61,18 @@ def _runs_python_tests(package: Package) -> bool:
         return True
     lists = (path for path in package.files if path.endswith(("CMakeLists.txt", ".cmake")))
     return any(re.search(_RUNS_PYTHON, package.data(path)) for path in lists)
+
+
+def is_beside_programs(package: Package, path: str) -> bool:
+    """Tell whether CMake installs programs of a package, and a Python file is none of them.
+
+    Where it installs no program at all, people may start the files from the sources.
+    """
+    if not package.has("CMakeLists.txt") or package.has("setup.py") or is_in_tests(path):
+        return False
+    if not _INSTALLS_PROGRAMS.search(without_comments(package.data("CMakeLists.txt"))):
+        return False
+    return is_out_of_reach(package, path)
 
 
 def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:

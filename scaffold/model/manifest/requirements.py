@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
 _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
+_COMPILING = re.compile(
+    r"\b(?:add_subdirectory|aux_source_directory|(?:target_)?include_directories)\s*\([^()]*\)"
+)
+"""Matches calls of CMake that name directories of C++."""
 _OLD_STANDARD_LIBRARY = frozenset({"distutils", "imp", "asynchat", "asyncore", "smtpd"})
 
 
@@ -140,8 +144,8 @@ def is_shipped(package: Package, path: str) -> bool:
     # The directory as a whole, not ``console_scripts`` and not another file of it.
     whole = rf"(?<!\w){re.escape(directory)}/?(?![\w/.-])"
     return any(
-        name in text or (directory and re.search(whole, text) is not None)
-        for text in _builds(package)
+        name in text or (directory and re.search(whole, _COMPILING.sub("", text)) is not None)
+        for text in _builds(package, directory)
     )
 
 
@@ -190,6 +194,9 @@ def _is_imported_by_tests(package: Package, name: str) -> bool:
 
 def _is_for_tests(package: Package, path: str) -> bool:
     """Tell whether only tests run a file; ``tf_test.py`` may be a program by that name."""
+    directory, _, name = path.rpartition("/")
+    if name.endswith(".launch.py") and not is_in_tests(f"{directory}/"):
+        return False  # such as launch/test_arm.launch.py, which people start
     if is_in_tests(path):
         return path not in package.remember("programs named like tests", lambda: _programs(package))
     return _is_named_for_tests(package, path)
@@ -217,8 +224,10 @@ def _is_named_for_tests(package: Package, path: str) -> bool:
     return bool(using) and all(cmake.guarded_by_testing(item) for item in using)
 
 
-def _builds(package: Package) -> Iterator[str]:
-    for path in ("CMakeLists.txt", "setup.py"):
+def _builds(package: Package, directory: str = "") -> Iterator[str]:
+    """Yield the texts of the build files, that of a directory below the top among them."""
+    own = [f"{directory}/CMakeLists.txt"] if directory else []
+    for path in ("CMakeLists.txt", "setup.py", *own):
         try:
             yield without_comments(package.source(path).text)
         except ViewError:
