@@ -129,7 +129,7 @@ def _reorder(package: Package, structure: Structure) -> Fix | None:
     from scaffold.model.manifest import edit as manifest_edit
 
     manifest = package.manifest
-    edit = None if structure.unknown else manifest_edit.reorder(manifest)
+    edit = None if structure.unknown else manifest_edit.reorder(manifest.document)
     if edit is None:
         return None
     moved = range(edit.start, edit.end)
@@ -160,7 +160,7 @@ def _unknown(package: Package, structure: Structure) -> Iterator[_Problem]:
 def _rename(package: Package, unknown: Unknown, tag: str) -> Fix:
     from scaffold.model.manifest import edit as manifest_edit
 
-    edits = manifest_edit.rename(package.manifest, unknown.element, tag)
+    edits = manifest_edit.rename(package.manifest.document, unknown.element, tag)
     return Fix(f"write <{tag}>", edits, Safety.UNSAFE)
 
 

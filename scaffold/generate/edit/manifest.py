@@ -80,6 +80,6 @@ def _insertion(manifest: Manifest, tag: str, name: str) -> Edit:
             elements = manifest.all(other)
             if elements:
                 return manifest_edit.insert_after(
-                    manifest, elements[-1], manifest_edit.render(tag, name)
+                    manifest.document, elements[-1], manifest_edit.render(tag, name)
                 )
     return manifest.insert(tag, name)

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 from scaffold.edits import Edit
-from scaffold.formats.xml import Element
-from scaffold.model.manifest.manifest import DEPENDENCY_TAGS, Manifest
+from scaffold.formats.xml import Document, Element
+from scaffold.model.manifest.tags import DEPENDENCY_TAGS
 from scaffold.record import NamedTuple
 
 SCHEMA = "http://download.ros.org/schema/package_format{}.xsd"
@@ -34,25 +34,25 @@ def section(tag: str) -> int | None:
 
 
 def insert(
-    manifest: Manifest, tag: str, text: str, attributes: Mapping[str, str] | None = None
+    document: Document, tag: str, text: str, attributes: Mapping[str, str] | None = None
 ) -> Edit:
     """Add an element below the root: in its sorted place among its like, else in its order."""
-    return place(manifest, tag, text, render(tag, text, attributes))
+    return place(document, tag, text, render(tag, text, attributes))
 
 
-def insert_after(manifest: Manifest, element: Element, markup: str) -> Edit:
+def insert_after(document: Document, element: Element, markup: str) -> Edit:
     """Add markup after an element, on a line of its own if the element has one."""
-    return _after(manifest, element, markup)
+    return _after(document, element, markup)
 
 
-def _insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
+def _insert_into(document: Document, parent: Element, markup: str) -> Edit:
     """Add markup as the last child of an element."""
-    source = manifest.source
+    source = document.source
     children = parent.children
     if children:
-        return _after(manifest, children[-1], markup)
-    outer = _indent_of(manifest, parent)
-    unit = _indentation(manifest)
+        return _after(document, children[-1], markup)
+    outer = _indent_of(document, parent)
+    unit = _indentation(document)
     body = f"{source.newline}{outer}{unit}{markup}{source.newline}{outer}"
     if parent.is_empty_tag:
         opened = source.text[parent.start : parent.open_end - 2].rstrip()
@@ -63,32 +63,32 @@ def _insert_into(manifest: Manifest, parent: Element, markup: str) -> Edit:
     return Edit(source.path, parent.open_end, parent.close_start, body)
 
 
-def remove(manifest: Manifest, element: Element) -> Edit:
+def remove(document: Document, element: Element) -> Edit:
     """Remove an element, with its line and the comment after it when it is alone there."""
-    text = manifest.source.text
-    start, end = element.start, _rest_of_line(manifest, element) or element.end
+    text = document.source.text
+    start, end = element.start, _rest_of_line(document, element) or element.end
     line_start = text.rfind("\n", 0, start) + 1
     line_end = text.find("\n", end)
     line_end = len(text) if line_end < 0 else line_end + 1
     if not text[line_start:start].strip() and not text[end:line_end].strip():
-        return Edit(manifest.source.path, line_start, line_end, "")
+        return Edit(document.source.path, line_start, line_end, "")
     end = element.end
     while start > line_start and text[start - 1] in " \t" and text[end : end + 1] in {" ", "\t"}:
         start -= 1
-    return Edit(manifest.source.path, start, end, "")
+    return Edit(document.source.path, start, end, "")
 
 
-def reorder(manifest: Manifest) -> Edit | None:
+def reorder(document: Document) -> Edit | None:
     """Sort the children of the root in the order of the schema.
 
     Comments and blank lines move with the element that they precede. ``None`` when the order
     is right, or when text between the elements makes a move unsafe.
     """
-    source, root = manifest.source, manifest.root
+    source, root = document.source, document.root
     chunks: list[tuple[int, str]] = []
     number, at = 0, root.open_end
     for child in root.children:
-        end = _rest_of_line(manifest, child) or child.end
+        end = _rest_of_line(document, child) or child.end
         number = _SECTION.get(child.tag, number)
         chunks.append((number, source.text[at:end]))
         at = end
@@ -123,9 +123,9 @@ def inserted_dependency(edit: Edit) -> InsertedDependency | None:
     return InsertedDependency(inserted[3].strip(), _custom(inserted[2]), is_before=after)
 
 
-def rename(manifest: Manifest, element: Element, tag: str) -> tuple[Edit, ...]:
+def rename(document: Document, element: Element, tag: str) -> tuple[Edit, ...]:
     """Give an element another tag."""
-    path = manifest.source.path
+    path = document.source.path
     start = element.start + 1
     edits = [Edit(path, start, start + len(element.tag), tag)]
     if not element.is_empty_tag:
@@ -148,23 +148,23 @@ def escape(text: str, quote: str = "") -> str:
     return text.replace('"', "&quot;") if quote == '"' else text
 
 
-def place(manifest: Manifest, tag: str, text: str, markup: str) -> Edit:
+def place(document: Document, tag: str, text: str, markup: str) -> Edit:
     """Add the markup of an element below the root, where it belongs."""
-    children = manifest.root.children
+    children = document.root.children
     run = _last_run(children, tag)
     if run:
         texts = [element.text for element in run]
         if all(item <= two for item, two in pairwise(texts)):
             for element in run:
                 if element.text > text:
-                    return _before(manifest, element, markup)
-        return _after(manifest, run[-1], markup)
+                    return _before(document, element, markup)
+        return _after(document, run[-1], markup)
     anchor = _predecessor(children, tag)
     if anchor is not None:
-        return _after(manifest, anchor, markup)
+        return _after(document, anchor, markup)
     if children:
-        return _before(manifest, children[0], markup)
-    return _insert_into(manifest, manifest.root, markup)
+        return _before(document, children[0], markup)
+    return _insert_into(document, document.root, markup)
 
 
 def _last_run(children: Sequence[Element], tag: str) -> list[Element]:
@@ -192,17 +192,17 @@ def _custom(tag: str) -> int:
     return _DEPENDENCIES.index(tag) if tag in _DEPENDENCIES else 0
 
 
-def _after(manifest: Manifest, element: Element, markup: str) -> Edit:
-    source = manifest.source
-    at = _rest_of_line(manifest, element)
+def _after(document: Document, element: Element, markup: str) -> Edit:
+    source = document.source
+    at = _rest_of_line(document, element)
     if at is None:
         return Edit(source.path, element.end, element.end, markup)
-    text = f"{source.newline}{_indent_of(manifest, element)}{markup}"
+    text = f"{source.newline}{_indent_of(document, element)}{markup}"
     return Edit(source.path, at, at, text)
 
 
-def _before(manifest: Manifest, element: Element, markup: str) -> Edit:
-    source = manifest.source
+def _before(document: Document, element: Element, markup: str) -> Edit:
+    source = document.source
     at = element.start
     first = source.text.rfind("\n", 0, at) + 1
     if source.text[first:at].strip(" \t") or not first:
@@ -210,11 +210,11 @@ def _before(manifest: Manifest, element: Element, markup: str) -> Edit:
     return Edit(source.path, at, at, f"{markup}{source.newline}{source.text[first:at]}")
 
 
-def _rest_of_line(manifest: Manifest, element: Element) -> int | None:
+def _rest_of_line(document: Document, element: Element) -> int | None:
     """Return where the line of an element ends, after comments; None if more markup follows."""
-    text = manifest.source.text
+    text = document.source.text
     at = element.end
-    comments = {comment.start: comment.end for comment in manifest.comments}
+    comments = {comment.start: comment.end for comment in document.comments}
     behind = at
     while at < len(text):
         if text[at] in " \t":
@@ -230,19 +230,19 @@ def _rest_of_line(manifest: Manifest, element: Element) -> int | None:
     return behind
 
 
-def _indent_of(manifest: Manifest, element: Element) -> str:
+def _indent_of(document: Document, element: Element) -> str:
     """Return the indentation of the line that an element begins on."""
-    text = manifest.source.text
+    text = document.source.text
     first = text.rfind("\n", 0, element.start) + 1
     line = text[first : element.start]
     return line[: len(line) - len(line.lstrip(" \t"))]
 
 
-def _indentation(manifest: Manifest) -> str:
+def _indentation(document: Document) -> str:
     """Return what one level of this file is indented by."""
-    outer = _indent_of(manifest, manifest.root)
-    for child in manifest.root.children:
-        inner = _indent_of(manifest, child)
+    outer = _indent_of(document, document.root)
+    for child in document.root.children:
+        inner = _indent_of(document, child)
         if len(inner) > len(outer) and inner.startswith(outer):
             return inner[len(outer) :]
     return "  "

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from scaffold.formats import xml_reader
 from scaffold.formats.xml import Comment, Document, Element, Instruction
 from scaffold.formats.xml_reader import decode
+from scaffold.model.manifest.tags import DEPENDENCY_TAGS, PURPOSES
 from scaffold.record import NamedTuple
 from scaffold.source import Location, Source
 
@@ -27,20 +28,6 @@ __all__ = [
 
 NEWEST_FORMAT = 3
 
-# What a dependency of each kind is needed for: building, building against, running, testing.
-_PURPOSES: dict[str, frozenset[str]] = {
-    "buildtool_depend": frozenset({"build"}),
-    "buildtool_export_depend": frozenset({"build_export"}),
-    "build_depend": frozenset({"build"}),
-    "build_export_depend": frozenset({"build_export"}),
-    "run_depend": frozenset({"build_export", "run"}),
-    "exec_depend": frozenset({"run"}),
-    "depend": frozenset({"build", "build_export", "run"}),
-    "doc_depend": frozenset({"doc"}),
-    "test_depend": frozenset({"test"}),
-}
-DEPENDENCY_TAGS = tuple(_PURPOSES)
-"""The tags of dependencies on packages, in the order that people write them."""
 _OF_ROS2 = frozenset({"rclpy", "rclcpp", "rosidl_default_generators"})
 
 
@@ -171,7 +158,7 @@ class Manifest:
         return [
             Dependency(child.text, child.tag, child, child.get("condition"))
             for child in self.root.children
-            if child.tag in _PURPOSES
+            if child.tag in PURPOSES
         ]
 
     def depends(self, *kinds: str) -> dict[str, Dependency]:
@@ -200,7 +187,7 @@ class Manifest:
         return {
             dependency.name
             for dependency in self.dependencies
-            if not _PURPOSES[dependency.kind].isdisjoint(purposes) and dependency.active
+            if not PURPOSES[dependency.kind].isdisjoint(purposes) and dependency.active
         }
 
     @cached_property
@@ -236,7 +223,7 @@ class Manifest:
             purposes: As for `names_for`.
         """
         for dependency in self.dependencies:
-            is_for_them = not _PURPOSES[dependency.kind].isdisjoint(purposes)
+            is_for_them = not PURPOSES[dependency.kind].isdisjoint(purposes)
             if dependency.name in names and is_for_them and not dependency.may_be_active:
                 return dependency
         return None
@@ -264,7 +251,7 @@ class Manifest:
     def note_on_export(self, text: str) -> str:
         """Return what a message about a missing element adds if it is inside ``<export>``."""
         for child in self.exports:
-            if child.text == text and (child.tag in _PURPOSES or child.tag == "member_of_group"):
+            if child.text == text and (child.tag in PURPOSES or child.tag == "member_of_group"):
                 return f"; line {child.location.line} is inside <export>, where it has no effect"
         return ""
 
@@ -310,13 +297,13 @@ class Manifest:
         """Return the edit that adds an element below the root, where it belongs."""
         from scaffold.model.manifest import edit as manifest_edit
 
-        return manifest_edit.insert(self, tag, text, attributes)
+        return manifest_edit.insert(self.document, tag, text, attributes)
 
     def remove(self, element: Element) -> Edit:
         """Return the edit that removes an element, with its line when it is alone there."""
         from scaffold.model.manifest import edit as manifest_edit
 
-        return manifest_edit.remove(self, element)
+        return manifest_edit.remove(self.document, element)
 
 
 def _is_active(condition: str | None) -> bool:

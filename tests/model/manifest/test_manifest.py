@@ -591,8 +591,8 @@ def test_rename() -> None:
     before = "<package><run_depend>a</run_depend><b/></package>"
     manifest = read(before)
     run, empty = manifest.root.children
-    edits = [*manifest_edit.rename(manifest, run, "exec_depend")]
-    edits += manifest_edit.rename(manifest, empty, "c")
+    edits = [*manifest_edit.rename(manifest.document, run, "exec_depend")]
+    edits += manifest_edit.rename(manifest.document, empty, "c")
     assert apply(before, *edits) == "<package><exec_depend>a</exec_depend><c/></package>"
 
 
@@ -609,15 +609,15 @@ def test_reorder_takes_comments_and_blank_lines_along() -> None:
         "  <maintainer email='x'>X</maintainer> <!-- me -->\n  <license>MIT</license>\n"
         "  <depend>b</depend>\n</package>\n"
     )
-    edit = manifest_edit.reorder(read(before))
+    edit = manifest_edit.reorder(read(before).document)
     assert edit is not None
     assert apply(before, edit) == after
-    assert manifest_edit.reorder(read(after)) is None
+    assert manifest_edit.reorder(read(after).document) is None
 
 
 def test_reorder_leaves_a_file_with_stray_text_alone() -> None:
     text = "<package>x<depend>b</depend><name>a</name></package>"
-    assert manifest_edit.reorder(read(text)) is None
+    assert manifest_edit.reorder(read(text).document) is None
 
 
 TAGS = st.sampled_from(["name", "license", "maintainer", "url", "depend", "exec_depend", "export"])
@@ -627,7 +627,7 @@ TAGS = st.sampled_from(["name", "license", "maintainer", "url", "depend", "exec_
 def test_reorder_keeps_everything(tags: Iterable[str]) -> None:
     lines = [f"  <{tag}>{number}</{tag}>\n" for number, tag in enumerate(tags)]
     manifest = read("<package>\n" + "".join(lines) + "</package>\n")
-    edit = manifest_edit.reorder(manifest)
+    edit = manifest_edit.reorder(manifest.document)
     text = manifest.source.text if edit is None else apply(manifest.source.text, edit)
     assert sorted(text.splitlines()) == sorted(manifest.source.text.splitlines())
     numbers = [manifest_edit.section(child.tag) for child in read(text).root.children]
