@@ -20,7 +20,7 @@ from packaging.version import Version
 from scaffold import __version__
 from scaffold.check import registry
 from scaffold.check.session import all_rules
-from scaffold.cli.main import VERBS
+from scaffold.cli.verbs import VERBS
 from scaffold.configuration import content
 from scaffold.generate import yaml_file
 from tests import PATIENCE

@@ -32,25 +32,6 @@ if TYPE_CHECKING:
 COLLECT_FROM = 500_000
 """Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
 
-VERBS = {
-    "new": "create a package",
-    "add": "add a node, an interface, a program or a launch file to a package",
-    "update": "update a package to the current templates",
-    "check": "lint packages and find what will break",
-    "migrate": "move packages to another distribution of ROS 2",
-    "rules": "list and explain the rules",
-    "templates": "list the templates, or test those of a team",
-    "interfaces": "list the known messages, services and actions, or show some",
-    "stubs": "write type stubs of rclpy, launch, tf2 and all interfaces for editors",
-    "smoke": "build packages, run their executables and observe them",
-    "doctor": "diagnose the ROS 2 environments and common mistakes",
-    "config": "show the configuration and where each value comes from",
-    "cache": "show or clean the cache",
-    "trust": "trust a directory whose configuration loads rules and templates",
-    "completion": "print the tab completion script of a shell",
-}
-"""A verb is a module of this package with ``add_arguments`` and ``run``."""
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a verb and return its exit code, one of `scaffold.cli.exit_codes`."""

@@ -11,7 +11,7 @@ from typing import NoReturn
 from scaffold import __version__
 from scaffold.cli import terminal
 from scaffold.cli.exit_codes import USAGE_ERROR
-from scaffold.cli.main import VERBS
+from scaffold.cli.verbs import VERBS
 
 
 class _Parser(argparse.ArgumentParser):

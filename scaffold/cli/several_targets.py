@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.cli import baselines, fixing, terminal
+from scaffold.cli import baselines, fixing, outcome, terminal
 from scaffold.cli.packages import (
     common_directory,
     find_targets,
@@ -85,7 +85,6 @@ class SeveralTargets:
         """Check or fix standard input; a fixed text is all that standard output gets."""
         from scaffold.check.several import agreed, merged
         from scaffold.cli import reports, standard_input
-        from scaffold.cli.verbs import check
 
         options, session = self._options, self._session
         path = options.stdin_filename
@@ -102,11 +101,11 @@ class SeveralTargets:
         results = merged(by_distribution, session.codes_fixed_for_all)
         results = baselines.hide(options, results, self._targets, session)
         if options.fix:
-            terminal.write_error(reports.text(results, check.report_options(options)))
+            terminal.write_error(reports.text(results, outcome.report_options(options)))
         else:
-            check.note_unchecked(session)
-            reports.write(options, results, check.report_options(options))
-        return check.final_code(options, session, results)
+            outcome.note_unchecked(session)
+            reports.write(options, results, outcome.report_options(options))
+        return outcome.final_code(options, session, results)
 
     def _checked_unsaved(self, text: bytes) -> ByDistribution:
         from scaffold.cli import standard_input
@@ -151,7 +150,6 @@ class SeveralTargets:
         """Check for each; what an earlier run found is taken from it."""
         from scaffold.check.cache.results import ResultCache
         from scaffold.cli.interactive import progress
-        from scaffold.cli.verbs import check
 
         options, session = self._options, self._session
         by_distribution: ByDistribution = {}
@@ -183,7 +181,7 @@ class SeveralTargets:
                 if entry and not session.types_failure and memory.save(entry, self._disk, results):
                     self._runs.append(entry)
             options.notes += foreign_note(session, results)
-            check.note_unchecked(session)
+            outcome.note_unchecked(session)
         options.notes += _since_notes(since_notes)
         self._targets = [*{target.package.directory: target for target in every}.values()]
         return by_distribution
@@ -191,30 +189,27 @@ class SeveralTargets:
     def _report(self, by_distribution: ByDistribution, *, is_saved: bool) -> int:
         from scaffold.check.several import merged
         from scaffold.cli import reports
-        from scaffold.cli.verbs import check
 
         options, session = self._options, self._session
         results = merged(by_distribution, session.codes_fixed_for_all)
         if options.write_baseline:
             return baselines.write(options, results)
         reported = baselines.hide(options, results, self._targets, session)
-        output = reports.write(options, reported, check.report_options(options))
-        code = check.final_code(options, session, reported)
+        output = reports.write(options, reported, outcome.report_options(options))
+        code = outcome.final_code(options, session, reported)
         if is_saved and len(self._runs) == len(options.distributions):
-            check.save_report(options, self._runs, code, output, self._settings)
+            outcome.save_report(options, self._runs, code, output, self._settings)
         return code
 
     def _entry(self, distribution: Distribution) -> RunEntry | None:
         """Return where the findings for one distribution are remembered, if they are."""
-        from scaffold.cli.verbs import check
-
         options = self._options
         is_unfinished = note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
             return None
         if options.cluster is not None or options.refused:
             return None
-        return check.run_entry(options, self._targets, distribution)
+        return outcome.run_entry(options, self._targets, distribution)
 
 
 def _since_notes(by_distribution: Mapping[Distribution, str]) -> tuple[str, ...]:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
+from scaffold.diagnostic import Diagnostic
 from scaffold.model.package import Package
+from scaffold.printable import printable
 
 
 def shown(package: Package, path: str) -> str:
@@ -13,6 +16,21 @@ def shown(package: Package, path: str) -> str:
     A file outside the current directory keeps the form in which its package was given.
     """
     return package.remember(("shown", path), lambda: _shown(package, path))
+
+
+def printable_path(package: Package, path: str) -> str:
+    """Return the path of a file of a package as a terminal may get it."""
+    return printable(shown(package, path))
+
+
+def place(
+    package: Package,
+    diagnostic: Diagnostic,
+    name: Callable[[Package, str], str] = printable_path,
+) -> str:
+    """Return ``path:line:column``, as terminals and editors follow it."""
+    at = diagnostic.location
+    return f"{name(package, at.path)}:{at.line}:{at.column}"
 
 
 def in_repository(package: Package, path: str) -> str:

@@ -28,8 +28,8 @@ from scaffold.reporters.entries import (
     merged,
 )
 from scaffold.reporters.excerpt import excerpt
+from scaffold.reporters.paths import place
 from scaffold.reporters.summary import by_severity, count, fixable, summary
-from scaffold.reporters.text import place
 
 _COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
 _MAX_PLACES = 3

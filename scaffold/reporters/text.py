@@ -14,7 +14,7 @@ from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
 from scaffold.reporters.entries import SEVERITIES
 from scaffold.reporters.excerpt import excerpt
-from scaffold.reporters.paths import shown
+from scaffold.reporters.paths import place, printable_path
 from scaffold.reporters.summary import summary
 
 
@@ -32,7 +32,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
         screen.report(results, out, options)
         return
     else:
-        name = lru_cache(maxsize=None)(_shown)
+        name = lru_cache(maxsize=None)(printable_path)
         for package, diagnostic in worst_first(results, options):
             out.write(f"{line(package, diagnostic, name)}\n")
             if options.source:
@@ -53,24 +53,12 @@ def worst_first(
                     yield result.package, diagnostic
 
 
-def _shown(package: Package, path: str) -> str:
-    return printable(shown(package, path))
-
-
 def line(
-    package: Package, diagnostic: Diagnostic, name: Callable[[Package, str], str] = _shown
+    package: Package, diagnostic: Diagnostic, name: Callable[[Package, str], str] = printable_path
 ) -> str:
     """Return the line of a finding: ``path:line:column: severity code message [name]``."""
     head = f"{place(package, diagnostic, name)}: {diagnostic.severity.value} {diagnostic.code}"
     return f"{head} {printable(diagnostic.text)} [{diagnostic.name}]"
-
-
-def place(
-    package: Package, diagnostic: Diagnostic, name: Callable[[Package, str], str] = _shown
-) -> str:
-    """Return ``path:line:column``, as terminals and editors follow it."""
-    at = diagnostic.location
-    return f"{name(package, at.path)}:{at.line}:{at.column}"
 
 
 def _statistics(results: Sequence[Result], out: TextIO) -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.cli.main import VERBS, main
+from scaffold.cli.main import main
+from scaffold.cli.verbs import VERBS
 
 MANIFEST = """\
 <?xml version="1.0"?>

@@ -15,7 +15,7 @@ import pytest
 
 from scaffold.check.parallel import WORTH_WORKERS
 from scaffold.cli import exit_codes
-from scaffold.cli.main import VERBS
+from scaffold.cli.verbs import VERBS
 from tests import PATIENCE
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -14,8 +14,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
-from scaffold.cli.main import VERBS, main
+from scaffold.cli.main import main
 from scaffold.cli.parser import build_parser
+from scaffold.cli.verbs import VERBS
 
 EXAMPLES = int(os.environ.get("SCAFFOLD_COMMAND_LINES", "60"))
 LEFT_OUT = {"--build", "--reference"}

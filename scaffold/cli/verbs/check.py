@@ -7,8 +7,8 @@ import os
 from typing import TYPE_CHECKING, TypeVar
 
 from scaffold import distributions
-from scaffold.cli import baselines, distro, since, terminal
-from scaffold.cli.check_flags import OF_REPORT, add_arguments
+from scaffold.cli import baselines, distro, outcome, since, terminal
+from scaffold.cli.check_flags import add_arguments
 from scaffold.cli.packages import (
     common_directory,
     find_targets,
@@ -19,7 +19,6 @@ from scaffold.cli.packages import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scaffold.check.cache.runs import ReportEntry, RunEntry
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
     from scaffold.check.rule import Rule
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
     from scaffold.distributions import Distribution
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
-    from scaffold.reporters import ReportOptions
 
     _Kind = TypeVar("_Kind", bound=Session)
 
@@ -151,57 +149,24 @@ def _run(
     # Nobody knows what else a rule of the user's own looks at; and a note is for every run.
     is_forgotten = settings.content or is_unfinished or options.write_baseline or options.since
     is_forgotten = is_forgotten or options.cluster is not None or options.refused
-    entry = None if is_forgotten else run_entry(options, targets, options.distributions[0])
+    entry = None if is_forgotten else outcome.run_entry(options, targets, options.distributions[0])
     change = since.Since(directory, options.since, targets) if options.since else None
     targets = change.targets() if change else targets
     memory = ResultCache(entry.last if entry else None, targets, is_saved=entry is not None)
     results = list(progress.shown(memory.run(session), len(targets), "packages"))
     options.notes += foreign_note(session, results)
-    note_unchecked(session)
+    outcome.note_unchecked(session)
     if options.write_baseline:
         return baselines.write(options, results)
     if change:
         results, note = change.limit(results, session)
         options.notes += (note,)
     reported = baselines.hide(options, results, targets, session)
-    output = reports.write(options, reported, report_options(options))
-    code = final_code(options, session, reported)
+    output = reports.write(options, reported, outcome.report_options(options))
+    code = outcome.final_code(options, session, reported)
     if entry and not session.types_failure and memory.save(entry, disk, results):
-        save_report(options, [entry], code, output, settings)
+        outcome.save_report(options, [entry], code, output, settings)
     return code
-
-
-def save_report(
-    options: argparse.Namespace,
-    runs: Sequence[RunEntry],
-    code: int,
-    output: str | None,
-    settings: Config,
-) -> None:
-    """Remember a report, unless it was written to a file or is for other files at each commit."""
-    if output is not None and not options.whole_packages:
-        options.entry.save(runs, code, output, settings.warnings)
-
-
-def note_unchecked(session: Session) -> None:
-    """Say what was not checked, and why: types, or packages."""
-    from scaffold.reporters.summary import count
-
-    for reason, packages in session.unchecked.items():
-        names = sorted({*packages})  # once for all distributions
-        terminal.error(f"{count(len(names), 'package')} not checked: {reason}: {', '.join(names)}")
-    if session.types_failure:
-        failure = session.types_failure
-        terminal.error(f"types are not checked: {failure}; --no-types skips them")
-
-
-def final_code(options: argparse.Namespace, session: Session, results: list[Result]) -> int:
-    """Return the exit code; packages that could not be checked decide it."""
-    from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
-
-    code = exit_code(results, is_zero=options.exit_zero)
-    is_partial = session.types_failure or session.unchecked or options.refused
-    return USAGE_ERROR if is_partial and code != INTERNAL_ERROR else code
 
 
 def _kind_of_session(options: argparse.Namespace) -> type[Session]:
@@ -287,45 +252,12 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
     if options.fix:
         _, result = standard_input.fix(session, target, unsafe=options.unsafe_fixes)
         (result,) = baselines.hide(options, [result], [target], session)
-        terminal.write_error(reports.text([result], report_options(options)))
+        terminal.write_error(reports.text([result], outcome.report_options(options)))
     else:
         (result,) = baselines.hide(options, session.run_batch([target]), [target], session)
-        note_unchecked(session)
-        reports.write(options, [result], report_options(options))
-    return final_code(options, session, [result])
-
-
-def run_entry(
-    options: argparse.Namespace, targets: Sequence[Target], distribution: Distribution
-) -> RunEntry | None:
-    """Return where the findings for a distribution are remembered, if they are."""
-    entry: ReportEntry | None = options.entry
-    if entry is None:
-        return None
-    kept_out = {"command_line", "distributions", "distro", "entry", "notes", "paths"}
-    kept_out |= {"whole_packages", *OF_REPORT}
-    flags = sorted((name, value) for name, value in vars(options).items() if name not in kept_out)
-    asked = [(target.package.directory, sorted(target.only or ())) for target in targets]
-    names = [item.name for item in options.distributions]
-    return entry.run([distribution.name, *names, repr((flags, asked))])
-
-
-def report_options(options: argparse.Namespace) -> ReportOptions:
-    """Return what a report needs to know of the flags."""
-    from scaffold.diagnostic import Severity
-    from scaffold.reporters import ReportOptions
-
-    return ReportOptions(
-        unsafe=options.unsafe_fixes,
-        severity=Severity(options.severity),
-        everything=options.all,
-        style=options.style or options.all,
-        source=options.show_source,
-        statistics=options.statistics,
-        quiet=options.quiet,
-        notes=options.notes,
-        distributions=tuple(options.distributions),
-    )
+        outcome.note_unchecked(session)
+        reports.write(options, [result], outcome.report_options(options))
+    return outcome.final_code(options, session, [result])
 
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
@@ -344,7 +276,7 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     limits = {target.package.directory: target.only for target in targets}
     checked = [Target(result.package, limits.get(result.package.directory)) for result in results]
     results = baselines.hide(options, results, checked, session)
-    note_unchecked(session)
+    outcome.note_unchecked(session)
     code = _report_fixes(options, session, results, written)
     return USAGE_ERROR if has_failed else code
 
@@ -370,8 +302,8 @@ def _report_fixes(
     if options.diff:
         left = [(result.package, item) for result in results for item in result.diagnostics]
         return FINDINGS if fixing.note_unexamined(left) or count else CLEAN
-    reports.write(options, results, report_options(options))
-    return final_code(options, session, results)
+    reports.write(options, results, outcome.report_options(options))
+    return outcome.final_code(options, session, results)
 
 
 def _reference(targets: Sequence[Target]) -> int:
@@ -391,21 +323,3 @@ def _reference(targets: Sequence[Target]) -> int:
 
 def _comments(count: int) -> str:
     return f"noqa added to {'1 line' if count == 1 else f'{count} lines'}"
-
-
-def exit_code(results: list[Result], *, is_zero: bool = False) -> int:
-    """Return 0 if there is only advice, 1 if there are findings, 3 if a rule crashed.
-
-    Args:
-        results: Of all packages.
-        is_zero: Whether findings do not count.
-    """
-    from scaffold.check.engine_rules import RuleCrashed
-    from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
-    from scaffold.diagnostic import Severity
-
-    diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
-    if any(diagnostic.code == RuleCrashed.code for diagnostic in diagnostics):
-        return INTERNAL_ERROR
-    has_findings = any(item.severity is not Severity.INFO for item in diagnostics)
-    return FINDINGS if has_findings and not is_zero else CLEAN
