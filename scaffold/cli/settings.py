@@ -45,9 +45,9 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
     if not origins - {excluded} or settings.warnings:
         return  # what was ignored may hold templates that ask for more
     from scaffold.generate.questions import defaults, questions
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
-    templates = template.load(content.roots("templates", settings.content))
+    templates = loading.load(content.roots("templates", settings.content))
     table = {
         key: item
         for key, item in defaults.configured(settings).items()

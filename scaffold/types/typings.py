@@ -33,7 +33,8 @@ def plan(directory: str, stubs: Mapping[str, str], *, force: bool = False) -> Wr
             was not given.
         InputError: something cannot be read.
     """
-    from scaffold.writing.plan import State, WritePlan
+    from scaffold.writing.plan import WritePlan
+    from scaffold.writing.planned_file import State
 
     files = {path: MARK + _LENIENT + text for path, text in stubs.items()}
     stale = [path for path in _earlier(directory) if path not in files]

@@ -6,10 +6,8 @@ import os
 import stat
 import string
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from scaffold.writing.plan import PlannedFile
+from scaffold.writing.planned_file import PlannedFile
 
 _ESCAPES = {7: "a", 8: "b", 9: "t", 10: "n", 11: "v", 12: "f", 13: "r", 34: '"', 92: "\\"}
 _LENGTHS = string.ascii_uppercase + string.ascii_lowercase

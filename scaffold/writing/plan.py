@@ -12,53 +12,17 @@ import os
 import stat
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
-from enum import Enum
 from typing import TYPE_CHECKING
 
 from scaffold.errors import ConflictError, InputError
 from scaffold.files.disk import digest
-from scaffold.record import NamedTuple
-from scaffold.writing import new_files, transaction
+from scaffold.writing import new_files, patch, transaction
 from scaffold.writing.change import Replacement, state_of
+from scaffold.writing.planned_file import PlannedFile, State
 from scaffold.writing.stage import TREE, Stage, sweep
 
 if TYPE_CHECKING:
     from scaffold.files.tree import DiskTree
-
-
-class State(Enum):
-    """What writing a file would do."""
-
-    NEW = "new"
-    """There is no such file."""
-    DIFFERING = "differing"
-    """There is one with other content, or without its executable bits."""
-    SAME = "same"
-    """There is one that says the same."""
-    REMOVED = "removed"
-    """The file is to go."""
-
-
-class PlannedFile(NamedTuple):
-    """One file of a plan."""
-
-    path: str
-    """Relative to the root, with ``/`` between the parts."""
-    target: str
-    """Where its content really is: links are followed, as long as they stay inside the root."""
-    content: bytes
-    executable: bool
-    """Whether it gets executable bits; the bits that a file has are kept."""
-    state: State
-    before: bytes | None
-    """What it holds when the plan is made; ``None`` for a new file."""
-    seen: str | None
-    """The same with its executable bit, to be compared before the file is replaced."""
-
-    @property
-    def is_removed(self) -> bool:
-        """Whether the file is to go."""
-        return self.state is State.REMOVED
 
 
 class WritePlan:
@@ -135,8 +99,6 @@ class WritePlan:
             relative_to: The directory to which the paths in the patch are relative; by default
                 that of `patch.base`.
         """
-        from scaffold.writing import patch
-
         base = relative_to or patch.base([self.root])
         return "".join(patch.of(file, base) for file in self.changes if file.path not in hidden)
 

@@ -9,7 +9,7 @@ import pytest
 
 from scaffold.cli.main import main
 from scaffold.configuration import content
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 
 needs_ros = pytest.mark.skipif(
     find_spec("rclpy") is None and not Path("/opt/ros").exists(),
@@ -43,7 +43,7 @@ def team(tmp_path: Path) -> Path:
 def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates"]) == 0
     said = capsys.readouterr().out
-    for name, one in template.load(content.roots("templates")).items():
+    for name, one in loading.load(content.roots("templates")).items():
         assert any(line.split() == [name, *one.summary.split()] for line in said.split("\n")), name
 
 

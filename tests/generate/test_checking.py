@@ -19,7 +19,7 @@ from scaffold.generate.checking import Check, RuleProcess
 from scaffold.generate.draft import Draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 from scaffold.generate.templates.render import Rendered
 
 
@@ -37,7 +37,7 @@ def made(*, is_faulty: bool = False, distro: str = "jazzy") -> Draft:
     answers = {"maintainer_name": "Ada", "maintainer_email": "ada@example.com"}
     answers |= {"package": "pack", "distro": distro}
     given = {name: Given(value, "test") for name, value in answers.items()}
-    result = draft.draft(roots, template.load(roots), given, User("."))
+    result = draft.draft(roots, loading.load(roots), given, User("."))
     if not is_faulty:
         return result
     faults = {"String()": "String( )", "super().__init__(": "super().__init__()  # ("}

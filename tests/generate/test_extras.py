@@ -23,13 +23,13 @@ from scaffold.errors import InputError
 from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import licenses, template
+from scaffold.generate.templates import licenses, loading, template
 from scaffold.generate.templates.template import Role
 from scaffold.model.package import Package
 from tests import oracles
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 EXTRAS = template.of_role(TEMPLATES, Role.EXTRA)
 BUILD_TYPES = template.of_role(TEMPLATES, Role.BUILD_TYPE)
 

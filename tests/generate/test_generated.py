@@ -28,7 +28,7 @@ from scaffold.generate import draft
 from scaffold.generate.questions import answer_types, names, qos
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import licenses, template
+from scaffold.generate.templates import licenses, loading, template
 from scaffold.generate.templates.template import Role
 from scaffold.model.discovery import targets
 from scaffold.smoke import environment
@@ -38,7 +38,7 @@ from tests import PATIENCE, oracles
 from tests.oracles import needs_system_linter
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 BUILD_TYPES = ("ament_cmake", "ament_python")
 COMMENTS = ("brief", "tutorial")
 TYPES = (

@@ -25,7 +25,7 @@ from scaffold.generate import checking, draft
 from scaffold.generate.questions import questions
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading, template
 from scaffold.generate.templates.template import PARTS, Question, Role
 from scaffold.model.cmake.parser import parse as parse_cmake
 from scaffold.source import Source
@@ -34,7 +34,7 @@ from tests import oracles
 from tests.oracles import needs_system_linter
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 RULES = registry.load(content.roots("rules"))
 KINDS = [name for name, one in TEMPLATES.items() if one.role in PARTS]
 BUILD_TYPES = template.of_role(TEMPLATES, Role.BUILD_TYPE)

@@ -20,12 +20,12 @@ from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.fields import fields
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 from scaffold.smoke import environment
 from scaffold.writing.plan import WritePlan
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 
 
 def make(**answers: object) -> draft.Draft:

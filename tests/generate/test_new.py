@@ -22,10 +22,10 @@ from scaffold.generate.questions import answer_types, names
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.qos import qos
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import filters, licenses, template
+from scaffold.generate.templates import filters, licenses, loading, template
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 BUILD_TYPES = ("ament_cmake", "ament_python")
 COMMENTS = ("brief", "tutorial")
 TYPES = (
@@ -987,7 +987,7 @@ def team(tmp_path: Path) -> Path:
 
 def test_templates_of_a_team(team: Path) -> None:
     roots = [*ROOTS, str(team)]
-    templates = template.load(roots)
+    templates = loading.load(roots)
     asked = {"package": "talker", "node_kind": "blinker", "lamp": "it's blue"}
     given = {name: Given(value, f"--{name}") for name, value in asked.items()}
     files = draft.draft(roots, templates, given, User(".")).rendered.files
@@ -1016,7 +1016,7 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
     assert "LAMP = 'green'" in (tmp_path / "work/talker/talker/blinker.py").read_text()
     roots = [*ROOTS, str(team)]
     given = {"package": Given("p2", ""), "license": Given("Ours-1.0", "")}
-    files = draft.draft(roots, template.load(roots), given, User(".")).rendered.files
+    files = draft.draft(roots, loading.load(roots), given, User(".")).rendered.files
     assert files["LICENSE"] == "All rights are ours.\n"
     assert "\n# Copyright 2025 us\n" in files["p2/minimal_publisher.py"]
 
@@ -1044,7 +1044,7 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
         "node_kind": Given("blinker", "--node-kind"),
     }
     with pytest.raises(ContentError) as told:
-        draft.draft(roots, template.load(roots), given, User("."))
+        draft.draft(roots, loading.load(roots), given, User("."))
     assert message in str(told.value)
     assert "\n" not in str(told.value)
 
@@ -1058,7 +1058,7 @@ def test_dependencies_of_a_template_are_names(team: Path) -> None:
     roots = [*ROOTS, str(team)]
     given = {"package": Given("talker", "PACKAGE"), "extras": Given("listing", "--extras")}
     with pytest.raises(ContentError) as told:
-        draft.draft(roots, template.load(roots), given, User("."))
+        draft.draft(roots, loading.load(roots), given, User("."))
     assert str(told.value) == (
         f"{extra / 'template.yaml'}: depends: exec: '{{{{ extras }}}}' is \"('listing',)\", "
         "not names separated by spaces; a list needs join(' ')"
@@ -1106,7 +1106,7 @@ def test_dependencies_of_a_template_are_names(team: Path) -> None:
 def test_broken_manifests(team: Path, manifest: str, message: str) -> None:
     (team / "nodes" / "blinker" / "template.yaml").write_text(manifest)
     with pytest.raises(ContentError) as told:
-        template.load([*ROOTS, str(team)])
+        loading.load([*ROOTS, str(team)])
     assert message in str(told.value)
     assert "\n" not in str(told.value)
 
@@ -1123,7 +1123,7 @@ def test_templates_where_no_role_is_certain(team: Path, place: str, message: str
     (team / place).mkdir(parents=True)
     (team / place / "template.yaml").write_text("summary: x\n")
     with pytest.raises(ContentError) as raised:
-        template.load([*ROOTS, str(team)])
+        loading.load([*ROOTS, str(team)])
     assert message.format(team=team) in str(raised.value)
 
 
@@ -1146,8 +1146,8 @@ def test_the_page_on_templates_names_everything() -> None:
     page = (Path(__file__).parents[2] / "docs" / "templates.md").read_text()
     context = set(package_variables())
     for word in {
-        *template._KEYS,  # noqa: SLF001  the page must not forget one
-        *template._QUESTION_KEYS,  # noqa: SLF001
+        *loading._KEYS,  # noqa: SLF001  the page must not forget one
+        *loading._QUESTION_KEYS,  # noqa: SLF001
         *answer_types.TYPES,
         *payload.Payload._fields,
         *qos("1")._fields,

@@ -13,10 +13,10 @@ from scaffold.generate import checking, draft
 from scaffold.generate.questions import questions
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import filters, template
+from scaffold.generate.templates import filters, loading
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 
 
 def files_of(kind: str, **answers: object) -> Mapping[str, str]:

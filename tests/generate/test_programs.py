@@ -17,7 +17,7 @@ from scaffold.errors import InputError
 from scaffold.generate import checking, draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading, template
 from scaffold.generate.templates.template import Role
 from scaffold.smoke import environment
 from scaffold.writing.plan import WritePlan
@@ -25,7 +25,7 @@ from tests import oracles
 from tests.oracles import needs_system_linter
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 PROGRAMS = template.of_role(TEMPLATES, Role.PROGRAM)
 NAMES = [one.default for name in PROGRAMS for one in TEMPLATES[name].questions]
 PACKAGE = "cpp_tutorial"

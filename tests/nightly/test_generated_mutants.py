@@ -29,7 +29,7 @@ from scaffold.configuration import content
 from scaffold.generate import draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 from scaffold.smoke import environment
 
 COUNT = int(os.environ.get("SCAFFOLD_NODE_MUTANTS", "1000"))
@@ -38,7 +38,7 @@ CHOSEN = os.environ.get("SCAFFOLD_MUTANT_NODES", "")
 CAUGHT = 0.9
 """The part of the mutants that the tests have to catch."""
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 NODES: Mapping[str, Mapping[str, str]] = {
     "scan": {"node_kind": "publisher", "message_type": "LaserScan"},
     "odometry": {"node_kind": "publisher", "message_type": "Odometry"},

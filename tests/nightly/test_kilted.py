@@ -15,12 +15,12 @@ import pytest
 
 from scaffold.cli.main import main
 from scaffold.configuration import content
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading, template
 from scaffold.generate.templates.template import Role
 from scaffold.programs import wheels
 
 DISTRO = "kilted"
-TEMPLATES = template.load(content.roots("templates"))
+TEMPLATES = loading.load(content.roots("templates"))
 LACKING = ("cv_bridge", "diagnostic_updater", "message_filters", "nav2_simple_commander", "tf2_ros")
 """What no wheel has, of Jazzy neither; the kinds of nodes that need it are left out."""
 KINDS = [

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from scaffold.errors import ConflictError, InputError
-from scaffold.writing.plan import State, WritePlan
+from scaffold.writing.plan import WritePlan
+from scaffold.writing.planned_file import State
 
 
 def test_new_directory_appears_whole(tmp_path: Path) -> None:

@@ -28,10 +28,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.cli import flags, question_groups, settings
     from scaffold.configuration import content
     from scaffold.generate import parts
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
     own = settings.load(flags.content_in(parser)).content
-    templates = template.load(content.roots("templates", own))
+    templates = loading.load(content.roots("templates", own))
     parser.usage = f"{parser.prog} KIND [NAME] [OPTION ...]"
     parser.epilog = question_groups.SEE_ALSO
     kinds = parts.addable(templates)
@@ -159,7 +159,7 @@ def _order(
     from scaffold.generate.add.rendered_part import Target, Wanted
     from scaffold.generate.questions.defaults import User
     from scaffold.generate.questions.questions import Given, choose
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
     from scaffold.generate.templates.template import PARTS, Role
     from scaffold.generate.update import update
     from scaffold.model.package import Package
@@ -169,7 +169,7 @@ def _order(
     before = Package.at(directory)
     recorded = update.recorded_content(before.tree, directory, settings.content)
     roots = content.roots("templates", (*recorded, *settings.content))
-    templates = template.load(roots)
+    templates = loading.load(roots)
     chosen = templates[choose(options.kind, parts.addable(templates), "KIND")]
     is_part = chosen.role in PARTS
     if is_part and options.name is None:
@@ -387,7 +387,7 @@ def _summary(
     """Return what is written and edited, and the next commands."""
     from scaffold.generate import repository
     from scaffold.generate.update.provenance import HIDDEN
-    from scaffold.writing.plan import State
+    from scaffold.writing.planned_file import State
 
     words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
     rows = [

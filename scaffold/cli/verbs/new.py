@@ -30,11 +30,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     from scaffold.cli import flags, question_groups, settings
     from scaffold.configuration import content
     from scaffold.generate import parts
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
     parser.usage = f"{parser.prog} [PACKAGE] [OPTION ...]"
     own = settings.load(flags.content_in(parser)).content
-    templates = template.load(content.roots("templates", own))
+    templates = loading.load(content.roots("templates", own))
     parser.set_defaults(templates=templates, rule_process=None)
     kinds = {kind: templates[kind].questions for kind in parts.kinds(templates)}
     parser.epilog = question_groups.SEE_ALSO
@@ -59,11 +59,11 @@ def run(options: argparse.Namespace) -> int:
     from scaffold import distributions
     from scaffold.configuration import config, content
     from scaffold.generate import target
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
     settings = config.load(content=tuple(options.content))
     roots = content.roots("templates", settings.content)
-    templates = template.load(roots) if options.content else options.templates
+    templates = loading.load(roots) if options.content else options.templates
     given = _given(options, templates, settings)
     with distributions.targeting(target.of(given)[0]):
         return _run(options, roots, templates, given)
@@ -385,7 +385,7 @@ def _files(made: Draft, plan: WritePlan, above: WritePlan | None) -> str:
 
 def _tree(made: Draft, plan: WritePlan) -> list[str]:
     from scaffold.generate.update import provenance
-    from scaffold.writing.plan import State
+    from scaffold.writing.planned_file import State
 
     notes_of = {**provenance.PURPOSES, **made.rendered.notes}
     words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}

@@ -46,10 +46,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _offer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
     """Offer the templates to copy, and directories, to who presses tab."""
     from scaffold.configuration import content
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
     if parsed_args.action == "copy" and not parsed_args.words:
-        return [*template.load(content.roots("templates"))]
+        return [*loading.load(content.roots("templates"))]
     return flags.offer_directories(prefix)
 
 
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
     from scaffold.cli import settings
     from scaffold.configuration import content
     from scaffold.errors import InputError
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
 
     if options.action == "copy":
         return _copy(options)
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     own = _own(options.directory)
     options.directory = own[0] if own else None
     roots = content.roots("templates", (*settings.load().content, *own))
-    templates = template.load(roots)
+    templates = loading.load(roots)
     if options.directory is not None:
         within = os.path.realpath(options.directory) + os.sep
         templates_of = [
@@ -89,12 +89,12 @@ def _copy(options: argparse.Namespace) -> int:
     from scaffold.cli.exit_codes import CLEAN
     from scaffold.configuration import content
     from scaffold.errors import InputError
-    from scaffold.generate.templates import copying, template
+    from scaffold.generate.templates import copying, loading
 
     words = [*options.words, *([options.content] if options.content else [])]
     if len(words) != 2:  # noqa: PLR2004  NAME and DIR
         raise InputError("write it as: ros2-scaffold templates copy NAME DIR")
-    templates = template.load(content.roots("templates", settings.load().content))
+    templates = loading.load(content.roots("templates", settings.load().content))
     terminal.show(copying.copy(templates, words[0], words[1], options.name))
     return CLEAN
 

@@ -61,7 +61,7 @@ def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distributi
     from scaffold.files.tree import DiskTree
     from scaffold.generate import repository
     from scaffold.generate.questions.defaults import User
-    from scaffold.generate.templates import template
+    from scaffold.generate.templates import loading
     from scaffold.generate.update import update
     from scaffold.generate.update.provenance import HIDDEN
     from scaffold.writing.plan import WritePlan
@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distributi
     given = settings.load(options.content).content
     recorded = update.recorded_content(DiskTree(directory), directory, given)
     roots = content.roots("templates", (*recorded, *given))
-    templates = template.load(roots)
+    templates = loading.load(roots)
     place = repository.place_of(directory)
     is_dry = options.diff or options.dry_run
     with writing.held(directory, is_dry=is_dry):
@@ -99,7 +99,7 @@ def _summary(
 ) -> str:
     """Return a line for each file that changes, and what to do about conflicts."""
     from scaffold.generate.repository import MARK
-    from scaffold.writing.plan import State
+    from scaffold.writing.planned_file import State
 
     if not updated.changed:
         return "The package is up to date with the templates."

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.errors import ConflictError, InputError
 from scaffold.generate.edit.addition import Addition, Compiled
-from scaffold.generate.edit.cmake import INSTALL_PYTHON, Editor
+from scaffold.generate.edit.cmake_editor import INSTALL_PYTHON, Editor
 from scaffold.model.cmake import edit as cmake_edit
 from scaffold.model.cmake.edit import Edits
 from scaffold.model.cmake.lists import CMakeLists, Install

@@ -7,7 +7,15 @@ from typing import NamedTuple
 
 from scaffold.files.tree import CMAKE_LISTS, MANIFEST, SETUP_CFG, SETUP_PY
 from scaffold.formats.ini import IniFile
-from scaffold.generate.edit import changelog, cmake, manifest, readme, setup_cfg, setup_py
+from scaffold.generate.edit import (
+    changelog,
+    cmake,
+    cmake_editor,
+    manifest,
+    readme,
+    setup_cfg,
+    setup_py,
+)
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome
 from scaffold.generate.edit.layout import layout_of
 from scaffold.model.package import Package
@@ -75,9 +83,9 @@ def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) ->
     """Return an addition that also depends on what builds and tests it."""
     depends = {kind: list(names) for kind, names in addition.depends.items()}
     if installs_python:
-        depends.setdefault("buildtool", []).append(cmake.PYTHON)
+        depends.setdefault("buildtool", []).append(cmake_editor.PYTHON)
     if addition.test is not None:
-        pytest = cmake.PYTEST if is_cmake else setup_py.PYTEST
+        pytest = cmake_editor.PYTEST if is_cmake else setup_py.PYTEST
         depends.setdefault("test", []).append(pytest)
     return addition._replace(depends=depends)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from scaffold.errors import InputError
-from scaffold.generate.edit.cmake import INSTALL_PYTHON
+from scaffold.generate.edit.cmake_editor import INSTALL_PYTHON
 from scaffold.generate.update.provenance import NAME as PROVENANCE
 from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import is_interface_package

@@ -8,10 +8,11 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from scaffold.generate.payload import conventions, effects, processing
+from scaffold.generate.payload import conventions, effects
 from scaffold.generate.payload.effects import Effects
-from scaffold.generate.payload.processing import Process
+from scaffold.generate.payload.processing import PROCESSES, Process
 from scaffold.generate.questions.names import header_name
+from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 from scaffold.record import NamedTuple
 
 _PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
@@ -95,7 +96,7 @@ class Payload(NamedTuple):
 
     def processed(self, published: Payload) -> Process | None:
         """Return how messages of another type are made of these; ``None`` if none is known."""
-        return processing.of_pair(self, published)
+        return _process(self, published)
 
     @property
     def check_imports(self) -> tuple[str, ...]:
@@ -340,3 +341,41 @@ def _class_names(imports: Iterable[str]) -> tuple[str, ...]:
 
 def _union(groups: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
     return tuple(sorted({name for group in groups for name in group}))
+
+
+def _process(received: Payload, published: Payload) -> Process | None:
+    """Return how messages of one type are made of those of another; ``None`` if none is known."""
+    process = PROCESSES.get((_short(received.type), _short(published.type)))
+    return process or _of_values(received, published)
+
+
+def _short(full_name: str) -> str:
+    return full_name.replace("/msg/", "/")
+
+
+def _of_values(received: Payload, published: Payload) -> Process | None:
+    """Return how the one value of a message of std_msgs follows from any other message."""
+    package, name = published.package, published.message or published.name
+    if package != "std_msgs" or received.type == published.type:
+        return None
+    if name == "String" and "{" in received.log_received:
+        text = re.sub(r"\bmsg\b", "received", received.log_received)
+        item = re.sub(r"\bmsg\b", "item", received.log_received)
+        return Process(
+            "what is received as text",
+            f"msg.data = f'{text}'",
+            f"message.data == f'{item}'",
+        )
+    kind = name.lower()
+    is_value = received.package == "std_msgs" and _is_number(received.message or received.name)
+    if kind in FLOATS and is_value:
+        return Process(
+            "the number received as a float",
+            "msg.data = float(received.data)",
+            "message.data == pytest.approx(item.data)",
+        )
+    return None
+
+
+def _is_number(name: str) -> bool:
+    return name.lower() in {*FLOATS, *INTEGER_RANGES} - {"byte", "char"}

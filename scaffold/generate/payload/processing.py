@@ -6,15 +6,9 @@ values for each message that arrives.
 
 from __future__ import annotations
 
-import re
 from textwrap import dedent
-from typing import TYPE_CHECKING
 
-from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 from scaffold.record import NamedTuple
-
-if TYPE_CHECKING:
-    from scaffold.generate.payload.payloads import Payload
 
 
 class Process(NamedTuple):
@@ -72,44 +66,6 @@ class Process(NamedTuple):
 
 def _lines(code: str) -> tuple[str, ...]:
     return tuple(line for line in dedent(code).splitlines() if line.strip())
-
-
-def of_pair(received: Payload, published: Payload) -> Process | None:
-    """Return how messages of one type are made of those of another; ``None`` if none is known."""
-    process = PROCESSES.get((_short(received.type), _short(published.type)))
-    return process or _of_values(received, published)
-
-
-def _short(full_name: str) -> str:
-    return full_name.replace("/msg/", "/")
-
-
-def _of_values(received: Payload, published: Payload) -> Process | None:
-    """Return how the one value of a message of std_msgs follows from any other message."""
-    package, name = published.package, published.message or published.name
-    if package != "std_msgs" or received.type == published.type:
-        return None
-    if name == "String" and "{" in received.log_received:
-        text = re.sub(r"\bmsg\b", "received", received.log_received)
-        item = re.sub(r"\bmsg\b", "item", received.log_received)
-        return Process(
-            "what is received as text",
-            f"msg.data = f'{text}'",
-            f"message.data == f'{item}'",
-        )
-    kind = name.lower()
-    is_value = received.package == "std_msgs" and _is_number(received.message or received.name)
-    if kind in FLOATS and is_value:
-        return Process(
-            "the number received as a float",
-            "msg.data = float(received.data)",
-            "message.data == pytest.approx(item.data)",
-        )
-    return None
-
-
-def _is_number(name: str) -> bool:
-    return name.lower() in {*FLOATS, *INTEGER_RANGES} - {"byte", "char"}
 
 
 _NEAREST = """

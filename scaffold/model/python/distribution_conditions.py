@@ -6,13 +6,15 @@ import ast
 import operator
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from scaffold.distributions import VARIABLE, target
 from scaffold.model.python.evaluator import Evaluator
-from scaffold.model.python.module import PythonModule
 from scaffold.model.python.running_version import SWAPPED, RunningVersion
 from scaffold.model.python.values import COMPARISONS, UNKNOWN, is_known
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
 
 _GETTER = "os.getenv"
 _SUBSTITUTION = "launch.substitutions.EnvironmentVariable"

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.distribution_conditions import holds
 from scaffold.model.python.handlers import IMPORT_ERRORS, catches_import_errors, expected_errors
 from scaffold.record import NamedTuple
 from scaffold.source import Location
@@ -142,8 +143,6 @@ class _Guards:
 
     def _is_never_run(self, node: ast.If, child: ast.AST) -> bool:
         """Tell whether a branch is switched off, by a constant of the file, or is for ROS 1."""
-        from scaffold.model.python.distribution_conditions import holds
-
         is_body = child in node.body
         return _is_switched(self._module, node.test, not is_body) or (
             holds(self._module, node.test) is (not is_body)

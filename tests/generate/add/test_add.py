@@ -16,7 +16,7 @@ from scaffold.configuration import content
 from scaffold.generate import parts
 from scaffold.generate.edit.addition import Addition
 from scaffold.generate.edit.edit import Edited, edit
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 from scaffold.generate.templates.template import Role
 from scaffold.generate.update.provenance import NAME
 from scaffold.model.package import Package
@@ -24,7 +24,7 @@ from scaffold.smoke import environment
 from tests import oracles
 from tests.generate.test_generated import Workspace, counts, needs_ros
 
-TEMPLATES = template.load(content.roots("templates"))
+TEMPLATES = loading.load(content.roots("templates"))
 EXTRAS = [name for name, one in TEMPLATES.items() if one.role is Role.EXTRA]
 PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 CMAKE = {

@@ -29,7 +29,7 @@ from scaffold.generate.payload import ActionPayload, Payload, SectionPayload, Se
 from scaffold.generate.payload.message import MAX_LINES, MAX_LOG
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import template
+from scaffold.generate.templates import loading
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.interfaces.sources import PrefixSource
@@ -41,7 +41,7 @@ from tests import oracles
 from tests.generate.payload.publishing import Publisher, receive
 
 ROOTS = content.roots("templates")
-TEMPLATES = template.load(ROOTS)
+TEMPLATES = loading.load(ROOTS)
 INSTALLED = Definitions([PrefixSource([sys.prefix])])
 BUNDLED = Definitions.around(prefixes=[])
 

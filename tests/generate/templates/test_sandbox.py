@@ -17,7 +17,7 @@ from scaffold.generate import examples
 from scaffold.generate.draft import draft
 from scaffold.generate.questions.defaults import User
 from scaffold.generate.questions.questions import Given
-from scaffold.generate.templates import foreign, template
+from scaffold.generate.templates import foreign, loading
 
 MANIFEST = """summary: A lamp
 questions:
@@ -41,7 +41,7 @@ def said(lamp: Path) -> str:
     """Return what is wrong with the first example of the template."""
     roots = content.roots("templates", (str(lamp.parents[2]),))
     rules = registry.load(content.roots("rules"))
-    first = next(iter(examples.check(["lamp"], roots, template.load(roots), rules)))
+    first = next(iter(examples.check(["lamp"], roots, loading.load(roots), rules)))
     assert len(first.defects) == 1
     assert len(first.defects[0].splitlines()) == 1
     return first.defects[0]
@@ -185,7 +185,7 @@ def test_a_pipe_in_place_of_a_template(lamp: Path) -> None:
 def test_both_processes_render_the_same(tmp_path: Path) -> None:
     (tmp_path / "templates").mkdir()
     own = content.roots("templates")
-    templates = template.load(own)
+    templates = loading.load(own)
     answers = {"maintainer_name": "Ada Lovelace", "maintainer_email": "ada@example.com"}
     for one in templates.values():
         for example in list(examples.of(one, templates))[:1]:
