@@ -12,7 +12,8 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from scaffold.ament.python_text.logical import LogicalLine, split
-from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token, read
+from scaffold.ament.python_text.tokenizer import read
+from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token
 from scaffold.errors import EXHAUSTED
 from scaffold.model.python.bounds import why_unchecked
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from scaffold.ament.finding import Finding
-from scaffold.ament.flake8.import_order.check import MIXED, Statement, describe, fold
+from scaffold.ament.flake8.import_order.statement import MIXED, Statement, describe, fold
 from scaffold.ament.flake8.pycodestyle.physical import MAX_LENGTH
 from scaffold.ament.python_text.text import PythonText
 from scaffold.record import NamedTuple
