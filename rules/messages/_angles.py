@@ -82,6 +82,8 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
     """Return what is wrong with a yaw that is read from a quaternion; empty if nothing."""
     match value:
         case ast.Attribute(attr="z", value=holder) if _is_quaternion(types, holder):
+            if _holds_angles(types, holder):
+                return ""
             text = types.module.text(holder)
             return (
                 "z of a quaternion is no angle: write "
@@ -94,6 +96,22 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
             is_half = name in {"math.atan2", "numpy.arctan2"} and _is_quaternion(types, first)
             return "this is half of the angle: multiply by 2.0" if is_half else ""
     return ""
+
+
+def _holds_angles(types: MessageTypes, holder: ast.expr) -> bool:
+    """Tell whether w of a quaternion is read as an angle too: it just holds four of them."""
+    module = types.module
+    reads = [
+        module.parent(read)
+        for read in module.index.attributes("w")
+        if module.text(read.value) == module.text(holder)
+    ]
+    return any(
+        isinstance(read, ast.Assign)
+        and isinstance(read.value, ast.Attribute)
+        and any(map(_is_angle, read.targets))
+        for read in reads
+    )
 
 
 def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:

@@ -135,6 +135,16 @@ class ValueImplausible(MessageRule):
             ),
         ),
         Example(
+            "four angles of joints in a quaternion",
+            {
+                "arm.py": "from geometry_msgs.msg import Pose\n\n\n"
+                "class Arm:\n"
+                "    def move(self, msg: Pose):\n"
+                "        self.theta3 = msg.orientation.z\n"
+                "        self.theta4 = msg.orientation.w\n"
+            },
+        ),
+        Example(
             "the diagonal of a covariance, its first row",
             {
                 "odom.py": "from nav_msgs.msg import Odometry\n\n\n"

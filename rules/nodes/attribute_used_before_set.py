@@ -71,6 +71,16 @@ class AttributeUsedBeforeSet(RclpyRule):
     examples = (
         Example("set first", {"talker.py": _NODE.format(_MAKE + _USE)}),
         Example(
+            "set under names that a table has",
+            {
+                "talker.py": _NODE.format(
+                    "        for name, value in {'rate': 1.0}.items():\n"
+                    "            setattr(self, name, value)\n"
+                    "        if self.rate < 0.0:\n            self.rate = 0.0\n"
+                )
+            },
+        ),
+        Example(
             "used first",
             {"talker.py": _NODE.format(_USE + _MAKE)},
             Report("8:9", "self.pub is used before it is set in line 9: AttributeError"),
@@ -252,7 +262,7 @@ def _used_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Attribut
     bound = file.module.index.bindings(node.node)
     reported: set[str] = set()
     first_lines: dict[str, int] = {}
-    if node.constructor is None:
+    if node.constructor is None or not is_read_in_full(node):
         return
     for used in file.module.below(node.constructor, ast.Attribute):
         if not isinstance(used.ctx, ast.Load):

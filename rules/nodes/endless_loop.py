@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Executed, blocks_node, in_callbacks, in_constructors, in_tasks
 from scaffold.api.rclpy import RclpyFile
 
@@ -64,14 +64,24 @@ class EndlessLoop(RclpyRule):
 
     code = "ND031"
     name = "endless-loop"
+    other_severities = {Severity.WARNING: "the file has no callbacks or clients: it only publishes"}
     examples = (
         Example(
             "a timer", {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n")}
         ),
         Example(
             "a loop",
+            {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n" + _LOOP)},
+            Report("9:9", "endless loop: the constructor of Talker never returns; use a timer"),
+        ),
+        Example(
+            "a loop of a node without callbacks",
             {"talker.py": _NODE.format(_LOOP)},
-            Report("8:9", "endless loop: the constructor of Talker never returns; use a timer"),
+            Report(
+                "8:9",
+                "endless loop: the constructor of Talker never returns; use a timer",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a loop while a thread spins",
@@ -85,10 +95,11 @@ class EndlessLoop(RclpyRule):
             "a loop next to a thread that does not spin",
             {
                 "talker.py": _NODE.format(
-                    "        threading.Thread(target=self.tick).start()\n" + _LOOP
+                    "        threading.Thread(target=self.tick).start()\n"
+                    "        self.create_timer(1, self.tick)\n" + _LOOP
                 ).replace("import rclpy", "import threading\n\nimport rclpy", 1)
             },
-            Report("11:9", "endless loop: the constructor of Talker never returns; use a timer"),
+            Report("12:9", "endless loop: the constructor of Talker never returns; use a timer"),
         ),
         Example(
             "a loop in a callback of one thread, whatever its group",
@@ -126,7 +137,13 @@ class EndlessLoop(RclpyRule):
                 if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
-                    yield self.report(file.module.location(loop), message)
+                    severity = Severity.ERROR if _waits(file) else Severity.WARNING
+                    yield self.report(file.module.location(loop), message, severity=severity)
+
+
+def _waits(file: RclpyFile) -> bool:
+    """Tell whether a file has anything that only a node that is spun runs."""
+    return bool(file.callbacks or file.clients or file.action_clients)
 
 
 def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
 from scaffold.api.python import is_guarded_by
-from scaffold.api.rclpy import RclpyFile, is_used_elsewhere
+from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere
 
 _SPINS = frozenset({"rclpy.spin", "rclpy.spin_once", "rclpy.spin_until_future_complete"})
 _NODE = (
@@ -54,6 +54,14 @@ class ThreadTargetCalled(RclpyRule):
                 "talker.py": _NODE.format("", "self.lag", "await ")
                 .replace("        self.create", "        self.lag = 0.0\n        self.create")
                 .replace("        self.create", "        if self.lag:\n            self.create")
+            },
+        ),
+        Example(
+            "a timer that ticks once",
+            {
+                "talker.py": _NODE.format("", "0.0", "self.once.cancel()\n        await ").replace(
+                    "        self.create_timer", "        self.once = self.create_timer"
+                )
             },
         ),
         Example(
@@ -127,8 +135,19 @@ class ThreadTargetCalled(RclpyRule):
             # Zero as the default of a parameter is usually overridden.
             if argument is None or value not in (0, 0.0) or notes:
                 continue
-            if not is_guarded_by(file.module, timer.call, argument.node):
+            is_guarded = is_guarded_by(file.module, timer.call, argument.node)
+            if not is_guarded and not _is_ended(file, timer):
                 yield self.report(argument, "timer with period 0 uses all CPU time")
+
+
+def _is_ended(file: RclpyFile, timer: Timer) -> bool:
+    """Tell whether a timer is canceled or destroyed somewhere, such as when it first ticks."""
+    index = file.module.index
+    name = timer.attribute or timer.variable
+    ends = [end.value for end in index.attributes("cancel")]
+    calls = map(file.module.parent, index.attributes("destroy_timer"))
+    ends += [call.args[0] for call in calls if isinstance(call, ast.Call) and call.args]
+    return any(getattr(end, "attr", getattr(end, "id", "")) == name for end in ends)
 
 
 def _is_single(file: RclpyFile, node: ast.expr) -> bool:

@@ -133,6 +133,19 @@ class EntryPointUnusable(Rule):
             ),
         ),
         Example(
+            "a module in another directory",
+            {
+                "setup.py": _SETUP.format("        'talk = talker.talk:main',\n"),
+                "talker/__init__.py": "",
+                "talker/walk.py": "",
+                "scripts/talk.py": "",
+            },
+            Report(
+                "setup.py:5:9",
+                "`ros2 run` of 'talk' fails: there is no talker/talk.py; closest: scripts/talk.py",
+            ),
+        ),
+        Example(
             "packages that do not exist",
             {
                 "package.xml": "<package><name>listener</name></package>\n",
@@ -253,7 +266,8 @@ class EntryPointUnusable(Rule):
         path = next((p for p in (f"{base}.py", f"{base}/__init__.py") if package.has(p)), None)
         if path is None:
             modules = [path for path in package.python_files if not path.endswith("__.py")]
-            closest = get_close_matches(f"{base}.py", modules, n=1)
+            same = [path for path in modules if path.endswith(f"/{base.rpartition('/')[2]}.py")]
+            closest = same or get_close_matches(f"{base}.py", modules, n=1)
             hint = f"; closest: {closest[0]}" if closest else ""
             return f"{_MISSING} {base}.py{hint}"
         try:

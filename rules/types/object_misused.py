@@ -66,7 +66,10 @@ class ObjectMisused(TypeRule):
                 "        self.plans = self.get_parameters_by_prefix('plans')\n"
                 "        self.plans = nested(self.plans)\n\n"
                 "    def start(self):\n"
-                "        return [plan['start'] for plan in self.plans.values()]\n"
+                "        for plan in self.plans.values():\n"
+                "            plan['starts'] = plan['start']\n"
+                "        for name, plan in self.plans.items():\n"
+                "            plan['name'] = plan['start']\n"
             },
         ),
         Example(

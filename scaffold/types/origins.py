@@ -189,10 +189,11 @@ def _looped_over(module: PythonModule, name: ast.Name) -> ast.expr | None:
     """Return what the loop that binds a name runs over."""
     lookup = module.index.lookup(name.id, name)
     for binding in lookup[1] if lookup is not None else ():
-        if binding.kind == "loop":
-            for node in (binding.node, *module.parents(binding.node)):
-                if isinstance(node, ast.For | ast.AsyncFor | ast.comprehension):
-                    return node.iter
+        target = binding.node
+        while isinstance(parent := module.parent(target), ast.Tuple | ast.List):
+            target = parent  # for name, value in
+        if isinstance(parent, ast.For | ast.AsyncFor | ast.comprehension):
+            return parent.iter if parent.target is target else None
     return None
 
 
@@ -207,9 +208,5 @@ def _sources_of(module: PythonModule, name: str) -> set[str]:
         if value is None or (isinstance(value, ast.Constant) and value.value is None):
             continue
         if any(isinstance(target, ast.Attribute) and target.attr == name for target in targets):
-            source = ast.unparse(value.func if isinstance(value, ast.Call) else value)
-            if isinstance(value, ast.Name):  # a variable of each method
-                function = module.enclosing_function(value)
-                source += f" of {function.name}" if function else ""
-            sources.add(source)
+            sources.add(_source(module, value))
     return sources
