@@ -7,6 +7,7 @@ from inspect import cleandoc
 from typing import TYPE_CHECKING
 
 from scaffold.check.rule import Example, Report, Rule
+from scaffold.check.selection import area_prefixes
 from scaffold.diagnostic import Severity
 from scaffold.distributions import DEFAULT
 from scaffold.edits import Safety
@@ -118,13 +119,24 @@ def write(directory: str, rules: Sequence[type[Rule]]) -> None:
     styles = _rows(
         (item.code, item.name, item.severity, item.fix, item.summary) for item in STYLE.values()
     )
-    pages["README.md"] = f"# Rules\n\n{table(rules)}\n\n{_STYLE_HEAD}\n\n{styles}\n"
+    pages["README.md"] = f"# Rules\n\n{_by_area(rules)}\n\n{_STYLE_HEAD}\n\n{styles}\n"
     for name in os.listdir(directory):
         if name.endswith(".md") and name not in pages:
             os.remove(os.path.join(directory, name))
     for name, text in pages.items():
         with open(os.path.join(directory, name), "w", encoding="utf-8") as file:
             file.write(text)
+
+
+def _by_area(rules: Sequence[type[Rule]]) -> str:
+    """Return a table for each area, under its name as `--select` takes it."""
+    tables: dict[str, list[type[Rule]]] = {}
+    for rule in rules:
+        tables.setdefault(rule.code[:2], []).append(rule)
+    areas = area_prefixes(rules)
+    headings = {area: tables.pop(prefix) for area, prefix in areas.items()}
+    headings["The check itself"] = [rule for rest in tables.values() for rule in rest]
+    return "\n\n".join(f"## {area}\n\n{table(listed)}" for area, listed in headings.items())
 
 
 def table(rules: Sequence[type[Rule]]) -> str:

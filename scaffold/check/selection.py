@@ -55,8 +55,16 @@ class Selection(NamedTuple):
 
 
 def area_prefixes(rules: Iterable[type[Rule]]) -> dict[str, str]:
-    """Return the letters that the codes of an area begin with, by the name of its directory."""
-    return {rule.__module__.split(".")[-2]: rule.code[:2] for rule in rules}
+    """Return the letters that the codes of an area begin with, by the name of its directory.
+
+    Args:
+        rules: Those of content directories; rules of the engine itself are in no area.
+    """
+    return {
+        rule.__module__.split(".")[-2]: rule.code[:2]
+        for rule in rules
+        if not rule.__module__.startswith("scaffold.")
+    }
 
 
 def resolve(

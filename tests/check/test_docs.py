@@ -46,9 +46,15 @@ def test_the_page_of_the_interface_is_current(tmp_path: Path) -> None:
 
 def test_tables_list_every_code() -> None:
     text = (ROOT / "docs" / "rules" / "README.md").read_text()
-    assert [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("| [")] == [
-        f"[{code}]({code}.md)" for code in (*(rule.code for rule in RULES), *STYLE)
-    ]
+    rows = [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("| [")]
+    codes = (*(rule.code for rule in RULES), *STYLE)
+    assert sorted(rows) == sorted(f"[{code}]({code}.md)" for code in codes)
+
+
+def test_tables_have_a_heading_for_each_area() -> None:
+    text = (ROOT / "docs" / "rules" / "README.md").read_text()
+    areas = [path.name for path in sorted((ROOT / "rules").iterdir()) if path.is_dir()]
+    assert re.findall(r"^## (\w+)$", text, re.MULTILINE) == areas
 
 
 @pytest.mark.parametrize("page", PAGES)
