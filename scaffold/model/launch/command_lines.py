@@ -59,24 +59,29 @@ class CommandLine(NamedTuple):
 
 
 def static_transforms(package: Package) -> Iterator[CommandLine]:
-    """Yield what the launch files of a package give static_transform_publisher.
+    """Yield what the launch files of a package give static_transform_publisher."""
+    return command_lines(package, PROGRAM)
+
+
+def command_lines(package: Package, program: str) -> Iterator[CommandLine]:
+    """Yield what the launch files of a package give a program.
 
     The words between ``--ros-args`` and ``--`` are left out.
     """
     for launch in LaunchFile.of_package(package):
         for call in launch.find(*NODES):
-            if launch.text(call, "executable") == PROGRAM:
+            if launch.text(call, "executable") == program:
                 for line in _in_python(launch, call, "arguments"):
                     yield line._replace(words=_own(line.words))
     for file in markup_files(package):
         for node in file.nodes:
             given = node.arguments
-            if node.executable is not None and node.executable.value == PROGRAM and given:
+            if node.executable is not None and node.executable.value == program and given:
                 words = _own(_split(given))
                 yield CommandLine(given.location, given.location, words, attribute=given)
     for line in processes(package):
         texts = [word.text for word in line.words[:4]]
-        if texts[:2] == _RUN and texts[3:] == [PROGRAM]:
+        if texts[:2] == _RUN and texts[3:] == [program]:
             yield line._replace(words=_own(line.words[4:]))
 
 

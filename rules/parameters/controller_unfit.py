@@ -1,0 +1,261 @@
+"""PF010: the controllers of ros2_control have a type, a rate, and joints of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api.formats import Scalar
+from scaffold.api.formats import Sequence as YamlSequence
+from scaffold.api.launch import UNSAID, CommandLine, command_lines, processes
+from scaffold.api.parameters import (
+    Entry,
+    ParameterFile,
+    Section,
+    parameter_file,
+    parameter_paths,
+    value_type,
+)
+from scaffold.api.robot import is_known, robots
+
+_MANAGER = "controller_manager"
+_SPAWNER = "spawner"
+_TYPE = ".type"
+_JOINTS = frozenset(
+    {"joint", "joints", "left_wheel_names", "right_wheel_names", "traction_joints_names"}
+    | {"steering_joints_names", "front_wheels_names", "rear_wheels_names", "mimic_joints"}
+)
+"""The parameters of controllers that name joints."""
+_WITH_VALUE = frozenset(
+    {"-c", "--controller-manager", "-n", "--namespace", "-p", "--param-file"}
+    | {"--controller-manager-timeout", "--switch-timeout", "--service-call-timeout"}
+    | {"--controller-ros-args", "--ros-args", "-t", "--controller-type"}
+)
+"""The options of the spawner that take a value."""
+_OTHER_SOURCE = frozenset(
+    {"-p", "--param-file", "-t", "--controller-type", "--controller-ros-args"}
+)
+"""The options of the spawner that may say the type."""
+_LOAD = ["ros2", "control", "load_controller"]
+_TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
+_OF_ROS1: Mapping[str, str] = {
+    "joint_state_controller/JointStateController": "joint_state_broadcaster/JointStateBroadcaster",
+    **{
+        f"{kind}_controllers/JointTrajectoryController": _TRAJECTORY
+        for kind in ("position", "velocity", "effort")
+    },
+    "position_controllers/JointPositionController": (
+        "position_controllers/JointGroupPositionController"
+    ),
+    "velocity_controllers/JointVelocityController": (
+        "velocity_controllers/JointGroupVelocityController"
+    ),
+    "effort_controllers/JointEffortController": "effort_controllers/JointGroupEffortController",
+    "effort_controllers/JointPositionController": "pid_controller/PidController",
+    "effort_controllers/JointVelocityController": "pid_controller/PidController",
+}
+"""Types of controllers that ROS 2 does not have, and what does their work."""
+_FILE = (
+    "controller_manager:\n  ros__parameters:\n    update_rate: {}\n"
+    "    base_controller:\n      type: {}\n\n"
+    "base_controller:\n  ros__parameters:\n"
+    "    left_wheel_names: [left_joint]\n    right_wheel_names: [{}]\n"
+)
+_DRIVE = "diff_drive_controller/DiffDriveController"
+_LAUNCH = (
+    "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
+    "from launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='controller_manager', executable='spawner',\n"
+    "             arguments=[{}]),\n"
+    "        ExecuteProcess(cmd=['ros2', 'control', 'load_controller', '--set-state', 'active',\n"
+    "                            '{}']),\n    ])\n"
+)
+_ROBOT = (
+    '<robot name="base">\n  <link name="base_link"/>\n'
+    '  <link name="left"/>\n  <link name="right"/>\n'
+    '  <joint name="left_joint" type="continuous">\n'
+    '    <parent link="base_link"/>\n    <child link="left"/>\n  </joint>\n'
+    '  <joint name="right_joint" type="continuous">\n'
+    '    <parent link="base_link"/>\n    <child link="right"/>\n  </joint>\n</robot>\n'
+)
+
+
+def _files(
+    rate: str = "50",
+    type_: str = _DRIVE,
+    joint: str = "right_joint",
+    words: str = "'base_controller', '-c', '/controller_manager'",
+    loaded: str = "base_controller",
+) -> dict[str, str]:
+    return {
+        "config/controllers.yaml": _FILE.format(rate, type_, joint),
+        "launch/robot.launch.py": _LAUNCH.format(words, loaded),
+        "urdf/base.urdf": _ROBOT,
+    }
+
+
+class ControllerUnfit(Rule):
+    """A controller of ros2_control has no type, a type of ROS 1, or joints that are not there.
+
+    **Why.** The robot does not move: ``The 'type' param was not defined for 'base_controller'``,
+    ``Failed loading controller``, ``Not existing command interface``. The controller manager ends
+    with ``parameter 'update_rate' has invalid type: expected [integer] got [double]``.
+
+    **Fix.** Name it as the parameter file does, with its ``type`` under ``controller_manager``;
+    name the joints as the URDF does; write ``update_rate: 50``.
+
+    **Source.** https://github.com/ros-controls/ros2_control/issues/850;
+    https://github.com/ros-controls/roscon2022_workshop/issues/16; ros2_controllers documentation.
+    """
+
+    code = "PF010"
+    name = "controller-unfit"
+    examples = (
+        Example("as the file and the robot have it", _files()),
+        Example(
+            "a rate with a point, and a type of ROS 1",
+            _files("50.0", "position_controllers/JointTrajectoryController"),
+            Report(
+                "config/controllers.yaml:3:18",
+                "update_rate is an integer: with a double the controller manager ends",
+            ),
+            Report(
+                "config/controllers.yaml:5:13",
+                "ROS 2 has no controller "
+                "'position_controllers/JointTrajectoryController': use "
+                "'joint_trajectory_controller/JointTrajectoryController'",
+            ),
+        ),
+        Example(
+            "a joint that the robot does not have",
+            _files(joint="right_wheel_joint"),
+            Report(
+                "config/controllers.yaml:10:25",
+                "the robot has no joint 'right_wheel_joint': the controller fails; "
+                "closest: 'right_joint'",
+            ),
+        ),
+        Example(
+            "spawned under other names",
+            _files(words="'joint_broadcaster', 'base_controller'", loaded="diff_controller"),
+            Report(
+                "launch/robot.launch.py:9:25",
+                "no file gives the controller manager a type of "
+                "'joint_broadcaster': it is not loaded; known: base_controller",
+            ),
+            Report(
+                "launch/robot.launch.py:11:29",
+                "no file gives the controller manager a type of 'diff_controller': "
+                "it is not loaded; known: base_controller",
+            ),
+        ),
+        Example(
+            "types that are given otherwise, names that are not known",
+            {
+                **_files(words="'arm', '-p', '/etc/arm.yaml'"),
+                "launch/other.launch.py": _LAUNCH.format("NAME, '--inactive'", "base_controller"),
+            },
+        ),
+        Example(
+            "joints of another robot",
+            {
+                **_files(joint="rear"),
+                "config/controllers.yaml": _FILE.format("50", _DRIVE, "rear").replace("left_", "a"),
+            },
+        ),
+    )
+
+    def check(self, package: Package) -> Iterator[Diagnostic]:
+        files = [parameter_file(package, path) for path in parameter_paths(package)]
+        known = [file for file in files if file is not None]
+        managers = [
+            section for file in known for section in file.sections if section.name == _MANAGER
+        ]
+        if not managers:
+            return
+        types = {
+            entry.name.removesuffix(_TYPE): entry
+            for section in managers
+            for entry in section.entries
+            if entry.name.endswith(_TYPE)
+        }
+        for section in managers:
+            yield from self._check_manager(section)
+        yield from self._check_joints(package, known, types)
+        yield from self._check_spawned(package, types)
+
+    def _check_manager(self, section: Section) -> Iterator[Diagnostic]:
+        for entry in section.entries:
+            if entry.name == "update_rate" and value_type(entry.value) == "double":
+                message = "update_rate is an integer: with a double the controller manager ends"
+                yield self.report(entry.value.location, message)
+            if entry.name.endswith(_TYPE) and isinstance(entry.value, Scalar):
+                instead = _OF_ROS1.get(entry.value.text)
+                if instead:
+                    message = f"ROS 2 has no controller {entry.value.text!r}: use {instead!r}"
+                    yield self.report(entry.value.location, message)
+
+    def _check_joints(
+        self, package: Package, files: Sequence[ParameterFile], types: Mapping[str, Entry]
+    ) -> Iterator[Diagnostic]:
+        joints = _joints(package)
+        for file in files:
+            named = [
+                item
+                for section in file.sections
+                if section.name in types
+                for entry in section.entries
+                if entry.name in _JOINTS
+                for item in _texts(entry)
+            ]
+            # Of another robot unless at least one is of this one.
+            if not any(item.text in joints for item in named):
+                continue
+            for item in named:
+                if item.text not in joints and "$(" not in item.text:
+                    closest = closest_name(package, item.text, joints, 0.6)
+                    hint = f"; closest: {closest!r}" if closest else ""
+                    message = f"the robot has no joint {item.text!r}: the controller fails{hint}"
+                    yield self.report(item.location, message)
+
+    def _check_spawned(self, package: Package, types: Mapping[str, Entry]) -> Iterator[Diagnostic]:
+        if not types:
+            return
+        for line in (*command_lines(package, _SPAWNER), *_loaded(package)):
+            words = [word.text for word in line.words]
+            if not _OTHER_SOURCE.isdisjoint(words):
+                continue
+            for before, word in zip(["", *words], line.words, strict=False):
+                is_name = not word.text.startswith("-") and before not in _WITH_VALUE
+                if is_name and UNSAID not in word.text and word.text not in types:
+                    message = (
+                        f"no file gives the controller manager a type of {word.text!r}: it is not "
+                        f"loaded; known: {listed_names(types, word.text)}"
+                    )
+                    yield self.report(word.location, message)
+
+
+def _texts(entry: Entry) -> Iterator[Scalar]:
+    items = entry.value.items if isinstance(entry.value, YamlSequence) else [entry.value]
+    yield from (item for item in items if isinstance(item, Scalar) and item.text)
+
+
+def _joints(package: Package) -> set[str]:
+    """Return the joints of the robots of a package; none unless all are known."""
+    names: set[str] = set()
+    for robot in robots(package).whole:
+        for joint in robot.root.all("joint"):
+            name = joint.get("name") or ""
+            if not is_known(name):
+                return set()
+            names.add(name)
+    return names
+
+
+def _loaded(package: Package) -> Iterator[CommandLine]:
+    """Yield the command lines of ``ros2 control load_controller``: what follows these words."""
+    for line in processes(package):
+        if [word.text for word in line.words[:3]] == _LOAD:
+            words = [word for word in line.words[3:] if word.text not in {"active", "inactive"}]
+            yield line._replace(words=words)
