@@ -6,9 +6,10 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule, Report
-from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.api.messages import MessageClass, MessageTypes
 from scaffold.api.python import is_handled
+
+from . import _arrays
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import Float32MultiArray, String\n\n\n"
@@ -199,6 +200,43 @@ class MessageUsedAsValue(MessageRule):
                 "msg.data[0] is a number, and is not joined to text: TypeError; use an f-string",
             ),
         ),
+        Example(
+            "arrays for functions of numpy and OpenCV, columns of points",
+            {
+                "look.py": "import cv2\nimport numpy as np\nfrom rclpy.node import Node\n"
+                "from sensor_msgs.msg import CompressedImage, PointCloud2\n"
+                "from sensor_msgs_py import point_cloud2\n\n\n"
+                "class Look(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('look')\n"
+                "        self.create_subscription(CompressedImage, 'image', self.on_image, 10)\n"
+                "        self.create_subscription(PointCloud2, 'points', self.on_cloud, 10)\n\n"
+                "    def on_image(self, msg):\n"
+                "        cv2.imdecode(np.frombuffer(msg.data, np.uint8), 1)\n"
+                "        cv2.imdecode(np.fromstring(msg.data, np.uint8), 1)\n"
+                "        cv2.imdecode(msg.data, 1)\n\n"
+                "    def on_cloud(self, msg):\n"
+                "        points = point_cloud2.read_points(msg, field_names=['x', 'y', 'z'])\n"
+                "        heights = points[:, 2]\n"
+                "        rows = point_cloud2.read_points_numpy(msg)\n"
+                "        return heights, points['z'], rows[:, 2]\n"
+            },
+            Report(
+                "16:22",
+                "np.fromstring() does not take msg.data, an array.array: TypeError; "
+                "use numpy.frombuffer()",
+            ),
+            Report(
+                "17:9",
+                "cv2.imdecode() does not take msg.data, an array.array: cv2.error; "
+                "use numpy.frombuffer(msg.data, numpy.uint8)",
+            ),
+            Report(
+                "21:19",
+                "read_points() returns an array with one dimension, whose fields "
+                "have names: IndexError; write ['x'], or use read_points_numpy()",
+            ),
+        ),
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
@@ -215,8 +253,7 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         owner = _message(types, value)
         if owner is not None:
             yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
-    yield from _arrays_as_numbers(types)
-    yield from _fields_in_arithmetic(types)
+    yield from _arrays.problems(types)
     for node in module.walk(ast.Compare):
         yield from _compared(types, node)
     for node in _truth_tests(types):
@@ -231,79 +268,17 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
             yield node, f"{owner.name} is always true, whatever it holds; use its field {name!r}"
     for call in module.walk(ast.Call):
         if isinstance(call.func, ast.Attribute) and (
-            types.type_of(call.func) or _kind(types.field_type_of(call.func))
+            types.type_of(call.func) or _arrays.kind(types.field_type_of(call.func))
         ):
             yield (
                 call,
                 f"{module.text(call.func)} is a field, not a method: TypeError; remove the ()",
             )
     for node in module.walk(ast.Attribute):
-        kind = _kind(types.field_type_of(node.value))
-        if kind and not hasattr(_KINDS[kind], node.attr):
+        kind = _arrays.kind(types.field_type_of(node.value))
+        if kind and not hasattr(_arrays.KINDS[kind], node.attr):
             message = f"{module.text(node.value)} is a {kind}, which has no {node.attr!r}"
             yield node, f"{message}: AttributeError"
-
-
-def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield uses of a field that is an array, and of a float, that only integers support."""
-    module = types.module
-    for call in module.walk(ast.Call):
-        match call:
-            case ast.Call(func=ast.Name(id="range" | "float" | "int" as name), args=[value]):
-                type_ = types.field_type_of(value)
-                if type_ is None or module.index.lookup(name, call) is not None:
-                    continue
-                text = module.text(value)
-                if type_.is_array and (name == "range" or type_.array_size is None):
-                    use = f"use len({text})" if name == "range" else "use one of its elements"
-                    yield call, f"{text} is an array, not a number: TypeError; {use}"
-                elif name == "range" and _kind(type_) in {"float", "str"}:
-                    yield call, f"{text} is a {_kind(type_)}, not an integer: TypeError"
-    for node in module.walk(ast.Compare):
-        type_ = types.field_type_of(node.left)
-        is_number = isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float)
-        is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
-        is_array = type_ is not None and type_.is_array and type_.array_size is None
-        if is_array and is_number and is_order and len(node.ops) == 1:
-            text = module.text(node.left)
-            yield node, f"{text} is an array, not a number: TypeError; compare its elements"
-
-
-def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
-    """Yield sums of text and a number, and arrays that are calculated with as in numpy."""
-    module, evaluate = types.module, types.facts.evaluator.evaluate
-    for node in module.walk(ast.BinOp):
-        for field, other in ((node.left, node.right), (node.right, node.left)):
-            type_ = types.field_type_of(field)
-            value = evaluate(other)
-            is_text = isinstance(value, str) or isinstance(other, ast.JoinedStr)
-            if isinstance(node.op, ast.Add) and is_text and _kind(type_) in {"float", "int"}:
-                text = module.text(field)
-                yield (
-                    node,
-                    f"{text} is a number, and is not joined to text: TypeError; use an f-string",
-                )
-            is_float = isinstance(value, float) or (
-                isinstance(value, int) and not isinstance(node.op, ast.Mult)
-            )
-            if is_float and _is_plain_array(type_):
-                text = module.text(field)
-                yield node, f"{text} is an array, not of numpy: TypeError; use numpy.array({text})"
-    for attribute in module.walk(ast.Attribute):
-        if attribute.attr in _OF_NUMPY and _is_plain_array(types.field_type_of(attribute.value)):
-            text = module.text(attribute.value)
-            message = f"{text} is an array, not of numpy: it has no {attribute.attr!r}"
-            yield attribute, f"{message}: AttributeError; use numpy.array({text})"
-
-
-def _is_plain_array(type_: FieldType | None) -> bool:
-    """Return whether a field holds an ``array.array``; one of a fixed size is of numpy."""
-    return (
-        type_ is not None
-        and type_.is_array
-        and type_.array_size is None
-        and (type_.name in FLOATS or type_.name in INTEGER_RANGES)
-    )
 
 
 def _message(types: MessageTypes, node: ast.expr) -> MessageClass | None:
@@ -362,7 +337,7 @@ def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr
 def _is_plain(types: MessageTypes, node: ast.expr) -> bool:
     """Return whether an expression is a constant, or a field of a plain type."""
     value = types.facts.evaluator.evaluate(node)
-    return type(value) in _KINDS.values() or bool(_kind(types.field_type_of(node)))
+    return type(value) in _arrays.KINDS.values() or bool(_arrays.kind(types.field_type_of(node)))
 
 
 def _is_format(node: ast.BinOp) -> bool:
@@ -403,17 +378,3 @@ _REFUSED_BY: Mapping[str, str] = {
     "json.loads": "is not text",
 }
 """What functions say to a message."""
-_OF_NUMPY = frozenset({"min", "max", "mean", "sum", "std", "shape", "size", "astype", "reshape"})
-"""What arrays of numpy have, and others do not."""
-_KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
-
-
-def _kind(type_: FieldType | None) -> str:
-    """Return the Python type of a field of a plain type; empty for other fields."""
-    if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
-        return ""
-    if type_.name in FLOATS:
-        return "float"
-    if type_.name in TEXTS:
-        return "str"
-    return "int" if type_.name in INTEGER_RANGES else "bool"

@@ -1,0 +1,129 @@
+"""Fields that are arrays or plain values, and what does not work with them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
+from scaffold.api.messages import MessageTypes
+
+KINDS: dict[str, type] = {"bool": bool, "float": float, "int": int, "str": str}
+"""The Python types of plain fields."""
+_OF_NUMPY = frozenset({"min", "max", "mean", "sum", "std", "shape", "size", "astype", "reshape"})
+"""What arrays of numpy have, and others do not."""
+_TAKING_OTHERS: Mapping[str, str] = {
+    "numpy.fromstring": "TypeError; use numpy.frombuffer()",
+    "cv2.imdecode": "cv2.error; use numpy.frombuffer({}, numpy.uint8)",
+}
+"""Functions that do not take an ``array.array``, and what to do instead."""
+_CLOUD = "sensor_msgs_py.point_cloud2.read_points"
+_COLUMNS = 2
+
+
+def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield uses of fields that their types do not support, and why."""
+    yield from _arrays_as_numbers(types)
+    yield from _fields_in_arithmetic(types)
+    yield from _arrays_given(types)
+    yield from _columns_of_clouds(types)
+
+
+def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield uses of a field that is an array, and of a float, that only integers support."""
+    module = types.module
+    for call in module.walk(ast.Call):
+        match call:
+            case ast.Call(func=ast.Name(id="range" | "float" | "int" as name), args=[value]):
+                type_ = types.field_type_of(value)
+                if type_ is None or module.index.lookup(name, call) is not None:
+                    continue
+                text = module.text(value)
+                if type_.is_array and (name == "range" or type_.array_size is None):
+                    use = f"use len({text})" if name == "range" else "use one of its elements"
+                    yield call, f"{text} is an array, not a number: TypeError; {use}"
+                elif name == "range" and kind(type_) in {"float", "str"}:
+                    yield call, f"{text} is a {kind(type_)}, not an integer: TypeError"
+    for node in module.walk(ast.Compare):
+        type_ = types.field_type_of(node.left)
+        is_number = isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float)
+        is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
+        is_array = type_ is not None and type_.is_array and type_.array_size is None
+        if is_array and is_number and is_order and len(node.ops) == 1:
+            text = module.text(node.left)
+            yield node, f"{text} is an array, not a number: TypeError; compare its elements"
+
+
+def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield sums of text and a number, and arrays that are calculated with as in numpy."""
+    module, evaluate = types.module, types.facts.evaluator.evaluate
+    for node in module.walk(ast.BinOp):
+        for field, other in ((node.left, node.right), (node.right, node.left)):
+            type_ = types.field_type_of(field)
+            value = evaluate(other)
+            is_text = isinstance(value, str) or isinstance(other, ast.JoinedStr)
+            if isinstance(node.op, ast.Add) and is_text and kind(type_) in {"float", "int"}:
+                text = module.text(field)
+                yield (
+                    node,
+                    f"{text} is a number, and is not joined to text: TypeError; use an f-string",
+                )
+            is_float = isinstance(value, float) or (
+                isinstance(value, int) and not isinstance(node.op, ast.Mult)
+            )
+            if is_float and _is_plain_array(type_):
+                text = module.text(field)
+                yield node, f"{text} is an array, not of numpy: TypeError; use numpy.array({text})"
+    for attribute in module.walk(ast.Attribute):
+        if attribute.attr in _OF_NUMPY and _is_plain_array(types.field_type_of(attribute.value)):
+            text = module.text(attribute.value)
+            message = f"{text} is an array, not of numpy: it has no {attribute.attr!r}"
+            yield attribute, f"{message}: AttributeError; use numpy.array({text})"
+
+
+def _is_plain_array(type_: FieldType | None) -> bool:
+    """Return whether a field holds an ``array.array``; one of a fixed size is of numpy."""
+    return (
+        type_ is not None
+        and type_.is_array
+        and type_.array_size is None
+        and (type_.name in FLOATS or type_.name in INTEGER_RANGES)
+    )
+
+
+def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield arrays that are given to functions of others, which take their own kind."""
+    for call in types.module.walk(ast.Call):
+        advice = _TAKING_OTHERS.get(types.module.qualified_name(call.func) or "")
+        if advice and call.args and _is_plain_array(types.field_type_of(call.args[0])):
+            text, name = types.module.text(call.args[0]), types.module.text(call.func)
+            yield call, f"{name}() does not take {text}, an array.array: {advice.format(text)}"
+
+
+def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield columns of points whose fields have names: ``read_points(msg)[:, 2]``."""
+    for index in types.module.walk(ast.Subscript):
+        match index.slice:
+            case ast.Tuple(elts=elements) if len(elements) == _COLUMNS:
+                made = types.facts.evaluator.single_value(index.value)
+                if isinstance(made, ast.Call) and _is_flat_cloud(types, made):
+                    message = "read_points() returns an array with one dimension, whose fields have"
+                    hint = "write ['x'], or use read_points_numpy()"
+                    yield index, f"{message} names: IndexError; {hint}"
+
+
+def _is_flat_cloud(types: MessageTypes, made: ast.Call) -> bool:
+    is_cloud = types.module.qualified_name(made.func) == _CLOUD
+    words = {word.arg for word in made.keywords}
+    return is_cloud and words.isdisjoint({"reshape_organized_cloud", None}) and not made.args[4:]
+
+
+def kind(type_: FieldType | None) -> str:
+    """Return the Python type of a field of a plain type; empty for other fields."""
+    if type_ is None or type_.is_array or not type_.is_primitive or type_.name == "byte":
+        return ""
+    if type_.name in FLOATS:
+        return "float"
+    if type_.name in TEXTS:
+        return "str"
+    return "int" if type_.name in INTEGER_RANGES else "bool"
