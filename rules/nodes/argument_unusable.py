@@ -22,6 +22,8 @@ from scaffold.api.rclpy import (
 _TYPES = ("msg_type", "srv_type", "action_type")
 _NAMES = ("topic", "srv_name", "action_name")
 _CALLBACKS = ("callback", "execute_callback")
+_TOPICS = frozenset({"rosbag2_py.TopicMetadata", "rosbag2_py._storage.TopicMetadata"})
+_FULL_NAME = r"[a-z][a-z0-9_]*/(?:msg|srv|action)/[A-Za-z0-9_]+"
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
     "class Talker(Node):\n"
@@ -110,6 +112,25 @@ class ArgumentUnusable(RclpyRule):
             Report("11:54", "this is a class, not a callback group; instantiate it"),
         ),
         Example(
+            "types of topics in a bag",
+            {
+                "record.py": "import rclpy\nimport rosbag2_py\n\n\n"
+                "def topics(kind):\n"
+                "    for name in ('std_msgs/msg/String', 'String', 'std_msgs.msg.String'):\n"
+                "        yield rosbag2_py.TopicMetadata(\n"
+                "            id=0, name='a', type=name, serialization_format='cdr')\n"
+                "    yield rosbag2_py.TopicMetadata(\n"
+                "        id=0, name='a', type='String', serialization_format='cdr')\n"
+                "    yield rosbag2_py.TopicMetadata(\n"
+                "        id=0, name='a', type='std_msgs/msg/String', serialization_format='cdr')\n"
+            },
+            Report(
+                "10:30",
+                "'String' is not the full name of a type, such as "
+                "'std_msgs/msg/String': nothing can read the bag",
+            ),
+        ),
+        Example(
             "period and type in order",
             {"talker.py": _NODE_ORDER.format("String, 'chatter'", "0.5, self.tick")},
         ),
@@ -133,6 +154,14 @@ class ArgumentUnusable(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_types(file)
         yield from self._check_order(file)
+        for call in file.module.walk(ast.Call):
+            if file.module.qualified_name(call.func) in _TOPICS:
+                for word in call.keywords:
+                    name = file.evaluator.evaluate(word.value) if word.arg == "type" else ""
+                    if isinstance(name, str) and name and not re.fullmatch(_FULL_NAME, name):
+                        message = f"{name!r} is not the full name of a type, such as "
+                        message += "'std_msgs/msg/String': nothing can read the bag"
+                        yield self.report(file.module.location(word.value), message)
 
     def _check_types(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for entity in file.entities:
