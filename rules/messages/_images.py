@@ -36,9 +36,41 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             problem = _step_problem(types, item.holder, item.value)
         if problem:
             yield item.value, problem
+    yield from _stamped_apart(types)
     if "cv_bridge" in types.module.imports_by_root:
         for call in types.module.walk(ast.Call):
             yield from _call_flaws(types, call)
+
+
+_PAIR = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo")
+
+
+def _stamped_apart(types: MessageTypes) -> Iterator[Flaw]:
+    """Yield the stamp of a camera info that is made by another call than that of its image."""
+    stamps: dict[tuple[ast.AST | None, str], list[ast.expr]] = {}
+    for item in types.assigned:
+        if (item.owner.name, item.field.name) != ("std_msgs/msg/Header", "stamp"):
+            continue
+        owner = types.type_of(item.holder.value) if isinstance(item.holder, ast.Attribute) else None
+        if owner is not None and owner.name in _PAIR:
+            key = (types.module.enclosing_function(item.holder), owner.name)
+            stamps.setdefault(key, []).append(item.value)
+    for (function, name), values in stamps.items():
+        images = stamps.get((function, _PAIR[0]), [])
+        is_pair = name != _PAIR[0] and len(values) == len(images) == 1
+        if is_pair and _is_now(values[0]) and _is_now(images[0]):
+            message = "a camera info has the stamp of its image: with another one, what "
+            yield values[0], message + "synchronizes them finds no pair; copy it"
+
+
+def _is_now(node: ast.expr) -> bool:
+    """Tell whether an expression is ``clock.now().to_msg()``, which makes a stamp of its own."""
+    match node:
+        case ast.Call(
+            func=ast.Attribute(attr="to_msg", value=ast.Call(func=ast.Attribute(attr="now")))
+        ):
+            return True
+    return False
 
 
 def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:

@@ -249,6 +249,29 @@ class ValueImplausible(MessageRule):
             ),
         ),
         Example(
+            "one stamp for an image and its camera info, and two",
+            {
+                f"{name}.py": "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import CameraInfo, Image\n\n\n"
+                "class Camera(Node):\n"
+                "    def fill(self):\n"
+                "        image, info = Image(), CameraInfo()\n"
+                "        stamp = self.get_clock().now().to_msg()\n"
+                f"        image.header.stamp = {stamp}\n"
+                f"        info.header.stamp = {stamp}\n"
+                "        return image, info\n"
+                for name, stamp in {
+                    "one": "stamp",
+                    "two": "self.get_clock().now().to_msg()",
+                }.items()
+            },
+            Report(
+                "two.py:10:29",
+                "a camera info has the stamp of its image: with another one, what "
+                "synchronizes them finds no pair; copy it",
+            ),
+        ),
+        Example(
             "fractions of a second",
             {
                 "stamp.py": "from builtin_interfaces.msg import Time\n\n\n"
