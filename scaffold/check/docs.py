@@ -134,7 +134,7 @@ def _by_area(rules: Sequence[type[Rule]]) -> str:
     for rule in rules:
         tables.setdefault(rule.code[:2], []).append(rule)
     areas = area_prefixes(rules)
-    headings = {area: tables.pop(prefix) for area, prefix in areas.items()}
+    headings = {area: tables.pop(prefix) for area, prefix in sorted(areas.items())}
     headings["The check itself"] = [rule for rest in tables.values() for rule in rest]
     return "\n\n".join(f"## {area}\n\n{table(listed)}" for area, listed in headings.items())
 
