@@ -173,6 +173,7 @@ def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFix
     write(package / "package.xml", manifest)
     lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
     write(package / "scripts" / "relay.py", MISTAKE)
+    write(package / "config" / "relay.yaml", "relay:\n  ros__parameters:\n    rate: 1.0\n")
     write(package / "CMakeLists.txt", lists.format("# install(PROGRAMS scripts/relay.py)\n"))
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}  # started by hand
     write(package / "CMakeLists.txt", lists.format("add_executable(talk talk.cpp)\n"))

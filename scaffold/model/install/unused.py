@@ -89,11 +89,16 @@ def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
 
 
 def _is_named(package: Package, path: str, stem: str) -> bool:
-    """Tell whether any other file of the package has the name of a module."""
+    """Tell whether any other file of the package has the name of a module.
+
+    The parameters of a node have its name, whether anything starts it or not.
+    """
     others = (
         item
         for item in package.files
-        if item != path and (item.endswith(_NAMING) or item.startswith("scripts/"))
+        if item != path
+        and (item.endswith(_NAMING) or item.startswith("scripts/"))
+        and not item.startswith(("config/", "params/"))
     )
     return any(_is_in_code(package, item, stem) for item in others)
 
