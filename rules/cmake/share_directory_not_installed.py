@@ -97,6 +97,27 @@ class ShareDirectoryNotInstalled(Rule):
             ),
         ),
         Example(
+            "a copy of files that are installed from another directory",
+            {
+                "package.xml": "<package><name>talker</name></package>\n",
+                "CMakeLists.txt": _LISTS.format(
+                    "install(DIRECTORY launch map DESTINATION share/${PROJECT_NAME})\n"
+                ),
+                "launch/talk.launch.py": "import os\n"
+                "from ament_index_python.packages import get_package_share_directory\n\n\n"
+                "def generate_launch_description():\n"
+                "    own = get_package_share_directory('talker')\n"
+                "    return [os.path.join(own, 'map', 'floor.yaml')]\n",
+                "map/floor.yaml": "",
+                "maps/floor.yaml": "",
+            },
+            Report(
+                "CMakeLists.txt:4:1",
+                "maps/ is not installed, so maps/floor.yaml is not found at run time",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "patterns that leave a file",
             {
                 "CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yaml"'),

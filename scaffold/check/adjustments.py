@@ -109,7 +109,7 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     path, code = diagnostic.location.path, diagnostic.code
     if diagnostic.severity is not Severity.ERROR or not path.endswith(".py"):
         return False
-    if code == _UNDEFINED and _is_unevaluated(package, diagnostic):
+    if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
     is_of_linters = code.startswith(_OF_LINTERS)
     if is_of_linters and runs_linter(package, diagnostic):
@@ -136,9 +136,22 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
     return any(only_while_stopping(*name) for name in _names_at(package, undefined))
 
 
-def _is_unevaluated(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is in an annotation that Python does not evaluate."""
-    return any(is_unevaluated(*name) for name in _names_at(package, undefined))
+def _is_harmless(package: Package, undefined: Diagnostic) -> bool:
+    """Tell whether Python does not evaluate an undefined name, or has it after all.
+
+    That are annotations, and the modules that ``from .talk import *`` adds to their package.
+    """
+    return any(
+        is_unevaluated(module, name) or _is_own_module(module, name)
+        for module, name in _names_at(package, undefined)
+    )
+
+
+def _is_own_module(module: PythonModule, name: ast.expr) -> bool:
+    if not module.path.endswith("__init__.py") or not isinstance(name, ast.Name):
+        return False
+    own = (item.module.partition(".")[0] for item in module.imports if item.level == 1)
+    return name.id in own
 
 
 def _names_at(package: Package, diagnostic: Diagnostic) -> Iterator[tuple[PythonModule, ast.expr]]:

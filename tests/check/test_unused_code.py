@@ -182,6 +182,16 @@ def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFix
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
 
 
+def test_a_module_that_an_import_adds_to_its_package(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "talker" / "__init__.py", "from .talk import *\n\ndel talk\ndel other\n")
+    write(package / "talker" / "talk.py", "TOPIC = 'talk'\n")
+    main(["check", str(package), "--format", "json", "--select", "F821"])
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [(item["line"], item["severity"]) for item in found] == [(3, "warning"), (4, "error")]
+
+
 def test_an_annotation_that_is_not_evaluated(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -204,5 +214,5 @@ def test_a_file_that_is_too_large_to_read_may_name_a_script(
 ) -> None:
     write(package / "talker" / "talk_old.py", UNDEFINED)
     assert severities(capsys, "F821") == {"talker/talk_old.py": "warning"}
-    write(package / "config" / "map.yaml", "- 0\n" * 400_000)
+    write(package / "maps" / "map.yaml", "- 0\n" * 400_000)
     assert severities(capsys, "F821") == {"talker/talk_old.py": "error"}

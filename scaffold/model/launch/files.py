@@ -35,7 +35,9 @@ def data_files(package: Package, directory: str) -> list[str]:
 
 def is_named(package: Package, directory: str) -> bool:
     """Tell whether code or a launch file of the workspace names a file of a data directory."""
-    names = _names(data_files(package, directory))
+    mine = (f"{directory}/", "test/", "tests/")
+    elsewhere = [path for path in package.files if not path.startswith(mine)]
+    names = _names(data_files(package, directory)) - _names(elsewhere)
     for other in package.workspace:
         wanted = names
         if other.name != package.name:  # which may mean its own of the same name
