@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule, Severity
-from scaffold.api.catalog import OTHER_NAMES, similar_key, similar_package
+from scaffold.api.catalog import (
+    OTHER_NAMES,
+    ROS_PACKAGES,
+    is_near,
+    is_released,
+    similar_key,
+    similar_package,
+)
 from scaffold.api.interfaces import KINDS
 
 
@@ -41,6 +48,29 @@ class DependencyMisspelled(Rule):
                 "2:11", "no package 'std_msg' is known; closest: 'std_msgs'", fix="write std_msgs"
             ),
             fixed={"package.xml": "<package>\n  <depend>std_msgs</depend>\n</package>\n"},
+        ),
+        Example(
+            "a letter too many, of a package of the workspace; one that the code imports",
+            {
+                "package.xml": "<package>\n  <name>talker</name>\n"
+                "  <depend>our_arm_msgss</depend>\n  <depend>our_hand_msgss</depend>\n"
+                "</package>\n",
+                "talker.py": "from our_hand_msgss.msg import Grip\n",
+            },
+            Report(
+                "package.xml:3:11",
+                "no package 'our_arm_msgss' is known; closest: 'our_arm_msgs'",
+                fix="write our_arm_msgs",
+            ),
+            neighbours={
+                name: {"package.xml": f"<package>\n  <name>{name}</name>\n</package>\n"}
+                for name in ("our_arm_msgs", "our_hand_msgs")
+            },
+            fixed={
+                "package.xml": "<package>\n  <name>talker</name>\n"
+                "  <depend>our_arm_msgs</depend>\n  <depend>our_hand_msgss</depend>\n"
+                "</package>\n"
+            },
         ),
         Example(
             "misspelled in the code as well",
@@ -124,7 +154,7 @@ class DependencyMisspelled(Rule):
             if key is not None and not _is_known(package, name):
                 message = f"no rosdep key {name!r} is known; closest: {key!r}"
                 yield self.report(dependency, message, severity=Severity.WARNING)
-            closest = similar_package(name)
+            closest = similar_package(name) or _similar_neighbor(package, name)
             if closest is not None and not _has_others(package, name, closest):
                 message = f"no package {name!r} is known; closest: {closest!r}"
                 edit = Edit("package.xml", *dependency.element.text_span, closest)
@@ -141,6 +171,17 @@ def _has_others(package: Package, name: str, closest: str) -> bool:
             if known is not None and any(imported.name not in known for imported in item.names):
                 return True
     return False
+
+
+def _similar_neighbor(package: Package, name: str) -> str | None:
+    """Return the only package of the workspace that an unknown name can mean, if there is one."""
+    if is_released(name) or name in ROS_PACKAGES or _is_known(package, name):
+        return None
+    near = [other.name for other in package.workspace if is_near(name, other.name)]
+    if len(near) != 1 or near[0] == package.name:
+        return None
+    is_imported = any(name in module.imports_by_root for module in package.modules())
+    return None if is_imported else near[0]
 
 
 def _is_known(package: Package, name: str) -> bool:

@@ -115,6 +115,19 @@ class ModuleNotPacked(Rule):
             },
         ),
         Example(
+            "a sub-package listed that is not there",
+            {
+                **_FILES_SUBPACKAGES,
+                "setup.py": _SETUP_SUBPACKAGES.format(
+                    "setup", "['talker', 'talker/' + 'text', 'talker/models']"
+                ),
+            },
+            Report(
+                "setup.py:5:14",
+                "packages names 'talker.models', but there is no talker/models/: the build stops",
+            ),
+        ),
+        Example(
             "a sub-package left out with its tests",
             {
                 "talker/__init__.py": "",
@@ -194,6 +207,11 @@ class ModuleNotPacked(Rule):
                     f"packages names {name!r}, but there is no such directory: the build stops"
                 )
                 yield self.report(at, message, cause=f"directory {root}")
+                continue
+            place = name.replace(".", "/")
+            if not package.has_directory(place):
+                message = f"packages names {name!r}, but there is no {place}/: the build stops"
+                yield self.report(at, message, cause=f"directory {place}")
         for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
                 message = f"packages leaves out {root!r}, which the entry points start"
