@@ -103,6 +103,19 @@ class AttributeOfNodeUnknown(RclpyRule):
             ),
         ),
         Example(
+            "a method that is indented too far",
+            {
+                "talker.py": _NODE.format("on_timer", "pub").replace(
+                    "    def on_timer(self):\n        ", "        def on_timer(self):\n            "
+                )
+            },
+            Report(
+                "10:32",
+                "neither Talker nor rclpy's Node has 'on_timer': AttributeError; "
+                "the one of line 12 is inside another method: indent it less",
+            ),
+        ),
+        Example(
             "of a node with a lifecycle",
             {
                 "pump.py": "from rclpy.lifecycle import LifecycleNode\n\n\n"
@@ -140,13 +153,25 @@ class AttributeOfNodeUnknown(RclpyRule):
                 continue
             names = names or {*defined, *given, *_names_of_rclpy()}
             closest = _ELSEWHERE.get(name) or _closest(package, name, names)
+            inner = _inner_function(node, name)
             hint = f"; did you mean {closest!r}?" if closest else ""
+            if inner is not None:
+                hint = f"; the one of line {inner.lineno} is inside another method: indent it less"
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
             module = node.facts.module
             is_late = only_while_stopping(module, attribute)
             severity = Severity.WARNING if is_late else Severity.ERROR
             cause = f"attributes of {node.name} in {module.path}"
             yield self.report(module.location(attribute), message, severity=severity, cause=cause)
+
+
+def _inner_function(node: NodeClass, name: str) -> ast.FunctionDef | None:
+    """Return the function of a name that a method of a node defines for itself."""
+    module = node.facts.module
+    for function in module.below(node.node, ast.FunctionDef):
+        if function.name == name and module.enclosing_function(function) is not None:
+            return function
+    return None
 
 
 def _names_of_rclpy() -> Iterator[str]:

@@ -173,8 +173,12 @@ class ArgumentsUnfit(TypeRule):
         ),
         Example(
             "a method of a class",
-            {"name.py": "from rclpy.node import Node\n\nprint(Node.get_name())\n"},
+            {
+                "name.py": "from rclpy.node import Node\n\nprint(Node.get_name())\n"
+                "Node.get_logger().info('late')\n"
+            },
             Report("3:7", "get_name() lacks 'self': TypeError"),
+            Report("4:1", "get_logger() lacks 'self': TypeError"),
         ),
         Example(
             "a function and a class of another module",
@@ -387,10 +391,11 @@ def _missing(finding: TypeFinding) -> str:
 
 
 def _calls(finding: TypeFinding) -> Iterator[ast.Call]:
-    """Yield the calls that start where a finding does."""
-    for call in finding.module.walk(ast.Call):
-        if finding.module.location(call)[1:3] == finding.location[1:3]:
-            yield call
+    """Yield the call that a finding is about, or those that start where it does."""
+    module, at = finding.module, finding.location
+    calls = [call for call in module.walk(ast.Call) if module.location(call)[1:3] == at[1:3]]
+    whole = [call for call in calls if module.exact_location(call) == at]
+    yield from whole or calls
 
 
 def _is_old(finding: TypeFinding) -> bool:

@@ -245,7 +245,8 @@ class TreeBroken(Rule):
                     f"a {tag} {_shown(name)!r} is already defined in {where}: urdfdom refuses "
                     "the whole file"
                 )
-                yield self.report(part.at("name"), message)
+                cause = f"defined again in {part.location.path}"
+                yield self.report(part.at("name"), message, cause=cause)
 
     def _check_links(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
         links = [part.get("name") or "" for part in robot.root.all("link")]
