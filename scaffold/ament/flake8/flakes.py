@@ -77,7 +77,7 @@ def check(
         builtins: The names that its configuration adds to those of Python.
         diagnostics: Those of ruff, which tell where an expression ends.
     """
-    from pyflakes.checker import Checker
+    from scaffold.ament.flake8.quick_pyflakes import QuickChecker
 
     if text.tree is None:
         return
@@ -85,7 +85,7 @@ def check(
     # From Python 3.14 on annotations are evaluated when asked for, which ruff knows of the target.
     is_deferred = distributions.target().python >= (3, 14)
     ends = {(item.code, item.line, item.column): item for item in diagnostics}
-    for message in Checker(text.tree, text.path, {*builtins}, withDoctest=False).messages:
+    for message in QuickChecker(text.tree, text.path, builtins).messages:
         code = CODES.get(type(message).__name__, "")
         if not code or (is_before_3 and _is_of_3(text, code, message.message_args)):
             continue
