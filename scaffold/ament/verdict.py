@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
@@ -208,12 +208,14 @@ def _from_ruff(
     spaced = operators.CANDIDATES + (operators.ARITHMETIC_CANDIDATES if is_optional else "")
     for module, candidates in ((operators, spaced), (keyword_spacing, keyword_spacing.CANDIDATES)):
         rows = {row for code in module.CODES for row in lines.get(code, ())}
-        rows |= {
-            text.line_of(item.start()) for item in re.finditer(candidates, text.text, re.MULTILINE)
-        }
-        logical_lines = {row: text.logical_line_at(row) for row in sorted(rows)}
-        for logical in dict.fromkeys(line for line in logical_lines.values() if line):
-            yield from module.check(logical)
+        if module is operators:
+            rows.update(
+                text.line_of(at.start()) for at in re.finditer(operators.CONTINUED, text.text)
+            )
+        found = [text.logical_line_at(row) for row in sorted(rows)]
+        for logical in dict.fromkeys((*found, *text.lines_with(candidates))):
+            if logical is not None:
+                yield from module.check(logical)
     for diagnostic in diagnostics:
         if diagnostic.code in TAKEN:
             yield plain(diagnostic)
@@ -259,7 +261,7 @@ class _Alignment:
             if logical is None or logical.end_row == row:
                 continue
             starts = self._line_starts(logical)
-            columns = self._columns_of(row)
+            columns = self._columns_of(logical, row)
             behind = columns[bisect_left(columns, start) :]
             if len(behind) > MOST_EDITS or not starts.isdisjoint(behind):
                 return finding._replace(fix=(), fix_title="")
@@ -275,12 +277,10 @@ class _Alignment:
             )
         return self._starts[logical.row]
 
-    def _columns_of(self, row: int) -> list[int]:
+    def _columns_of(self, logical: LogicalLine, row: int) -> list[int]:
         """Return the columns, from 0, of the tokens of a row."""
         if row not in self._columns:
-            rows = self._text.token_rows
-            tokens = self._text.tokens[bisect_left(rows, row) : bisect_right(rows, row)]
-            self._columns[row] = [token.start[1] for token in tokens]
+            self._columns[row] = [item.start[1] for item in logical.tokens if item.start[0] == row]
         return self._columns[row]
 
 

@@ -6,7 +6,7 @@ That is ament's configuration; a package's own may differ.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scaffold.ament.finding import Finding, Replacement
 from scaffold.ament.flake8.options import AMENT, Options
@@ -28,6 +28,12 @@ from scaffold.ament.python_text.tokens import (
 from scaffold.record import NamedTuple
 
 _TRANSPARENT = (NEWLINE, INDENT, DEDENT, NL, COMMENT)
+
+_HEADERS = frozenset({"class", "def", "async"})
+_DEPTHS = dict.fromkeys("([{", 1) | dict.fromkeys(")]}", -1)
+
+_Literal = tuple[str, Position, Position, bool]
+"""The text, the start and the end of a literal, and whether it is no f-string."""
 
 _NAMES = {"'": "single", '"': "double"}
 _OTHER = {"'": '"', '"': "'"}
@@ -63,12 +69,11 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     )
     if quotes == _AMENT and not _may_fail(text.text):
         return
-    docstrings = _docstrings(text.tokens)
-    is_inside = options.check_inside_f_strings
-    for literal, start, end, token in _literals(text.tokens, opened=is_inside):
+    docstrings = _docstrings(text)
+    for literal, start, end, is_plain in _literals(text, opened=options.check_inside_f_strings):
         code = _judge(literal, quotes, is_docstring=start in docstrings)
         if code:
-            fix = _fix(code, literal, start, end, is_plain=token.type == STRING)
+            fix = _fix(code, literal, start, end, is_plain=is_plain)
             row, column = start
             yield Finding(
                 code,
@@ -96,17 +101,27 @@ def _may_fail(text: str) -> bool:
     return re.search(r"^[ \t]*[rRuUbB]{0,2}'|:[ \t]*[rRuUbB]{0,2}'", rest, re.MULTILINE) is not None
 
 
-def _literals(
-    tokens: list[Token], *, opened: bool
-) -> Iterator[tuple[str, Position, Position, Token]]:
+def _literals(text: PythonText, *, opened: bool) -> Iterator[_Literal]:
     """Yield string literals; an f-string and its contents are one unless ``opened``."""
+    if text.outline is None or opened:
+        yield from _literal_tokens(text.tokens, opened=opened)
+        return
+    line, starts = text.text, text.line_starts
+    for start, quotes, end in text.outline.literals:
+        row, last = text.line_of(start), text.line_of(end - 1)
+        is_plain = not text.are_fstrings_opened or "f" not in line[start:quotes].lower()
+        at, behind = (row, start - starts[row - 1]), (last, end - starts[last - 1])
+        yield line[start:end], at, behind, is_plain
+
+
+def _literal_tokens(tokens: Iterable[Token], *, opened: bool) -> Iterator[_Literal]:
     depth = 0
     parts: list[str] = []
     start = (0, 0)
     for token in tokens:
         if opened:
             if token.type in (STRING, FSTRING_START):
-                yield token.string, token.start, token.end, token
+                yield token.string, token.start, token.end, token.type == STRING
             continue
         if token.type == FSTRING_START:
             if not depth:
@@ -117,10 +132,10 @@ def _literals(
             if token.type == FSTRING_END:
                 depth -= 1
                 if not depth:
-                    yield "".join(parts), start, token.end, token
+                    yield "".join(parts), start, token.end, False
                     parts = []
         elif token.type == STRING:
-            yield token.string, token.start, token.end, token
+            yield token.string, token.start, token.end, True
 
 
 def _judge(literal: str, quotes: _Quotes, *, is_docstring: bool) -> str:
@@ -156,30 +171,47 @@ def _fix(
     )
 
 
-def _docstrings(tokens: list[Token]) -> set[Position]:
-    """Return the starts of the string tokens where a docstring is allowed."""
-    positions: set[Position] = set()
-    awaited = True
-    keyword = False
-    depth = 0
-    for token in tokens:
-        if token.type in _TRANSPARENT:
+def _docstrings(text: PythonText) -> set[Position]:
+    """Return the starts of the strings where a docstring is allowed."""
+    places = _Places()
+    for logical in text.logical_lines:
+        if logical.is_comment:
             continue
-        if token.type == STRING:
-            if awaited:
-                positions.add(token.start)
-            awaited = False
-        elif token.type == NAME and token.string in ("class", "def"):
-            keyword, awaited, depth = True, False, 0
-        elif token.type == OP and token.string == ":":
-            if depth == 0 and keyword:
-                keyword, awaited = False, True
-        elif token.type == OP and token.string in "([{":
-            depth += 1
-            awaited = False
-        elif token.type == OP and token.string in ")]}":
-            depth -= 1
-            awaited = False
+        if logical.first in _HEADERS:
+            if logical.last == ":" and not logical.is_opaque and "lambda" not in logical.code:
+                places.is_awaited = True
+            else:
+                places.read(logical.tokens)
+        elif places.is_awaited and logical.first[-1] in "\"'":
+            places.read(logical.tokens)
         else:
-            awaited = False
-    return positions
+            places.is_awaited = False
+    return places.found
+
+
+class _Places:
+    """Where docstrings are allowed: first in the file, or behind the colon of a header."""
+
+    def __init__(self) -> None:
+        self.found: set[Position] = set()
+        self.is_awaited = True
+
+    def read(self, tokens: Iterable[Token]) -> None:
+        """Go on with a logical line."""
+        keyword = False
+        depth = 0
+        for token in tokens:
+            if token.type in _TRANSPARENT:
+                continue
+            if token.type == STRING:
+                if self.is_awaited:
+                    self.found.add(token.start)
+                self.is_awaited = False
+            elif token.type == NAME and token.string in ("class", "def"):
+                keyword, self.is_awaited, depth = True, False, 0
+            elif token.type == OP and token.string == ":":
+                if depth == 0 and keyword:
+                    keyword, self.is_awaited = False, True
+            else:
+                depth += token.type == OP and _DEPTHS.get(token.string, 0)
+                self.is_awaited = False

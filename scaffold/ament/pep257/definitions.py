@@ -9,17 +9,14 @@ from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
+from scaffold.ament.python_text.quick_tokens import QUOTED
 from scaffold.ament.python_text.text import PythonText
 from scaffold.ament.python_text.tokens import COMMENT, NEWLINE, NL
 from scaffold.record import NamedTuple
 
 MODULE, CLASS, FUNCTION, METHOD = range(4)
 
-_LITERAL = (
-    r"(?:[rRuU]|[bB][rR]?|[rR][bB])?"
-    r"(?:\"\"\"(?:[^\\\"]|\\.|\"(?!\"\"))*\"\"\"|'''(?:[^\\']|\\.|'(?!''))*'''"
-    r"|\"(?:[^\\\"\n]|\\.)*\"|'(?:[^\\'\n]|\\.)*')"
-)
+_LITERAL = re.compile(rf"(?:[rRuU]|[bB][rR]?|[rR][bB])?(?:{'|'.join(QUOTED)})", re.DOTALL)
 
 _Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 
@@ -219,7 +216,7 @@ def _docstring(text: PythonText, body: Sequence[ast.stmt]) -> Literal | None:
     if line[column - 1 : column] not in "\"'rRuUbB":
         return None
     start = text.line_starts[node.lineno - 1] + column - 1
-    matched = re.compile(_LITERAL, re.DOTALL).match(text.text, start)
+    matched = _LITERAL.match(text.text, start)
     if matched is None:
         return None
     literal = matched[0]

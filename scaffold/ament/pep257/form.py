@@ -109,9 +109,9 @@ def _blank_lines_in_class(definition: Definition) -> Violations:
 def _blank_lines(definition: Definition) -> tuple[int, int]:
     """Count the blank lines right before and right after the docstring."""
     before, after = definition.around
-    above = [not line.strip() for line in before.split("\n")[:-1]]
-    below = [not line.strip() for line in after.split("\n")[1:]]
-    return sum(takewhile(bool, reversed(above))), sum(takewhile(bool, below))
+    above = (not line.strip() for line in reversed(before.split("\n")[:-1]))
+    below = (not line.strip() for line in after.split("\n")[1:])
+    return sum(takewhile(bool, above)), sum(takewhile(bool, below))
 
 
 def _summary(definition: Definition) -> str:

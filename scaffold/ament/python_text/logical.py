@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left
+from collections.abc import Sequence
 from functools import cached_property
 
+from scaffold.ament.python_text.tokenizer import read_statement
 from scaffold.ament.python_text.tokens import (
-    COMMENT,
     FSTRING_MIDDLE,
     LAYOUT,
-    NEWLINE,
     NEWLINES,
     NL,
     OP,
@@ -19,48 +20,82 @@ from scaffold.ament.python_text.tokens import (
     Token,
 )
 
+_Built = tuple[str, tuple[list[int], list[Position]]]
+_FIRST = re.compile(r"(?i:[rbfu]{0,2})[\"']|\w+|.")
+
 
 class LogicalLine:
-    """The tokens of a statement, or of a comment on its own lines."""
+    """A statement, or a comment on its own lines; its tokens are read when they are asked for.
+
+    Args:
+        lines: The lines of the file.
+        rows: The first and the last row.
+        column: Where it starts in the first row, from 0.
+        indent: Width of the indentation; a tab goes to the next multiple of 8.
+        blank_lines: Blank lines since the logical line (or comment) before.
+        code: The statement as in ``text``; empty for a comment.
+        levels: 1 when it is the first of a block, less than 0 for the blocks that end ahead of it.
+    """
 
     def __init__(
-        self, tokens: list[Token], first: Token, lines: list[str], blank_before: int
+        self,
+        lines: list[str],
+        rows: tuple[int, int],
+        column: int,
+        indent: int,
+        blank_lines: int,
+        code: str,
+        *,
+        is_opaque: bool = False,
+        levels: int = 0,
     ) -> None:
-        self.tokens = tokens
         self.lines = lines
-        self.blank_lines = blank_before
+        self.row, self.end_row = rows
+        self.column = column
+        self.indent = indent
+        self.blank_lines = blank_lines
         """Blank lines since the logical line (or comment) before."""
-        self._first = first
-        self.row = self._first.start[0]
-        self.end_row = tokens[-1].start[0]
-
-    @cached_property
-    def first(self) -> str:
-        """The text of the first token; empty for a comment."""
-        return "" if self.is_comment else self._first.string
-
-    @property
-    def last(self) -> str:
-        """The text of the last token that is not a comment; empty for a comment."""
-        return next(
-            (token.string for token in reversed(self.tokens) if token.type not in SILENT), ""
-        )
-
-    @cached_property
-    def is_comment(self) -> bool:
+        self.code = code
+        """As ``text``; an f-string may be one string in it."""
+        self.is_opaque = is_opaque
+        """Whether ``code`` is not ``text``."""
+        self.is_comment = not code
         """Whether there is nothing but a comment."""
-        return self._first.type == COMMENT and all(token.type in SILENT for token in self.tokens)
+        matched = _FIRST.match(code)
+        self.first = matched[0] if matched else ""
+        """The first word; of a string only what it starts with; empty for a comment."""
+        self.last = code[-1:]
+        """The last character; empty for a comment."""
+        self._levels = levels
+
+    @classmethod
+    def of_tokens(
+        cls, tokens: list[Token], first: Token, lines: list[str], blank_lines: int
+    ) -> LogicalLine:
+        """Return the logical line of some tokens.
+
+        Args:
+            tokens: The tokens.
+            first: The first of them that is not layout.
+            lines: The lines of the file.
+            blank_lines: Blank lines since the logical line before.
+        """
+        (row, column), (end_row, _) = first.start, tokens[-1].start
+        text, _ = _built(tokens, first.start, lines)
+        indent = expand_indent(lines[row - 1][:column])
+        line = cls(lines, (row, end_row), column, indent, blank_lines, text)
+        line.tokens = tokens
+        return line
 
     @cached_property
-    def indent(self) -> int:
-        """Width of the indentation; a tab goes to the next multiple of 8."""
-        row, column = self._first.start
-        return expand_indent(self.lines[row - 1][:column])
+    def tokens(self) -> list[Token]:
+        """The tokens, with the change of the indentation in front."""
+        return read_statement(self.lines, self.row, self.end_row, self._levels)
 
-    @property
+    @cached_property
     def text(self) -> str:
         """The statement on one line, without comments, the content of strings as ``xxx``."""
-        return self._built[0]
+        return self._built[0] if self.is_opaque else self.code
 
     def position(self, offset: int) -> Position:
         """Return row (from 1) and column (from 0) of an offset of ``text``.
@@ -68,6 +103,8 @@ class LogicalLine:
         As in flake8, an offset belongs to the first token that ends at or after it and is counted
         back from the token's end: within a string of several rows the last row is returned.
         """
+        if self.row == self.end_row or not offset:
+            return self.row, self.column + min(offset, len(self.text))
         ends, places = self._built[1]
         at = bisect_left(ends, offset)
         if at == len(ends):
@@ -76,32 +113,41 @@ class LogicalLine:
         return row, column + offset - ends[at]
 
     @cached_property
-    def _built(self) -> tuple[str, tuple[list[int], list[Position]]]:
-        parts: list[str] = []
-        ends, places = [0], [self._first.start]
-        length = 0
-        before: Token | None = None
-        for token in self.tokens:
-            if token.type in SILENT:
-                continue
-            text = _visible(token)
-            if before is not None and before.end != token.start:
-                text = self._gap(before, token, text) + text
-            parts.append(text)
-            length += len(text)
-            ends.append(length)
-            places.append(token.end)
-            before = token
-        return "".join(parts), (ends, places)
+    def _built(self) -> _Built:
+        return _built(self.tokens, (self.row, self.column), self.lines)
 
-    def _gap(self, before: Token, token: Token, text: str) -> str:
-        """Return what is between two tokens when the line breaks are taken out."""
-        if before.end[0] != token.start[0]:
-            last = self.lines[before.end[0] - 1][before.end[1] - 1]
-            if last == "," or (last not in "{[(" and text not in "}])"):
-                return " "
-            return ""
-        return self.lines[token.start[0] - 1][before.end[1] : token.start[1]]
+
+def _built(tokens: Sequence[Token], start: Position, lines: Sequence[str]) -> _Built:
+    """Return the text of a logical line, and the offsets and places where its tokens end."""
+    parts: list[str] = []
+    ends, places = [0], [start]
+    length = 0
+    before: Token | None = None
+    for token in tokens:
+        if token.type in SILENT:
+            continue
+        text = _visible(token)
+        if before is not None and before.end != token.start:
+            text = _between(before, token, text, lines) + text
+        parts.append(text)
+        length += len(text)
+        ends.append(length)
+        places.append(token.end)
+        before = token
+    return "".join(parts), (ends, places)
+
+
+def _between(before: Token, token: Token, text: str, lines: Sequence[str]) -> str:
+    """Return what is between two tokens when the line breaks are taken out."""
+    (row, column), (next_row, next_column) = before.end, token.start
+    if row != next_row:
+        return gap(lines[row - 1][column - 1], text)
+    return lines[row - 1][column:next_column]
+
+
+def gap(last: str, following: str) -> str:
+    """Return what stands for a line break between a character and a token."""
+    return " " if last == "," or (last not in "{[(" and following not in "}])") else ""
 
 
 def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
@@ -121,19 +167,16 @@ def split(tokens: list[Token], lines: list[str]) -> list[LogicalLine]:
             first = first or token
         elif depth == 0 and kind in NEWLINES:
             if first is not None:
-                logical_lines.append(LogicalLine(tokens[start : at + 1], first, lines, blank_lines))
+                logical_lines.append(
+                    LogicalLine.of_tokens(tokens[start : at + 1], first, lines, blank_lines)
+                )
                 blank_lines, first, start = 0, None, at + 1
             elif kind == NL and at == start:
                 blank_lines += 1
                 start = at + 1
     if first is not None and first.string:
-        logical_lines.append(LogicalLine(tokens[start:], first, lines, blank_lines))
+        logical_lines.append(LogicalLine.of_tokens(tokens[start:], first, lines, blank_lines))
     return logical_lines
-
-
-def ends_statement(logical: LogicalLine) -> bool:
-    """Tell whether a logical line ends with a statement's end, not with a comment's."""
-    return logical.tokens[-1].type == NEWLINE
 
 
 def expand_indent(line: str) -> int:

@@ -26,7 +26,7 @@ from tokenize import (
 Token = tokenize.TokenInfo
 
 _CONTINUATION = -1
-_QUOTED = (
+QUOTED = (
     r'"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""',
     r"'''[^'\\]*(?:(?:\\.|'(?!''))[^'\\]*)*'''",
     r'"(?!"")[^\n"\\]*(?:\\.[^\n"\\]*)*"',
@@ -37,7 +37,7 @@ _PATTERNS = {
     NAME: r"""[^\W\d]\w*(?!["'\w])""",
     OP: _OPERATOR,
     NEWLINE: r"\n",
-    STRING: f"(?:[bB][rR]?|[rR][bBfF]?|[fF][rR]?|[uU])?(?:{'|'.join(_QUOTED)})",
+    STRING: f"(?:[bB][rR]?|[rR][bBfF]?|[fF][rR]?|[uU])?(?:{'|'.join(QUOTED)})",
     NUMBER: re.sub(r"(?<!\\)\((?!\?)", "(?:", tokenize.Number),
     COMMENT: r"#[^\n]*",
     _CONTINUATION: r"\\\n",
@@ -55,19 +55,20 @@ _SILENT = frozenset({NEWLINE, COMMENT})
 
 
 def read(  # noqa: C901  calls for each token would take the time that is to be saved
-    text: str, lines: Sequence[str]
+    text: str, lines: Sequence[str], row: int = 1
 ) -> list[Token] | None:
     r"""Return the tokens; ``None`` where Python's tokenizer is to be asked.
 
     Args:
-        text: The text; each line ends with ``\n``.
-        lines: Its lines.
+        text: The text of some lines of a file, or all; each ends with ``\n``.
+        lines: The lines of the file.
+        row: The number of the first line of the text.
     """
     tokens: list[Token] = []
     add, new = tokens.append, tuple.__new__
     indents = [0]
-    row, row_start, depth, at = 1, 0, 0, 0
-    line = lines[0] if lines else ""
+    row_start = depth = at = 0
+    line = lines[row - 1] if lines else ""
     is_ascii = text.isascii()
     is_first = True
     """Whether a statement may begin here."""

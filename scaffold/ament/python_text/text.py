@@ -10,10 +10,19 @@ import warnings
 from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import accumulate
 
+from scaffold.ament import linters
+from scaffold.ament.python_text import quick_lines
 from scaffold.ament.python_text.logical import LogicalLine, split
 from scaffold.ament.python_text.tokenizer import read
-from scaffold.ament.python_text.tokens import FSTRING_END, FSTRING_START, STRING, Token
+from scaffold.ament.python_text.tokens import (
+    FSTRING_END,
+    FSTRING_START,
+    OPEN_FSTRINGS,
+    STRING,
+    Token,
+)
 from scaffold.errors import EXHAUSTED
 from scaffold.model.python.bounds import why_unchecked
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
@@ -142,24 +151,63 @@ class PythonText:
         """The tokens as in Python 3.12; empty when the file cannot be tokenized."""
         return read(self.lines)
 
+    @property
+    def is_without_tokens(self) -> bool:
+        """Whether the file cannot be tokenized."""
+        return self.outline is None and not self.tokens
+
     @cached_property
     def multiline_rows(self) -> set[int]:
         """The rows that end within a string."""
         rows: set[int] = set()
-        start = 0
+        if self.outline is not None:
+            for start, _, end in self.outline.literals:
+                if "\n" in self.text[start:end]:
+                    rows.update(range(self.line_of(start), self.line_of(end - 1)))
+            return rows
+        first = 0
         for token in self.tokens:
             if token.type == FSTRING_START:
-                start = token.start[0]
+                first = token.start[0]
             elif token.type == FSTRING_END:
-                rows.update(range(start, token.end[0]))
+                rows.update(range(first, token.end[0]))
             elif token.type == STRING and token.start[0] != token.end[0]:
                 rows.update(range(token.start[0], token.end[0]))
         return rows
 
     @cached_property
+    def are_fstrings_opened(self) -> bool:
+        """Whether the linters see what is inside of the braces of an f-string."""
+        return linters.of_target().python >= OPEN_FSTRINGS
+
+    @cached_property
+    def outline(self) -> quick_lines.Outline | None:
+        """What can be known of the file without tokens, if anything."""
+        if self.tree is None:
+            return None
+        return quick_lines.read(self.text, self.lines, is_opened=self.are_fstrings_opened)
+
+    @cached_property
     def logical_lines(self) -> list[LogicalLine]:
         """Statements and comment lines, in order."""
-        return split(self.tokens, self.lines)
+        return self.outline.lines if self.outline else split(self.tokens, self.lines)
+
+    def lines_with(self, pattern: str) -> list[LogicalLine]:
+        """Return the logical lines whose text may contain a pattern."""
+        code, starts, opaque = self._code
+        found = {
+            bisect_right(starts, item.end() - 1) - 1
+            for item in re.finditer(pattern, code, re.MULTILINE)
+        }
+        return [self.logical_lines[at] for at in sorted(found | opaque)]
+
+    @cached_property
+    def _code(self) -> tuple[str, list[int], set[int]]:
+        """The texts of all logical lines, where each starts, and which of them are not exact."""
+        texts = [logical.code for logical in self.logical_lines]
+        starts = [0, *accumulate(len(text) + 1 for text in texts)]
+        opaque = {at for at, logical in enumerate(self.logical_lines) if logical.is_opaque}
+        return "\n".join(texts), starts, opaque
 
     @cached_property
     def indent_char(self) -> str:

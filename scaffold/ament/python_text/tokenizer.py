@@ -6,25 +6,65 @@ import tokenize
 
 from scaffold.ament import linters
 from scaffold.ament.python_text import fstrings, quick_tokens
-from scaffold.ament.python_text.tokens import FSTRING_START, OPEN_FSTRINGS, Token
+from scaffold.ament.python_text.tokens import (
+    DEDENT,
+    ENDMARKER,
+    FSTRING_START,
+    INDENT,
+    OPEN_FSTRINGS,
+    Token,
+)
 
 
-def read(lines: list[str]) -> list[Token]:
-    """Tokenize a file; return an empty list when that is not possible."""
-    tokens = _read(lines)
+def read(lines: list[str], rows: tuple[int, int] | None = None) -> list[Token]:
+    """Tokenize a file; return an empty list when that is not possible.
+
+    Args:
+        lines: Its lines.
+        rows: The first and the last one to read, as if they were all.
+    """
+    tokens = _read(lines, rows)
     are_open, are_wanted_open = FSTRING_START > 0, linters.of_target().python >= OPEN_FSTRINGS
     if are_open == are_wanted_open:
         return tokens
     return fstrings.open_up(tokens) if are_wanted_open else fstrings.close_up(tokens, lines)
 
 
-def _read(lines: list[str]) -> list[Token]:
+def read_statement(lines: list[str], row: int, end_row: int, levels: int) -> list[Token]:
+    """Tokenize a statement, or a comment.
+
+    Args:
+        lines: The lines of the file.
+        row: The first row.
+        end_row: The last row.
+        levels: 1 when it is the first of a block, less than 0 for the blocks that end ahead of it.
+    """
+    tokens = read(lines, (row, end_row))
+    while tokens and tokens[-1].type in (DEDENT, ENDMARKER):
+        tokens.pop()
+    if levels < 1 and tokens and tokens[0].type == INDENT:
+        del tokens[0]
+    if levels < 0:
+        first = tokens[0]
+        tokens[:0] = [Token(DEDENT, "", first.start, first.start, first.line)] * -levels
+    return tokens
+
+
+def _read(lines: list[str], rows: tuple[int, int] | None) -> list[Token]:
+    row, end_row = rows or (1, len(lines))
+    some = lines if rows is None else lines[row - 1 : end_row]
     if FSTRING_START < 0:
-        tokens = quick_tokens.read("".join(lines), lines)
+        tokens = quick_tokens.read("".join(some), lines, row)
         if tokens is not None:
             return tokens
-    feed = iter([*lines, ""]).__next__
+    feed = iter([*some, ""]).__next__
     try:
-        return list(tokenize.generate_tokens(feed))
+        tokens = list(tokenize.generate_tokens(feed))
     except (tokenize.TokenError, SyntaxError, StopIteration):
         return []
+    return tokens if row == 1 else [_moved(token, row - 1) for token in tokens]
+
+
+def _moved(token: Token, rows: int) -> Token:
+    (row, column), (end_row, end) = token.start, token.end
+    return token._replace(start=(row + rows, column), end=(end_row + rows, end))

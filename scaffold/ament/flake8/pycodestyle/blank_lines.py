@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from scaffold.ament.finding import Finding
-from scaffold.ament.python_text.logical import LogicalLine, ends_statement, expand_indent
+from scaffold.ament.python_text.logical import LogicalLine, expand_indent
 from scaffold.ament.python_text.text import PythonText
 
 _STRING = r"u?r?[\"']"
 _DEFINITION = r"(async\s+def\s+|def\s+|class\s+|@)"
+_DEFINING = frozenset({"async", "def", "class", "@"})
 _FUNCTION = r"(async\s+def|def)\b"
 AT_TOP = 2
 IN_BLOCK = 1
@@ -22,10 +23,11 @@ def check(text: PythonText) -> Iterator[Finding]:
     """Yield the logical lines with too many or too few blank lines before them."""
     state = _State(text.lines)
     for logical in text.logical_lines:
-        code, message = state.judge(logical)
-        if code:
-            row, column = logical.position(0)
-            yield Finding(code, row, column + 1, message)
+        if logical.blank_lines or not logical.indent or logical.first in _DEFINING:
+            code, message = state.judge(logical)
+            if code:
+                row, column = logical.position(0)
+                yield Finding(code, row, column + 1, message)
         state.move_on(logical)
 
 
@@ -127,7 +129,6 @@ class _State:
             self.last_indent = logical.indent
             if not logical.indent:
                 self.last_at_top = self.last
-        if ends_statement(logical):
             self.before = 0
 
 
@@ -135,6 +136,6 @@ def _start(logical: LogicalLine) -> str:
     """Return the first word of the logical line, or all of it where a definition may start."""
     if logical.is_comment:
         return ""
-    if logical.first in ("async", "def", "class", "@"):
+    if logical.first in _DEFINING:
         return logical.text
     return logical.first

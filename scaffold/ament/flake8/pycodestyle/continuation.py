@@ -49,7 +49,7 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     is_tabbed = text.indent_char == "\t"
     for logical in text.logical_lines:
         # After a last line that is a comment, the end of the file is a row without a line.
-        if logical.tokens[0].start[0] != logical.end_row <= len(logical.lines):
+        if logical.row != logical.end_row <= len(logical.lines):
             for (row, column), code in _Walk(logical, options, is_tabbed=is_tabbed).faults():
                 yield Finding(code, row, column + 1, _MESSAGES[code])
 

@@ -17,8 +17,13 @@ TAB = 8
 def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
     """Yield the logical lines that are indented wrongly."""
     before: LogicalLine | None = None
+    step = options.indent_size
     for logical in text.logical_lines:
-        for code in _judge(logical, before, text.indent_char, options.indent_size):
+        is_on_level = before is not None and logical.indent == before.indent
+        if is_on_level and not logical.is_comment and not logical.indent % step:
+            before = logical
+            continue
+        for code in _judge(logical, before, text.indent_char, step):
             row, column = logical.position(0)
             yield Finding(code, row, column + 1)
         if not logical.is_comment:

@@ -40,13 +40,14 @@ CODES = frozenset(_CODES.split())
 """Codes of ruff that make a line worth a look."""
 
 CANDIDATES = (
-    r"[,;:]\\\n|,\]"
-    r"|\{[^{}\n]*:[^{}\n]*\{"
-    r"|\S(?:  | ?\t)[ \t]*[-+*/|!<=>%&^:]"
+    r",\]|\{[^{}\n]*:[^{}\n]*\{"
+    r"|(?:  |\t)[ \t]*[-+*/|!<=>%&^:]"
     r"|[-+*/|!<=>%&^](?:  | ?\t)"
 )
-"""What ruff passes over: a comma before a backslash or a bracket, a format within a format, spaces
-at ``->``."""
+"""What ruff passes over: a comma before a bracket, a format within a format, spaces at ``->``."""
+
+CONTINUED = r"[,;:]\\\n"
+"""Likewise, in the text of the file: a comma before a backslash."""
 
 ARITHMETIC_CANDIDATES = r"|[-+*/@]"
 """Likewise for E226, which the configuration of ament leaves out."""

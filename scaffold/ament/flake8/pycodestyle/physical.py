@@ -56,7 +56,7 @@ def _trailing(text: PythonText) -> Iterator[Finding]:
 
 
 def _is_inside_string(text: PythonText, line: int) -> bool:
-    return not text.tokens or line in text.multiline_rows
+    return text.is_without_tokens or line in text.multiline_rows
 
 
 def _end(text: PythonText) -> Iterator[Finding]:

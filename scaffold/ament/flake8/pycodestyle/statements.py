@@ -48,23 +48,23 @@ def check(text: PythonText) -> Iterator[Finding]:
     """Yield what is wrong with statements."""
     is_modern = linters.of_target().since("pycodestyle", 2, 11)
     for pattern, judge in (
-        (_SPACE + r"|\n[,;:]", spaces),
+        (_SPACE, spaces),
         (r"[=!]=" if is_modern else r"[=!]=|\bis\b[^\n]*\btype", comparisons),
-        (r"\bnot\b", negations),
-        (r"[;]|=[\s\\]*lambda\b", compounds),
-        (r"^[ \t]*except\b[^\n]*:", bare_except),
+        (r"not\b", negations),
+        (r";|=[ \t]*lambda\b", compounds),
+        (r"^except\s*:", bare_except),
     ):
-        for logical in _candidates(text, pattern):
+        for logical in text.lines_with(pattern):
             yield from _placed(logical, judge(logical.text))
     for logical in text.logical_lines:
         if logical.first in _BLOCK_KEYWORDS and logical.last != ":":
             yield from _placed(logical, compounds(logical.text))
-    for logical in _candidates(text, r"\\\n"):
+    for logical in _continued(text):
         yield from needless_backslashes(logical)
-    for logical in _candidates(text, r"\b[lOI]\b"):
+    for logical in text.lines_with(r"\b[lOI]\b"):
         yield from ambiguous_names(logical)
     if linters.of_target().since("pycodestyle", 2, 12):
-        for logical in _candidates(text, r"^[ \t]*@\s"):
+        for logical in text.lines_with(r"^@\s"):
             yield from _placed(logical, spaced_decorator(logical.text))
     yield from late_imports(text)
 
@@ -75,11 +75,11 @@ def spaced_decorator(line: str) -> Faults:
         yield 1, "E204", "whitespace after '@'"
 
 
-def _candidates(text: PythonText, pattern: str) -> Iterator[LogicalLine]:
-    """Yield the logical lines that a pattern occurs in."""
+def _continued(text: PythonText) -> Iterator[LogicalLine]:
+    """Yield the logical lines with a backslash at the end of a row."""
     seen = 0
-    for item in re.finditer(pattern, text.text, re.MULTILINE):
-        line = text.line_of(item.end() - 1)
+    for item in re.finditer(r"\\\n", text.text):
+        line = text.line_of(item.start())
         if line <= seen:
             continue
         logical = text.logical_line_at(line)
@@ -149,14 +149,15 @@ class _Brackets:
     """Knows what is open in a logical line; asked in the order of the text, it reads it once."""
 
     def __init__(self, logical: LogicalLine) -> None:
-        self._tokens = logical.tokens
+        self._logical = logical
         self._at = 0
         self._open: list[str] = []
 
     def around(self, place: Position) -> Sequence[str]:
         """Return what is open at a place: brackets, and ``f`` for an f-string."""
-        while self._at < len(self._tokens) and self._tokens[self._at].start < place:
-            self._read(self._tokens[self._at])
+        tokens = self._logical.tokens
+        while self._at < len(tokens) and tokens[self._at].start < place:
+            self._read(tokens[self._at])
             self._at += 1
         return self._open
 
