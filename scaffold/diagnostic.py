@@ -35,6 +35,8 @@ class Effect(IntEnum):
     """A program stops on a machine that lacks a package."""
     DECLARED_WRONG = 5
     """The manifest, a name or a test says something wrong; nothing stops here."""
+    UNPUBLISHABLE = 6
+    """Nothing stops, but a license or a notice is missing that others need."""
 
 
 class Diagnostic(NamedTuple):

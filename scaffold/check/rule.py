@@ -119,6 +119,7 @@ class Example:
 _EFFECTS = {
     "CM": Effect.SPOILS_INSTALL,
     **dict.fromkeys(("LY", "NM", "PX", "TS"), Effect.DECLARED_WRONG),
+    "LY02": Effect.UNPUBLISHABLE,
 }
 """What flaws of an area do, of those where most do not stop a program."""
 
@@ -154,7 +155,8 @@ class Rule:
         """Return what the flaw does, which decides how early a screen shows it."""
         if cls.effect is not None:
             return cls.effect
-        return _EFFECTS.get(cls.code[:2], Effect.STOPS_PROGRAM)
+        of_area = _EFFECTS.get(cls.code[:2], Effect.STOPS_PROGRAM)
+        return _EFFECTS.get(cls.code[:4], of_area)
 
     @classmethod
     def fix_safety(cls) -> Safety | None:

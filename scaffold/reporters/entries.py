@@ -147,8 +147,7 @@ def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
     rule = rules.get(code)
     effect = rule.usual_effect() if rule else Effect.STOPS_PROGRAM
     if first.cause.startswith(DEPENDENCY):
-        is_run = effect in {Effect.STOPS_PROGRAM, Effect.IGNORED}
-        return Effect.MISSING_ELSEWHERE if is_run else Effect.DECLARED_WRONG
+        return Effect.MISSING_ELSEWHERE
     if effect in {Effect.STOPS_PROGRAM, Effect.IGNORED} and _TESTS.search(first.location.path):
         return Effect.SPOILS_INSTALL
     return effect

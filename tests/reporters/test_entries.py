@@ -64,11 +64,20 @@ def test_packages_of_ros1_come_after_crashes() -> None:
 
 
 def test_what_keeps_a_package_from_being_built_comes_before_crashes() -> None:
-    codes = ["PX001", "PF004", "CM014", "ND001", "CM011", "E999"]
+    codes = ["LY020", "PX001", "PF004", "CM014", "ND001", "CM011", "E999"]
     ordered = in_order([entry for code in codes for entry in by_cause(_result(".", code, "a"))])
     assert [entry.first.code for entry in ordered] == [
-        *("CM011", "E999", "ND001", "PF004", "CM014", "PX001")
+        *("CM011", "E999", "ND001", "PF004", "CM014", "PX001", "LY020")
     ]
+
+
+def test_missing_packages_come_before_what_stops_nothing() -> None:
+    results = [_result(".", code, "a") for code in ("LY020", "PX001", "CM020", "PX020", "LF005")]
+    for result in results[2:]:
+        (found,) = result.diagnostics
+        result.diagnostics[:] = [found._replace(cause=f"dependency {found.code}")]
+    ordered = in_order([entry for result in results for entry in by_cause(result)])
+    assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
 
 
 def test_tests_come_after_what_a_robot_runs() -> None:
