@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import is_guarded_by
-from scaffold.api.rclpy import RclpyFile, namespace_problem, node_problem, topic_problem
+from scaffold.api.rclpy import (
+    RclpyFile,
+    namespace_problem,
+    node_problem,
+    part_problem,
+    topic_problem,
+)
 
 _NODE = (
     "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
@@ -94,6 +102,23 @@ class NameInvalid(RclpyRule):
             Report("8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
         ),
         Example(
+            "parts of names, between those that are filled in",
+            {
+                "talker.py": _NODE.replace(
+                    "        self.create_publisher(String, '{}', 10)\n",
+                    "        name = self.get_namespace() + r'\\scan'\n"
+                    "        self.create_publisher(String, name, 10)\n"
+                    "        self.create_publisher(String, '/%s/front_scan' % side(), 10)\n"
+                    "        self.create_publisher(String, '/{}/front scan'.format(side()), 10)\n"
+                    "        self.create_publisher(String, f'{side()}/front/scan', 10)\n"
+                    "        topic = (side() + '-a').replace('-', '_')\n"
+                    "        self.create_publisher(String, topic, 10)\n",
+                )
+            },
+            Report("9:39", "ROS 2 refuses this name: '\\\\' is not allowed"),
+            Report("11:39", "ROS 2 refuses this name: a blank is not allowed"),
+        ),
+        Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
             Report("8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
@@ -131,7 +156,13 @@ class NameInvalid(RclpyRule):
     def _check_topics(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for entity in file.endpoints:
             argument = entity.name_argument
-            if argument is None or not isinstance(entity.name, str):
+            if argument is None:
+                continue
+            if not isinstance(entity.name, str):
+                parts = _written_parts(file.evaluator.single_value(argument.node))
+                problem = next(filter(None, map(part_problem, parts)), None)
+                if problem:
+                    yield self.report(argument, f"ROS 2 refuses this name: {problem}")
                 continue
             # An empty default is there to be replaced.
             if entity.from_parameter and _has_gap(entity.name):
@@ -165,6 +196,23 @@ class NameInvalid(RclpyRule):
             if "__" in name:
                 message = f"the name {name!r} has two underscores in a row"
                 yield self.report(argument, message, severity=Severity.WARNING)
+
+
+def _written_parts(node: ast.expr) -> Iterator[str]:
+    """Yield the parts of a name that are written out, between those that are filled in."""
+    match node:
+        case ast.Constant(value=str(text)):
+            yield text
+        case ast.JoinedStr(values=parts):
+            for part in parts:
+                yield from _written_parts(part)
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            yield from _written_parts(left)
+            yield from _written_parts(right)
+        case ast.BinOp(left=ast.Constant(value=str(text)), op=ast.Mod()):
+            yield from re.split(r"%[^a-zA-Z%]*[a-zA-Z%]", text)
+        case ast.Call(func=ast.Attribute(attr="format", value=ast.Constant(value=str(text)))):
+            yield from re.split(r"\{[^{}]*\}", text)
 
 
 def _has_gap(name: str) -> bool:

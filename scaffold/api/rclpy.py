@@ -45,7 +45,12 @@ from scaffold.model.rclpy.entities import (
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file, rclpy_paths
 from scaffold.model.rclpy.latched import latched_topics
 from scaffold.model.rclpy.logging import LOG_METHODS, is_of_rclpy, log_calls
-from scaffold.model.rclpy.names import namespace_problem, node_problem, topic_problem
+from scaffold.model.rclpy.names import (
+    namespace_problem,
+    node_problem,
+    part_problem,
+    topic_problem,
+)
 from scaffold.model.rclpy.nodes import NodeClass, NodeDefinition
 from scaffold.model.rclpy.parameters.callbacks import RESULT, wrong_value
 from scaffold.model.rclpy.parameters.descriptors import DESCRIPTOR, message_made
@@ -147,6 +152,7 @@ __all__ = [
     "only_while_stopping",
     "parameter_read",
     "parameters_set",
+    "part_problem",
     "rclpy_file",
     "rclpy_paths",
     "topic_problem",

@@ -23,6 +23,14 @@ def topic_problem(name: str) -> str | None:
     return _character_problem(name, plain) or _form_problem(name, plain)
 
 
+def part_problem(part: str) -> str | None:
+    """Return what is wrong with a part of such a name, whatever is before and after it."""
+    wrong = re.search(r"[^A-Za-z0-9_/~{}]", part)
+    if wrong:
+        return f"{_shown(wrong[0])} is not allowed"
+    return "'//' is not allowed" if "//" in part else None
+
+
 def _character_problem(name: str, plain: str) -> str | None:
     if name.startswith("~") and name[1:2] != "/" and len(name) > 2:  # noqa: PLR2004  rcl takes ~a
         return "'~' must be followed by '/'"
