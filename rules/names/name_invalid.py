@@ -119,6 +119,19 @@ class NameInvalid(RclpyRule):
             Report("11:39", "ROS 2 refuses this name: a blank is not allowed"),
         ),
         Example(
+            "a program that is called like a test, and a test",
+            {
+                "talker/test_talker.py": _NODE.format("front-scan")
+                + "\n\ndef main():\n    Talker()\n",
+                "talker/test_listener.py": _NODE.format("front-scan")
+                + "\n\ndef test_talker():\n    Talker()\n",
+            },
+            Report(
+                "talker/test_talker.py:8:39",
+                "ROS 2 refuses the name 'front-scan': '-' is not allowed",
+            ),
+        ),
+        Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
             Report("8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),

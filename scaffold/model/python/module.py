@@ -43,6 +43,10 @@ class Class(NamedTuple):
     location: Location
 
 
+_TEST_TOOLS = ("pytest", "unittest", "launch_testing")
+"""What tests mention that pytest or unittest runs."""
+
+
 def is_in_tests(path: str) -> bool:
     """Tell whether a file is a test, by its name or directory."""
     *directories, name = path.split("/")
@@ -256,7 +260,16 @@ class PythonModule:
     @cached_property
     def in_tests(self) -> bool:
         """Whether the file is a test, by its name or directory."""
-        return is_in_tests(self.path)
+        return is_in_tests(self.path) and not self._is_program()
+
+    def _is_program(self) -> bool:
+        """Tell whether a file is named like a test, and is a program that tries something."""
+        *directories, name = self.path.split("/")
+        if name == "conftest.py" or not {"test", "tests"}.isdisjoint(directories):
+            return False
+        plain = [item.name for item in self.classes.values() if not item.node.bases]
+        is_collected = any(name.startswith(("test", "Test")) for name in (*self.functions, *plain))
+        return "main" in self.functions and not is_collected and not self.mentions(*_TEST_TOOLS)
 
     @cached_property
     def main_guard(self) -> Location | None:

@@ -80,12 +80,14 @@ def rclpy_file(modules: Modules, path: str) -> RclpyFile:
 
 
 def rclpy_paths(package: Package) -> Sequence[str]:
-    """Return the Python files that import rclpy; tests try what nodes must not do."""
+    """Return the Python files that import rclpy, tests aside: those try what nodes must not do."""
 
     def find() -> Iterator[str]:
         for path in package.python_files:
             with suppress(ViewError):
-                if "rclpy" in package.imports(path) and not is_in_tests(path):
+                if "rclpy" not in package.imports(path):
+                    continue
+                if not is_in_tests(path) or not package.module(path).in_tests:
                     yield path
 
     return package.remember("rclpy_paths", lambda: list(find()))
