@@ -9,10 +9,10 @@ the author says about the type of the parameter is left out then: no call has to
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
-from scaffold.types import containers, makers
+from scaffold.types import containers, makers, returns
 from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.callbacks import arguments_of, function_body
 from scaffold.types.passed import Passed, own_names, places
@@ -69,11 +69,14 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
         return Extended(data, ())
     lines: dict[int, list[str]] = {}
     annotations: list[tuple[int, int]] = []
+    taken: dict[int, Collection[str]] = {}
     calls: dict[str, list[Passed]] = {}
     for call in received:
         calls.setdefault(call.function.removeprefix(f"{module}."), []).append(call)
     for function in _functions(text):
-        annotations += _follow(text, function, calls.get(function.name, ()), lines)
+        followed = _follow(text, function, calls.get(function.name, ()), lines)
+        taken[function.start] = followed
+        annotations += filter(None, followed.values())
     passed = [*_passed(text, data, module, lines)]
     stretches = [(start, end, " " * (end - start)) for start, end in annotations]
     for kept in containers.kept_values(text):
@@ -82,10 +85,14 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
     is_kept = len(stretches) > len(annotations)
     heads = makers.generic_heads(text)
     _add(lines, heads)
-    if not lines:
+    results = returns.results(text, taken, heads)
+    _add(lines, results.lines)
+    stretches += results.heads
+    if not (lines or stretches):
         return Extended(data, ())
     extended = with_lines(text, lines, stretches)
     end = containers.definitions() * is_kept + makers.definitions() * bool(heads)
+    end += results.definitions
     return extended._replace(data=extended.data + end.encode(), passed=passed)
 
 
@@ -121,16 +128,16 @@ def _keep(text: str, place: int, values: Mapping[str, str], lines: dict[int, lis
 
 def _follow(
     text: str, function: _Function, received: Sequence[Passed], lines: dict[int, list[str]]
-) -> Iterator[tuple[int, int]]:
+) -> Mapping[str, tuple[int, int] | None]:
     """Add the lines before the calls of a function, and the one at its start.
 
-    Yields:
-        Where the annotations are of the parameters that are taken from there.
+    Returns:
+        The parameters that are taken from there, and where their annotations are.
     """
     sources: dict[str, list[str]] = {}
     calls = [*_calls(text, function)]
     if not (calls or received):
-        return
+        return {}
     parameters = _Parameters(function)
     for number, (place, words, is_partial) in enumerate(calls):
         kept: dict[str, str] = {}
@@ -156,8 +163,7 @@ def _follow(
     if taken:
         taking = "; ".join([*imports, *taken.values()])
         lines.setdefault(function.start, []).insert(0, function.inner + taking)
-        annotations = parameters.annotations
-        yield from (annotations[name] for name in taken if name in annotations)
+    return {name: parameters.annotations.get(name) for name in taken}
 
 
 def _functions(text: str) -> Iterator[_Function]:

@@ -19,7 +19,6 @@ from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
 from scaffold.types.passed import callers
-from scaffold.types.results import with_result_types
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE
 from scaffold.types.ty import TyDiagnostic, UnavailableError
@@ -37,6 +36,9 @@ _NAMELESS = re.compile(
     r"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\])` has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
     r"|(?:Not enough|Too many) values to unpack: Expected \d+.*"
+    r"|(?:Object of type|Cannot subscript object of type) `(?:int|float|bool)`"
+    r"(?: is not (?:callable|iterable)| with no .*)"
+    r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
 )
 """Matches reports of interest that name nothing of ROS."""
 # linear: a line has 20 kB at most
@@ -360,15 +362,15 @@ def _of_user(diagnostics: Sequence[TyDiagnostic], written: Extended) -> Iterator
 
 
 def _annotated(source: Source) -> bytes:
-    """Return a file with the types of its callbacks and of plain results."""
-    return with_result_types(source.with_callback_types) if source.path else source.data
+    """Return a file with the types of its callbacks."""
+    return source.with_callback_types if source.path else source.data
 
 
 def _unannotated(source: Source) -> bytes:
     """Return a file with no other annotations; nothing of one that does not parse."""
     if not source.path:
         return source.data
-    return with_result_types(without_annotations(source.with_callback_types) or b"")
+    return without_annotations(source.with_callback_types) or b""
 
 
 def _write(project: str, mirrored: Mapping[str, bytes]) -> None:

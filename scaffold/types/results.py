@@ -1,7 +1,6 @@
-"""What functions without annotations return, written into the files that a type checker reads.
+"""What functions without annotations return, as far as that is plain whatever they are given.
 
-It infers nothing by itself: what ``return self.x, self.y`` and ``return Pose()`` give is plain,
-and is added to the line of the ``def`` alone. So is what some methods of ROS give.
+``return self.x, self.y`` and ``return Pose()`` are plain, and so is what some methods of ROS give.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from collections.abc import Iterator
 from scaffold.types.callbacks import function_body
 
 _ANY = "_Ros2Any"
-_IMPORT = f"\nfrom typing import Any as {_ANY}\n"
 _FUNCTION = re.compile(
     r"^(?P<indent>[ \t]*)def (?P<name>[^\W\d]\w*)"
     r"(?P<parameters>\((?:[^()]|\([^()]*\)){0,800}\))(?P<end>[ \t]*):[ \t]*(?:#[^\n]*)?$",
@@ -32,12 +30,12 @@ _KNOWN = (
         "from geometry_msgs.msg import TransformStamped as _Ros2TransformStamped",
     ),
     (
-        re.compile(r"self\.get_clock\(\)\.now"),
+        re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now"),
         "_Ros2Time",
         "from rclpy.time import Time as _Ros2Time",
     ),
     (
-        re.compile(r"self\.get_clock\(\)\.now\(\)\.to_msg"),
+        re.compile(r"(?:\w+\.){1,3}get_clock\(\)\.now\(\)\.to_msg"),
         "_Ros2Stamp",
         "from builtin_interfaces.msg import Time as _Ros2Stamp",
     ),
@@ -47,30 +45,12 @@ _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _FEWEST = 2
 
 
-def with_result_types(data: bytes) -> bytes:
-    """Return a file with annotations for the results that are plain."""
-    if b"return" not in data:
-        return data
-    try:
-        text = data.decode()
-    except UnicodeDecodeError:
-        return data
-    return _annotated(text).encode()
-
-
-def _annotated(text: str) -> str:
-    parts: list[str] = []
-    at = 0
-    for match in functions(text):
-        type_ = _result(match["parameters"], body_of(text, match))
-        if type_:
-            end = match.end("end")
-            parts += text[at:end], f' -> "{type_}"'
-            at = end
-    text = "".join([*parts, text[at:]])
-    imports = [line for _, name, line in _KNOWN if f'"{name}"' in text]
-    text += "".join(f"\n{line}\n" for line in imports)
-    return text + _IMPORT if _ANY in text else text
+def imports(text: str) -> str:
+    """Return what is added at the end of a file whose functions have types of `plain_result`."""
+    lines = [line for _, name, line in _KNOWN if f'"{name}"' in text]
+    if f"tuple[{_ANY}" in text:
+        lines.append(f"from typing import Any as {_ANY}")
+    return "".join(f"\n{line}\n" for line in lines)
 
 
 def functions(text: str) -> Iterator[re.Match[str]]:
@@ -97,7 +77,7 @@ def _is_decorated(text: str, start: int) -> bool:
     return before.startswith("@") or before == ")"
 
 
-def _result(parameters: str, body: str) -> str:
+def plain_result(parameters: str, body: str) -> str:
     """Return the type of all that a function returns; empty if it is not plain."""
     types = {_type(value) for value in returned(parameters, body)}
     return types.pop() if len(types) == 1 else ""

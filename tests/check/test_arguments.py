@@ -63,7 +63,7 @@ def test_an_argument_is_kept_before_the_call_and_taken_in_the_function() -> None
         ("self.say('x')", "text = (['x'])[0]; times = ([1])[0]"),
         ("self.say(times=2, text='x')", "text = (['x'])[0]; times = ([2])[0]"),
         ("if self.say('x'):\n    pass", "text = (['x'])[0]; times = ([1])[0]"),
-        ("return print(self.say(\n    'x',\n    2,\n))", "text = (['x'])[0]; times = ([2])[0]"),
+        ("x = print(self.say(\n    'x',\n    2,\n))", "text = (['x'])[0]; times = ([2])[0]"),
         ("# x,\nself.say('x')", "text = (['x'])[0]; times = ([1])[0]"),
     ],
 )

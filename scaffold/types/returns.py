@@ -1,0 +1,272 @@
+"""What functions give their callers, for a type checker that looks only at their heads.
+
+``return self.frames[0]`` tells what a function gives. A line before it keeps the value under a
+global name, and the head of the function names the type of that. The same is done with what a
+generator yields.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property
+
+from scaffold.record import NamedTuple
+from scaffold.types.callbacks import function_body
+from scaffold.types.results import expression_at, imports, plain_result
+
+_KEPT = "_ros2_returned"
+_TYPE_OF = "_Ros2TypeOf"
+_YIELDING = "_Ros2Generator"
+_DEFINITIONS = f"""
+from collections.abc import Generator as {_YIELDING}
+from ty_extensions._internal import TypeOf as {_TYPE_OF}
+"""
+_FUNCTION = re.compile(
+    r"^(?P<indent> *)(?P<async>async )?def (?P<name>[^\W\d]\w*)"
+    r"(?P<parameters>\((?:[^()#]|\([^()#]*\)){0,800}\))(?P<end> *): *(?:#[^\n]*)?\n"
+    r"(?=\n*(?P<inner> +)\S)",
+    re.MULTILINE,
+)
+"""Matches the head of a function that has no annotation of its result."""
+_NAMED = re.compile(r"^[ ]*(?:async )?def (\w+)\(", re.MULTILINE)
+_ANY_WORD = re.compile(r"(?<![\w.'\"#])(?:return|yield)\b(?![\w'\"])")
+_OTHER_SCOPES = re.compile(r"^ *(?:(?:async )?def|class)\b", re.MULTILINE)
+_DOCSTRING = re.compile(r"\s*[rRuU]?(\"\"\"|''').*?\1", re.DOTALL)
+_KEEPING = frozenset(
+    {"property", "staticmethod", "classmethod", "cached_property", "contextmanager"}
+)
+"""Decorators of functions whose results are known by what these return."""
+_UNSUITED = re.compile(r"\b(?:lambda|await|yield)\b|:=|#|'''|\"\"\"|\\\n|^from\b")
+_EITHER = re.compile(r"\b(?:else|or|and)\b")
+"""Matches what makes a value one of several."""
+_ITSELF = re.compile(r"\bself\s*(?:$|[,)\]}])")
+_CALL = re.compile(r"([^\W\d]\w*)(?:\.\w+)*\(")
+_GENERIC = frozenset(
+    {"abs", "dict", "enumerate", "filter", "frozenset", "getattr", "iter", "list", "map", "max"}
+    | {"min", "next", "reversed", "round", "set", "sorted", "sum", "tuple", "vars", "zip", "type"}
+    | {"copy", "deepcopy", "partial", "super"}
+)
+"""Functions whose results are of the type of what they are given."""
+_SET = re.compile(r"^ *((?:\w+ *, *)*\w+) *(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
+_BOUND = re.compile(r"\bfor +\(?([\w, ()]+?)\)? +in\b([^\n]*)|\bas +(\w+)")
+_ATTRIBUTE = re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
+_OF_SELF = re.compile(r"self\.(\w+)")
+_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_MOST = 8
+"""Statements of one function; one with more returns anything."""
+
+
+class Results(NamedTuple):
+    """What the functions of a file give."""
+
+    lines: Mapping[int, list[str]]
+    """The lines to add, by the place that they go before."""
+    heads: Sequence[tuple[int, int, str]]
+    """Where something is added to the head of a function, and what."""
+    definitions: str
+    """What is added at the end of the file."""
+
+
+def results(
+    text: str, taken: Mapping[int, Collection[str]], others: Collection[int] = ()
+) -> Results:
+    """Return what tells a type checker what the functions of a file give.
+
+    Args:
+        text: The file.
+        taken: The parameters whose types are those of what the functions are given in this file,
+            by where the bodies of the functions begin. Others may give them something else.
+        others: Where functions are that have another head already.
+    """
+    lines: dict[int, list[str]] = {}
+    heads: list[tuple[int, int, str]] = []
+    if "return " not in text and "yield " not in text:
+        return Results(lines, heads, "")
+    count = Counter(_NAMED.findall(text))
+    attributes = _Attributes(text)
+    for function in _FUNCTION.finditer(text):
+        decorator = _decorator(text, function.start())
+        if decorator is None or function.start() in others:
+            continue
+        if not _is_only_one(text, function, count):
+            continue
+        start = function.end() - 1
+        body = function_body(text, function.start("name"), start)
+        if "return " not in body and "yield " not in body:
+            continue
+        kept = [*_kept(body, start, taken.get(function.end(), ()))]
+        shapes = {_shape(item.value, body, attributes) for item in kept}
+        is_one = len(shapes) == 1 and "" not in shapes
+        type_ = _type(kept, is_async=bool(function["async"])) if is_one else ""
+        if type_:
+            for item in kept:
+                lines.setdefault(item.place, []).append(item.line)
+        elif decorator not in {"property", "cached_property", "contextmanager"}:
+            type_ = plain_result(function["parameters"], body)
+        if type_:
+            heads.append((function.end("end"), function.end("end"), f' -> "{type_}"'))
+    written = "".join(head for _, _, head in heads)
+    return Results(lines, heads, _DEFINITIONS * (_TYPE_OF in written) + imports(written))
+
+
+def _type(kept: Sequence[_Kept], *, is_async: bool) -> str:
+    """Return the type of the result of a function; empty if nothing is known about it."""
+    words = {item.word for item in kept}
+    if len(words) != 1 or len(kept) > _MOST:
+        return ""
+    type_ = " | ".join(f"{_TYPE_OF}[{item.name}[0]]" for item in kept)
+    if "return" in words:
+        return type_
+    return "" if is_async else f"{_YIELDING}[{type_}, None, None]"
+
+
+class _Kept(NamedTuple):
+    """A value that a function returns or yields."""
+
+    word: str
+    value: str
+    place: int
+    name: str
+    line: str
+
+
+def _decorator(text: str, start: int) -> str | None:
+    """Return the decorator of a function, empty without; ``None`` if its result may be another."""
+    end = max(start - 1, 0)
+    line = text[text.rfind("\n", 0, end) + 1 : end].strip()
+    if not line.startswith("@"):
+        return None if line == ")" else ""
+    name = line[1:].rpartition(".")[2]
+    return name if name in _KEEPING else None
+
+
+def _is_only_one(text: str, function: re.Match[str], count: Mapping[str, int]) -> bool:
+    """Tell whether no other class of the file has a method of this name."""
+    name = function["name"]
+    if not function["indent"] or count[name] == 1:
+        return True
+    setters = text.count(f"@{name}.setter\n") + text.count(f"@{name}.deleter\n")
+    return count[name] - setters == 1
+
+
+def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
+    """Yield the values that a function returns or yields; nothing if one of them is not plain.
+
+    Args:
+        body: The function without its head.
+        start: Where that begins in the file.
+        taken: See `results`.
+    """
+    inner = [*_inner_functions(body)]
+    docstring = _DOCSTRING.match(body)
+    if docstring is not None:
+        inner.append(docstring.span())
+    found: list[_Kept] = []
+    own = [it for it in _ANY_WORD.finditer(body) if not _is_within(it.start(), inner)]
+    for match in own:
+        line = body.rfind("\n", 0, match.start()) + 1
+        if "#" in body[line : match.start()]:
+            continue
+        value = expression_at(body, match.end())
+        if match[0] == "return" and value in {"", "None"}:
+            continue
+        if body[line : match.start()].strip() or not _is_plain(value):
+            return
+        if taken and not _is_independent(value, _derived(body, taken)):
+            return
+        place = start + line
+        name = f"{_KEPT}_{place}"
+        written = re.sub(r"\s*\n\s*", " ", value)
+        added = f"{body[line : match.start()]}global {name}; {name} = [({written})]"
+        found.append(_Kept(match[0], value, place, name, added))
+    yield from found
+
+
+def _inner_functions(body: str) -> Iterator[tuple[int, int]]:
+    """Yield where the functions and classes in a function begin and end."""
+    for match in _OTHER_SCOPES.finditer(body):
+        end = body.find("\n", match.end())
+        if end >= 0:
+            yield match.start(), end + len(function_body(body, match.end(), end))
+
+
+def _is_within(place: int, stretches: Sequence[tuple[int, int]]) -> bool:
+    return any(start <= place < end for start, end in stretches)
+
+
+def _is_plain(value: str) -> bool:
+    """Tell whether an expression is the same on another line, and not of a class of its own."""
+    if not value or _UNSUITED.search(value):
+        return False
+    return _ITSELF.search(value) is None or _CALL.match(value) is not None
+
+
+def _derived(body: str, names: Collection[str]) -> set[str]:
+    """Return names and the local variables whose values may be made of theirs."""
+    result = {*names}
+    for _ in range(2):
+        for match in _SET.finditer(body):
+            if not _is_independent(match[2].strip(), result):
+                result.update(_WORD.findall(match[1]))
+        for match in _BOUND.finditer(body):
+            if match[3] or not _is_independent(match[2].strip(), result):
+                result.update(_WORD.findall(match[1] or match[3]))
+    return result
+
+
+class _Attributes:
+    """What the attributes of ``self`` in a file are given.
+
+    Args:
+        text: The file.
+    """
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    @cached_property
+    def _values(self) -> Mapping[str, set[str]]:
+        values: dict[str, set[str]] = {}
+        for match in _ATTRIBUTE.finditer(self._text):
+            values.setdefault(match[1], set()).add(_form(match[2].strip()))
+        return values
+
+    def is_of_one(self, name: str) -> bool:
+        """Tell whether all values that an attribute gets are made in the same way."""
+        values = self._values.get(name, set()) - {"None"}
+        return len(values) <= 1 and "" not in values
+
+
+def _shape(value: str, body: str, attributes: _Attributes) -> str:
+    """Return how a value is made; empty if that is in several ways, as by a factory."""
+    form = _form(value)
+    of_self = _OF_SELF.match(value)
+    if of_self is not None:
+        return form if attributes.is_of_one(of_self[1]) else ""
+    root = _WORD.match(value)
+    if root is None or not form:
+        return form
+    given = [m[2].strip() for m in _SET.finditer(body) if root[0] in _WORD.findall(m[1])]
+    forms = {_form(item) for item in given} - {"None"}
+    own = [match[1] for match in map(_OF_SELF.match, given) if match]
+    return (
+        form if len(forms) <= 1 and all(map(attributes.is_of_one, own)) and "" not in forms else ""
+    )
+
+
+def _form(value: str) -> str:
+    """Return what makes a value, without what that is given; empty if a condition chooses."""
+    if _EITHER.search(value):
+        return ""
+    called = _CALL.match(value)
+    return called[0] if called is not None else value
+
+
+def _is_independent(value: str, names: set[str]) -> bool:
+    """Tell whether the type of an expression does not come from those of some variables."""
+    if names.isdisjoint(_WORD.findall(value)):
+        return True
+    called = _CALL.match(value)
+    return called is not None and called[1] not in _GENERIC and called[1] not in names
