@@ -16,6 +16,7 @@ _DOES = {
     "invalid-context-manager": "cannot be used in `with`",
     "invalid-raise": "cannot be raised",
 }
+_NUMBERS = frozenset({"int", "float", "bool"})
 _NODE = (
     "from geometry_msgs.msg import Point\n\n\n"
     "def height():\n"
@@ -35,6 +36,21 @@ _DRIVE = (
     "    def tick(self):\n"
     "        self.odometry = Odometry()\n"
     "        {} = self.odometry.pose()\n"
+)
+
+
+_NUMBER = (
+    "from geometry_msgs.msg import Point\nfrom rclpy.node import Node\n"
+    "from rclpy.time import Time\nfrom tf2_ros import Buffer\n\n\n"
+    "class Ticker(Node):\n"
+    "    def tick(self):\n"
+    "        self.buffer = Buffer()\n"
+    "        now = self.get_clock().now()\n"
+    "        start = now.{}\n"
+    "        ok, why = self.buffer.can_transform('a', 'b', Time(){})\n"
+    "        self.get_logger().info(f'{{start}} {{ok}} {{why}}')\n"
+    "        point = Point()\n"
+    "        return point{}\n"
 )
 
 
@@ -166,6 +182,19 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
+            "numbers: attributes of a time and of a buffer, and of a point",
+            {"height.py": _NUMBER.format("nanoseconds", ", return_debug_tuple=True", ".x")},
+        ),
+        Example(
+            "numbers that are called and unpacked",
+            {"height.py": _NUMBER.format("nanoseconds()", "", ".x")},
+            Report(
+                "11:17",
+                "'nanoseconds' is an int, not a method: TypeError; leave out the parentheses",
+            ),
+            Report("12:19", "a bool cannot be looped over: TypeError"),
+        ),
+        Example(
             "an attribute for which Python lists several types",
             {
                 "serve.py": "from socketserver import TCPServer\n\n"
@@ -185,22 +214,45 @@ class ObjectMisused(TypeRule):
             problem = f"{unpacked['problem'].lower()} values for {unpacked['names']} names"
             message = f"{problem}: ValueError"
             return None if _is_asked_for(finding) else self.report(finding, message)
-        if finding.kind not in _DOES:
-            return None
-        matched = finding.match(
-            r"(?:Object of type|Cannot subscript object of type|Cannot raise object of type) "
-            r"`(?P<type>[^`]+)`.*"
-        ) or finding.match(r"`(?P<type>[^`]+)` is not awaitable.*")
-        if matched is None:
+        matched = finding.kind in _DOES and (
+            finding.match(
+                r"(?:Object of type|Cannot subscript object of type|Cannot raise object of type) "
+                r"`(?P<type>[^`]+)`.*"
+            )
+            or finding.match(r"`(?P<type>[^`]+)` is not awaitable.*")
+        )
+        if not matched:
             return None
         if finding.kind == "not-callable" and _is_replaced(finding):
             return None  # a call before it is replaced is one of the method
         type_ = matched["type"]
+        if type_ in _NUMBERS:
+            return self._judge_number(finding, type_)
         is_known = class_in(type_) and is_certain(type_)
         if not is_known and not (is_function(type_) and finding.kind != "not-callable"):
             return None
         message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
         return self.report(finding, message)
+
+    def _judge_number(self, finding: TypeFinding, type_: str) -> Diagnostic | None:
+        """Judge what an attribute or a method of another object gives."""
+        node = finding.expression()
+        match node:
+            case ast.Call(func=ast.Attribute(value=owner, attr=name), args=[], keywords=[]) if (
+                finding.kind == "not-callable" and not _is_self(owner)
+            ):
+                message = f"{name!r} is {in_words(type_)}, not a method: TypeError"
+                return self.report(finding, f"{message}; leave out the parentheses")
+            case ast.Call(func=ast.Attribute(value=owner)) | ast.Attribute(value=owner) if (
+                finding.kind != "not-callable" and not _is_self(owner)
+            ):
+                message = f"{in_words(type_)} {_DOES[finding.kind]}: TypeError"
+                return self.report(finding, message)
+        return None
+
+
+def _is_self(node: ast.expr) -> bool:
+    return isinstance(node, ast.Name) and node.id == "self"
 
 
 def _is_asked_for(finding: TypeFinding) -> bool:

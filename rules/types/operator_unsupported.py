@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from scaffold.api import Diagnostic, Example, Report, TypeRule
 from scaffold.api.types import TypeFinding, class_in, full_name, in_words, is_certain
 
@@ -14,12 +16,21 @@ _NODE = (
     "    def tick(self):\n"
     "        return self.get_clock().now() - self.start > {}\n"
 )
+_SCAN = (
+    "import numpy\nfrom sensor_msgs.msg import LaserScan\n\n\n"
+    "def far(scan: LaserScan):\n"
+    "    scan = LaserScan()\n"
+    "    ranges = scan.ranges\n"
+    "    is_far = {0} > 0.5\n"
+    "    return is_far, {0} * 0.1\n"
+)
 _INSTEAD = {
     "builtin_interfaces.msg.Time": "convert it with rclpy.time.Time.from_msg(...)",
     "builtin_interfaces.msg.Duration": "convert it with rclpy.duration.Duration.from_msg(...)",
     "rcl_interfaces.msg.ParameterValue": "use get_parameter(...).value",
     "rclpy.parameter.Parameter": "append .value",
 }
+_ARRAY = re.compile(r"array\[\w+\]")
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 
 
@@ -60,6 +71,22 @@ class OperatorUnsupported(TypeRule):
                 "use Duration(seconds=...)",
             ),
         ),
+        Example(
+            "numbers of a scan, and what is made of them",
+            {"scan.py": _SCAN.format("numpy.array(ranges)")},
+        ),
+        Example(
+            "numbers of a scan, compared and multiplied all at once",
+            {"scan.py": _SCAN.format("ranges")},
+            Report(
+                "8:14",
+                "'>' does not work on an array.array and a float: TypeError; use numpy.array(...)",
+            ),
+            Report(
+                "9:20",
+                "'*' does not work on an array.array and a float: TypeError; use numpy.array(...)",
+            ),
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -74,9 +101,13 @@ class OperatorUnsupported(TypeRule):
             return None
         types = [matched["left"], matched.groupdict().get("right") or matched["left"]]
         classes = [class_in(type_) for type_ in types]
-        if not any(classes) or not all(map(is_certain, types)):
+        is_array = _ARRAY.fullmatch(types[0]) is not None and is_certain(types[1])
+        if not is_array and (not any(classes) or not all(map(is_certain, types))):
             return None
         operator = matched["operator"]
+        if is_array:
+            message = f"{operator!r} does not work on an array.array and {in_words(types[1])}"
+            return self.report(finding, f"{message}: TypeError; use numpy.array(...)")
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
         hints = [_hint(full_name(class_), operator) for class_ in classes if class_]
         hint = next(filter(None, hints), "")

@@ -123,6 +123,16 @@ def _source(module: PythonModule, value: ast.expr) -> str:
     return f"{module.text(value)} of {function.name if function else ''}"
 
 
+def _is_nothing(value: ast.expr) -> bool:
+    """Tell whether a value has no type that matters: ``None``, or a container without elements."""
+    match value:
+        case ast.Constant(value=None) | ast.List(elts=[]) | ast.Dict(keys=[]):
+            return True
+        case ast.Call(func=ast.Name(id="dict" | "list" | "set"), args=[], keywords=[]):
+            return True
+    return False
+
+
 def _is_class(value: ast.expr) -> bool:
     name = value.attr if isinstance(value, ast.Attribute) else getattr(value, "id", "")
     return name[:1].isupper()
@@ -205,7 +215,7 @@ def _sources_of(module: PythonModule, name: str) -> set[str]:
     for statement in statements:
         targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
         value = statement.value
-        if value is None or (isinstance(value, ast.Constant) and value.value is None):
+        if value is None or _is_nothing(value):
             continue
         if any(isinstance(target, ast.Attribute) and target.attr == name for target in targets):
             sources.add(_source(module, value))

@@ -22,6 +22,8 @@ _NARROWED = re.compile(r"\(?([^()&]{1,200}) & ~Always(?:Falsy|Truthy)\)?")
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
+_PLAIN_OR_CLASS = re.compile(r"(?:str|bytes|int|float|bool)\*?|Literal\[.*\]|<class '[^']+'>")
+"""Matches types of values that are nothing else: numbers, texts, and classes themselves."""
 _KINDS = {'"': "str", "b": "bytes", "T": "bool", "F": "bool"}
 
 
@@ -47,7 +49,11 @@ def is_certain_misfit(expected: str, given: str) -> bool:
         return False
     if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
         return True  # whatever is in it
-    return is_certain(given) or is_function(given)
+    if is_certain(given) or is_function(given):
+        return True
+    parts = [part.strip() for part in _alternatives(_TEXT.sub("str", given))]
+    is_of_classes = _CLASSES.fullmatch(expected) is not None and "bytes" not in parts
+    return is_of_classes and all(map(_PLAIN_OR_CLASS.fullmatch, parts))
 
 
 def elements_misfit(expected: str, given: str) -> str:
