@@ -39,6 +39,7 @@ _ELSEWHERE = {
     "create_server": "create_service",
     "create_subscriber": "create_subscription",
     "create_wall_timer": "create_timer",
+    "destroy": "destroy_node",
     "get_param": "get_parameter",
     "logger": "get_logger()",
     "now": "get_clock().now()",
@@ -83,13 +84,13 @@ class AttributeOfNodeUnknown(RclpyRule):
             Report(
                 "talker.py:20:5",
                 "neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
-                "you mean 'destroy_rate'?",
+                "you mean 'destroy_node'?",
                 severity=Severity.WARNING,
             ),
             Report(
                 "worker.py:20:5",
                 "neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
-                "you mean 'destroy_rate'?",
+                "you mean 'destroy_node'?",
             ),
         ),
         Example(
