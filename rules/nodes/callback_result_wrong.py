@@ -326,7 +326,7 @@ def _expected_by_service(
     return _Expected(
         "the response",
         f"(service of line {service.location.line}): TypeError",
-        "",
+        f"what {types.module.path}:{function.lineno} returns",
         lambda statement: _wrong_response(
             types, service, value_set_before(function, statement) or statement.value
         ),

@@ -41,6 +41,17 @@ class FutureReadTooEarly(RclpyRule):
             {"caller.py": _NODE.format("future.add_done_callback(self.answer)")},
         ),
         Example(
+            "a done callback that makes the next call",
+            {
+                "caller.py": _NODE.format("future.add_done_callback(self.answer)").replace(
+                    "        return future.result().success\n",
+                    "        if future.result().success:\n"
+                    "            future = self.client.call_async(self.request)\n"
+                    "            future.add_done_callback(self.answer)\n",
+                )
+            },
+        ),
+        Example(
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
             Report(
@@ -58,10 +69,12 @@ class FutureReadTooEarly(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for function in file.module.function_nodes:
-            for name in _futures(file.module, function):
+            for name, line in _futures(file.module, function).items():
                 if _waits(file.module, function):
                     continue
                 for call in file.calls_in(function):
+                    if call.lineno < line:
+                        continue  # another future, which a done callback was given
                     if self._reads(file, call, name) and not _is_asked(file, call, name):
                         at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
@@ -93,15 +106,15 @@ def _is_asked(file: RclpyFile, call: ast.Call, name: str) -> bool:
     return is_guarded_by(file.module, call, ast.Name(id=name))
 
 
-def _futures(module: PythonModule, function: FunctionNode) -> list[str]:
-    """Return the variables that hold the future of an asynchronous call."""
-    names: list[str] = []
+def _futures(module: PythonModule, function: FunctionNode) -> dict[str, int]:
+    """Return the variables that hold the future of an asynchronous call, and from which line on."""
+    names: dict[str, int] = {}
     for statement in module.below(function, ast.Assign):
         match statement:
             case ast.Assign(
                 targets=[ast.Name(id=name)], value=ast.Call(func=ast.Attribute(attr=method))
             ) if method in CALLS:
-                names.append(name)
+                names.setdefault(name, statement.lineno)
     return names
 
 

@@ -78,7 +78,7 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
             Report(
                 "setup.py:3:1",
-                "nothing says that test/test_talker.py needs pytest: colcon runs 0 "
+                "nothing says that test/ needs pytest: colcon runs 0 "
                 "tests; add extras_require={'test': ['pytest']}",
                 fix="add extras_require={'test': ['pytest']}",
             ),
@@ -224,7 +224,8 @@ class TestsNotRun(Rule):
             return
         edit = setup_edit.insert(setup, _NEW)
         can_fix = edit is not None and setup.keyword("extras_require") is None
-        message = f"nothing says that {tests[0]} needs pytest: colcon runs 0 tests; add {_NEW}"
+        directory = tests[0].partition("/")[0]
+        message = f"nothing says that {directory}/ needs pytest: colcon runs 0 tests; add {_NEW}"
         yield self.report(setup, message, Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None)
 
     def _check_tests_require(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:

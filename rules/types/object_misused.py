@@ -89,6 +89,27 @@ class ObjectMisused(TypeRule):
             },
         ),
         Example(
+            "an element of what callers keep under names",
+            {
+                "latest.py": "from geometry_msgs.msg import Point\nfrom rclpy.node import Node\n"
+                "from std_msgs.msg import Float64MultiArray\n\n\n"
+                "class Latest(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('latest')\n"
+                "        self.latest = {}\n"
+                "        self.create_subscription(Point, 'point', self.on_point, 10)\n"
+                "        self.create_subscription(Float64MultiArray, 'arm', self.on_arm, 10)\n\n"
+                "    def remember(self, name, value):\n"
+                "        self.latest[name] = value\n\n"
+                "    def on_point(self, msg):\n"
+                "        self.remember('point', msg)\n\n"
+                "    def on_arm(self, msg):\n"
+                "        self.remember('arm', list(msg.data))\n"
+                "        shoulder, elbow = self.latest['arm']\n"
+                "        print(shoulder, elbow, self.latest['arm'][:1])\n"
+            },
+        ),
+        Example(
             "an element",
             {"height.py": _NODE.format("point[2]")},
             Report("6:12", "a geometry_msgs.msg.Point has no elements: TypeError"),

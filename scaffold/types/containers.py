@@ -49,6 +49,8 @@ _OF_MESSAGE = re.compile(r"(?!self\.\w{1,80}[ ]?=)(?:\w{1,80}\.){1,9}\w{1,80}[ ]
 """Matches what is before a value that becomes a field of an object."""
 _LINE_END = re.compile(r"[ ]{0,40}(?:#|\n|\Z)")
 """Matches where only a comment is left of a line."""
+# linear: names and defaults, without brackets
+_SIGNATURE = re.compile(r"^[ ]*(?:async[ ]+)?def[ ]+\w+\(([^()]*)\)", re.MULTILINE)
 _MOST_ADDED = 12
 _KEPT = "_ros2_kept"
 _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])")
@@ -163,7 +165,9 @@ def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
         if not end or _CHANGED.match(text, end):
             return None
         set_ = _SET.match(text, end)
-        return (end, expression_at(text, set_.end()) if set_ else "")
+        value = expression_at(text, set_.end()) if set_ else ""
+        key = text[match.end() + 1 : end - 1]
+        return None if _are_parameters(text, match.start(), key, value) else (end, value)
     line = text.rfind("\n", 0, match.start()) + 1
     before = text[line : match.start()]
     if not before.strip() and _SET.match(text, end):
@@ -174,6 +178,14 @@ def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
         and _OF_MESSAGE.fullmatch(before.lstrip()) is not None
     )
     return (end, "") if is_read and after != "." else None
+
+
+def _are_parameters(text: str, place: int, key: str, value: str) -> bool:
+    """Tell whether a function keeps a value under a key as its callers say: of any type, then."""
+    if not (key.isidentifier() and value.isidentifier()):
+        return False
+    signatures = _SIGNATURE.findall(text, 0, place)
+    return {key, value} <= {*re.findall(r"\w+", signatures[-1])} if signatures else False
 
 
 def _closed(text: str, start: int) -> int:
