@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Package,
+    Report,
+    Rule,
+    ViewError,
+    closest_name,
+    listed_names,
+)
 from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
 from scaffold.api.launch import UNSAID, CommandLine, command_lines, processes
@@ -16,7 +25,7 @@ from scaffold.api.parameters import (
     parameter_paths,
     value_type,
 )
-from scaffold.api.robot import is_known, robots
+from scaffold.api.robot import is_known, robot_file, robot_paths, robots
 
 _MANAGER = "controller_manager"
 _SPAWNER = "spawner"
@@ -164,6 +173,10 @@ class ControllerUnfit(Rule):
                 "config/controllers.yaml": _FILE.format("50", _DRIVE, "rear").replace("left_", "a"),
             },
         ),
+        Example(
+            "another robot that cannot be read",
+            {**_files(joint="rear"), "urdf/arm.xacro": "<!DOCTYPE robot>\n<robot/>\n"},
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -244,6 +257,11 @@ def _texts(entry: Entry) -> Iterator[Scalar]:
 def _joints(package: Package) -> set[str]:
     """Return the joints of the robots of a package; none unless all are known."""
     names: set[str] = set()
+    try:
+        if any(robot_file(package, path) is None for path in robot_paths(package)):
+            return names
+    except ViewError:
+        return names
     for robot in robots(package).whole:
         for joint in robot.root.all("joint"):
             name = joint.get("name") or ""
