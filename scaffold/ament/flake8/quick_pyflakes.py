@@ -1,7 +1,7 @@
 """pyflakes in three fifths of its time: the same visit of a syntax tree, in fewer steps.
 
-At each node the original asks for all scopes, looks at operators and contexts, which say nothing,
-and at each call it asks four times whether a name comes from ``typing``.
+At each node the original asks for all scopes; it visits operators, contexts and constants, which
+say nothing, and at each call it asks four times whether a name comes from ``typing``.
 """
 
 from __future__ import annotations
@@ -16,26 +16,30 @@ from pyflakes.checker import (  # type: ignore[attr-defined]
     _is_any_typing_member,
 )
 
-_SILENT = frozenset({"ctx", "op", "ops"})
-"""Fields whose nodes pyflakes visits and ignores."""
+_SILENT = frozenset({"ctx", "op", "ops", "arg", "attr", "conversion", "kind", "type_comment"})
+"""Fields without nodes, or whose nodes pyflakes visits and ignores."""
 
 
 class QuickChecker(Checker):
     """Reports what pyflakes reports."""
+
+    _in_annotation: int
 
     def __init__(self, tree: ast.Module, path: str, builtins: Collection[str]) -> None:
         self._handlers: dict[type[ast.AST], Callable[[ast.AST], None]] = {}
         super().__init__(tree, path, {*builtins}, withDoctest=False)
 
     def handleNode(self, node: ast.AST | None, parent: ast.AST | None) -> None:  # noqa: N802
-        """Visit a node; only at the top of a body it may end the imports from the future."""
+        """Visit a node; one inside of a statement does not end the imports from the future."""
         depth = self.nodeDepth
         if node is None or not depth:
             super().handleNode(node, parent)
             return
+        kind = node.__class__
+        if kind is ast.Constant and not self._in_annotation:
+            return
         self.nodeDepth = node._pyflakes_depth = depth + 1  # type: ignore[attr-defined]  # noqa: SLF001
         node._pyflakes_parent = parent  # type: ignore[attr-defined]  # noqa: SLF001
-        kind = node.__class__
         try:
             (self._handlers.get(kind) or self.getNodeHandler(kind))(node)
         finally:
