@@ -121,7 +121,11 @@ def _judged(
 def _reported(findings: Iterable[Finding], settings: Sequence[Settings]) -> list[Finding]:
     """Return the findings that some linter reports."""
     pairs = ((item, settings_.linters_of(item)) for settings_ in settings for item in findings)
-    return [item._replace(linters=linters) for item, linters in pairs if linters]
+    return [
+        item if item.linters == linters else item._replace(linters=linters)
+        for item, linters in pairs
+        if linters
+    ]
 
 
 def _own(text: PythonText, settings: Settings) -> Iterator[Finding]:

@@ -77,15 +77,15 @@ def check(
         builtins: The names that its configuration adds to those of Python.
         diagnostics: Those of ruff, which tell where an expression ends.
     """
-    from scaffold.ament.flake8.quick_pyflakes import QuickChecker
+    from scaffold.ament.flake8.quick_pyflakes import messages
 
-    if text.tree is None:
+    if text.index is None:
         return
     is_before_3 = not linters.of_target().since("pyflakes", 3)
     # From Python 3.14 on annotations are evaluated when asked for, which ruff knows of the target.
     is_deferred = distributions.target().python >= (3, 14)
     ends = {(item.code, item.line, item.column): item for item in diagnostics}
-    for message in QuickChecker(text.tree, text.path, builtins).messages:
+    for message in messages(text.index, text.path, builtins):
         code = CODES.get(type(message).__name__, "")
         if not code or (is_before_3 and _is_of_3(text, code, message.message_args)):
             continue

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Collection
+from typing import TYPE_CHECKING
 
 from pyflakes.checker import (  # type: ignore[attr-defined]
     Binding,
@@ -16,18 +17,44 @@ from pyflakes.checker import (  # type: ignore[attr-defined]
     _is_any_typing_member,
 )
 
+from scaffold.model.python.scopes import ScopeIndex
+
+if TYPE_CHECKING:
+    from pyflakes.messages import Message
+
 _SILENT = frozenset({"ctx", "op", "ops", "arg", "attr", "conversion", "kind", "type_comment"})
 """Fields without nodes, or whose nodes pyflakes visits and ignores."""
+
+
+def messages(index: ScopeIndex, path: str, builtins: Collection[str]) -> list[Message]:
+    """Return what pyflakes reports.
+
+    Afterwards no node and no scope holds itself: else all of the syntax tree would stay in memory
+    until Python looks for garbage, which takes longer than this.
+    """
+    checker = QuickChecker(index.tree, path, builtins)
+    checker.let_go()
+    for node in index.nodes:
+        vars(node).pop("_pyflakes_parent", None)
+    return checker.messages
 
 
 class QuickChecker(Checker):
     """Reports what pyflakes reports."""
 
     _in_annotation: int
+    _nodeHandlers: dict[type[ast.AST], Callable[[ast.AST], None]]  # noqa: N815
 
     def __init__(self, tree: ast.Module, path: str, builtins: Collection[str]) -> None:
         self._handlers: dict[type[ast.AST], Callable[[ast.AST], None]] = {}
         super().__init__(tree, path, {*builtins}, withDoctest=False)
+
+    def let_go(self) -> None:
+        """Forget the scopes, whose names know where they are used, and the own methods."""
+        self._handlers.clear()
+        self._nodeHandlers.clear()
+        for scope in self.deadScopes:
+            scope.clear()
 
     def handleNode(self, node: ast.AST | None, parent: ast.AST | None) -> None:  # noqa: N802
         """Visit a node; one inside of a statement does not end the imports from the future."""

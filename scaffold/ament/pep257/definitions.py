@@ -174,7 +174,7 @@ def definitions(text: PythonText) -> Iterator[Definition]:
                     kind = CLASS if is_class else METHOD if in_class else FUNCTION
                     yield Definition(text, kind, node, literal)
                 pending.append((node.body, is_class))
-            else:
+            elif hasattr(node, "body") or isinstance(node, ast.Match):
                 pending.extend((inner, in_class) for inner in _blocks(node))
 
 
