@@ -42,7 +42,7 @@ EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTime
 EXHAUSTION = (
     "nested too deeply",
     "takes too long to check",
-    "nested too deeply, or too large for the memory",
+    "nested too deeply, or too large for the available memory",
 )
 """What `exhausted` says."""
 

@@ -41,12 +41,12 @@ _OF_SENSORS = frozenset(
 
 
 class BridgeDiffersFromNodes(Rule):
-    """A bridge has another type for a topic than the nodes of its package, or the other direction.
+    """A bridge has a different type or direction for a topic than the nodes of its package.
 
     **Why.** The two never connect, or nobody publishes on the side that the bridge listens to: in
     the simulation nothing moves or nothing arrives, without an error.
 
-    **Fix.** Use the same type on both sides; ``Twist`` and ``TwistStamped`` both go with
+    **Fix.** Use the same type on both sides; ``Twist`` and ``TwistStamped`` both correspond to
     ``gz.msgs.Twist``. ``ROS_TO_GZ`` is for what nodes publish, ``GZ_TO_ROS`` for sensors and the
     clock.
 

@@ -54,8 +54,7 @@ class BridgeEntryUnusable(Rule):
     """An entry of a bridge has a key, a direction or types that ros_gz_bridge does not know.
 
     **Why.** ``Could not parse entry``, or ``Failed to create a bridge for topic [scan]``: the
-    bridge goes on without it, and nothing arrives. A key that it does not know is ignored without a
-    word.
+    bridge goes on without it, and nothing arrives. Unknown keys are silently ignored.
 
     **Fix.** ``ros_topic_name``, ``gz_topic_name``, ``ros_type_name``, ``gz_type_name``, as
     direction ``GZ_TO_ROS``, ``ROS_TO_GZ`` or ``BIDIRECTIONAL``, and a pair of types such as

@@ -61,10 +61,10 @@ _LATER = frozenset({"tf2_sensor_msgs"})
 
 
 class CommandRemoved(Rule):
-    """CMakeLists.txt calls a command of ament that the distribution has no more.
+    """CMakeLists.txt calls an ament command that the distribution has removed.
 
-    **Why.** CMake stops: ``Unknown CMake command "ament_target_dependencies"``. Where the command
-    is deprecated only, it warns.
+    **Why.** CMake stops: ``Unknown CMake command "ament_target_dependencies"``. If the command is
+    only deprecated, it warns.
 
     **Fix.** ``target_link_libraries`` with the targets that packages export, which exists on all
     distributions: ``${std_msgs_TARGETS}``. The fix is safe where all of the packages are known to

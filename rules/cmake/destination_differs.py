@@ -21,13 +21,13 @@ _LISTS_PYTHON = "project(talker)\ninstall(DIRECTORY talker DESTINATION {})\n"
 
 
 class DestinationDiffers(Rule):
-    """``install`` has a destination where nobody looks for the files.
+    """``install`` puts files into a directory where they are not found.
 
-    **Why.** ``ros2 run`` looks in ``lib/<package>`` alone: ``No executable found``; ``ros2 launch``
+    **Why.** ``ros2 run`` only looks in ``lib/<package>``: ``No executable found``; ``ros2 launch``
     and ``get_package_share_directory`` in ``share/<package>``: ``file 'talk.launch.py' was not
     found in the share directory of package 'talker'``. Modules below another version of Python are
-    not imported. An absolute path leaves the workspace: the build needs rights that it should not
-    have, and a Debian package cannot be made.
+    not imported. An absolute path leaves the workspace: the build needs root permissions, and a
+    Debian package cannot be made.
 
     **Fix.** ``lib/${PROJECT_NAME}`` for programs, ``share/${PROJECT_NAME}`` for launch files and
     their data, ``ament_python_install_package(${PROJECT_NAME})`` for modules.

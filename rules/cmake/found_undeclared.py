@@ -25,8 +25,8 @@ class FoundUndeclared(Rule):
     **Why.** On a clean machine rosdep does not install it and CMake stops; colcon may build the
     two packages in the wrong order.
 
-    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only; where
-    there is one whose condition leaves out the distribution, change the condition.
+    **Fix.** Add a ``<build_depend>``, or a ``<test_depend>`` when it is found for tests only; if
+    there is one whose condition excludes the distribution, change the condition.
 
     **Source.** ROS 2 documentation, "ament_cmake user documentation"; REP-149.
     """
@@ -96,7 +96,7 @@ class FoundUndeclared(Rule):
             Report(
                 "CMakeLists.txt:2:14",
                 "finds 'rclcpp', and line 3 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which leaves out Jazzy; change the "
+                "$ROS_DISTRO == humble, which excludes Jazzy; change the "
                 "condition, or find it under the same one",
             ),
         ),
@@ -148,7 +148,7 @@ class FoundUndeclared(Rule):
                 reported.add(name)
                 message = (
                     f"finds {name!r}, and line {other.location.line} of package.xml declares it "
-                    f"only if {other.condition}, which leaves out {target().title}; change the "
+                    f"only if {other.condition}, which excludes {target().title}; change the "
                     f"condition, or find it under the same one"
                 )
                 yield self.report(found, message)

@@ -23,7 +23,7 @@ _EXEC = "  <exec_depend>std_msgs</exec_depend>\n"
 
 
 class FoundWhenRunOnly(Rule):
-    """``find_package`` looks for a package that the manifest declares for running alone.
+    """``find_package`` looks for a package that the manifest only declares as a run dependency.
 
     **Why.** The build farm, and ``rosdep install --dependency-types build``, leave it out, and
     CMake stops. Where everything is installed, as ``rosdep install`` alone does, it builds.

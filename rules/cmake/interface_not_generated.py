@@ -14,7 +14,7 @@ _LISTS_FILES = "project(my_msgs)\nrosidl_generate_interfaces(${PROJECT_NAME}\n  
 
 
 class InterfaceNotGenerated(Rule):
-    """Nothing is generated from a .msg, .srv or .action file, or not under the name of the project.
+    """A .msg, .srv or .action file is not generated, or not under the name of the project.
 
     **Why.** The build succeeds; ``ros2 interface show`` and every import say that there is no such
     type. The libraries are named after the first argument, but Python and C++ look for them under

@@ -43,8 +43,7 @@ class InterfacePackageClash(Rule):
             Report(
                 "CMakeLists.txt:3:1",
                 "the Python package 'my_robot' and the interfaces generated in line "
-                "2 have the same name, so CMake stops: move the interfaces to a "
-                "package of their own",
+                "2 have the same name, so CMake stops: move the interfaces to a separate package",
             ),
         ),
     )
@@ -60,7 +59,6 @@ class InterfacePackageClash(Rule):
             if name is not None and name == cmake.project_name:
                 message = (
                     f"the Python package {name!r} and the interfaces generated in line {line} "
-                    "have the same name, so CMake stops: move the interfaces to a package of "
-                    "their own"
+                    "have the same name, so CMake stops: move the interfaces to a separate package"
                 )
                 yield self.report(command.name_location, message)

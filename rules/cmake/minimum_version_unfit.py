@@ -17,11 +17,12 @@ _MINIMUM = "cmake_minimum_required(VERSION 3.8)\n"
 
 
 class MinimumVersionUnfit(Rule):
-    """``cmake_minimum_required`` does not come before ``project``, or asks for too old a version.
+    """``cmake_minimum_required`` does not come before ``project``, or requires too old a version.
 
-    **Why.** CMake sets its policies by it: ``project`` runs with those of another version, and
-    warns. CMake 4 stops without it, and at versions before 3.5: ``Compatibility with CMake < 3.5
-    has been removed from CMake``. Packages that come from ROS 1 begin with 2.8.3 or 3.0.2.
+    **Why.** CMake sets its policies accordingly: otherwise, ``project`` uses those of another
+    version and warns. CMake 4 stops without it, and at versions before 3.5: ``Compatibility with
+    CMake < 3.5 has been removed from CMake``. Packages that come from ROS 1 begin with 2.8.3 or
+    3.0.2.
 
     **Fix.** Begin with ``cmake_minimum_required(VERSION 3.8)``, the version that ROS 2 asks for.
 

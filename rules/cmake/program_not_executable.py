@@ -36,12 +36,12 @@ ENV_WORDS = 2
 
 
 class ProgramNotExecutable(Rule):
-    """An installed script is not executable, is installed as a file, or lacks its first line.
+    """An installed script is not executable, is installed as a file, or has no shebang line.
 
     **Why.** Only ``PROGRAMS`` keeps the executable bit, and ``colcon build --symlink-install``
-    links to the file as it is: ``No executable found``, or ``Permission denied``. Without a first
-    line the shell runs Python as shell script: ``Exec format error``. ``python`` without the 3 does
-    not exist on Ubuntu, and a byte order mark or a blank line in front hides the line.
+    links to the file as it is: ``No executable found``, or ``Permission denied``. Without a shebang
+    line, the shell runs Python code as a shell script: ``Exec format error``. ``python`` without
+    the 3 does not exist on Ubuntu, and a byte order mark or a blank line in front hides the line.
 
     **Fix.** ``chmod +x``, ``install(PROGRAMS ...)``, and ``#!/usr/bin/env python3`` in the first
     line.
@@ -170,7 +170,7 @@ class ProgramNotExecutable(Rule):
             {"CMakeLists.txt": _LISTS, "talker/node.py": "#!/usr/bin/env python\nimport rclpy\n"},
             Report(
                 "talker/node.py:1:1",
-                "'#!/usr/bin/env python' names a Python that ROS 2 does not have",
+                "'#!/usr/bin/env python' uses a Python that ROS 2 does not have",
                 fix="begin with #!/usr/bin/env python3",
             ),
             fixed={"talker/node.py": f"{SHEBANG}\nimport rclpy\n"},
@@ -310,7 +310,7 @@ class ProgramNotExecutable(Rule):
                 end = 0
                 what = f"installed as a program, but does not begin with {SHEBANG}"
             elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
-                what = f"{line.strip()!r} names a Python that ROS 2 does not have"
+                what = f"{line.strip()!r} uses a Python that ROS 2 does not have"
             elif source.text.partition("\n")[0].endswith("\r"):
                 end = 0
                 what = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"

@@ -15,7 +15,7 @@ class PytestFileUnregistered(Rule):
     """No command of CMakeLists.txt names a test file.
 
     **Why.** An ament_cmake package runs only the tests that it registers: ``colcon test`` passes
-    and this one never runs.
+    and this test never runs.
 
     **Fix.** Add ``ament_add_pytest_test`` for the file.
 

@@ -25,7 +25,7 @@ INSTALLERS = (
 
 
 class PythonPackageNotInstalled(Rule):
-    """A package of modules that are imported is not installed.
+    """A Python package that code imports is not installed.
 
     **Why.** The build passes; the node ends with ``ModuleNotFoundError: No module named
     'talker'``.

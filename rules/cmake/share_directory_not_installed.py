@@ -25,7 +25,7 @@ class ShareDirectoryNotInstalled(Rule):
     """A directory of launch files, or of files read at run time, is not installed as it is.
 
     **Why.** ``ros2 launch`` does not find the file; a missing parameter file is a warning among
-    others, and nodes run with defaults. Patterns that leave no file do so without a word.
+    others, and nodes run with defaults. Patterns that match no file have the same effect, silently.
     ``config/`` with a slash installs what is in it, without it the directory itself: files land in
     ``share/<package>/`` or in ``share/<package>/config/config/``, where only ``ros2 launch`` finds
     its files.

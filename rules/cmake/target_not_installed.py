@@ -15,7 +15,7 @@ _LISTS = (
 
 
 class TargetNotInstalled(Rule):
-    """An executable is built and not installed.
+    """An executable is built, but not installed.
 
     **Why.** ``ros2 run`` answers ``No executable found``.
 

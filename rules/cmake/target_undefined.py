@@ -18,7 +18,7 @@ _LISTS = (
 
 
 class TargetUndefined(Rule):
-    """A command is given a target that nothing defines.
+    """A command uses an undefined target.
 
     **Why.** CMake stops: the first argument must be a valid target name.
 

@@ -17,9 +17,9 @@ _LISTS_NODES = "project(talker)\n{}ament_package()\n"
 
 
 class TestingConditionWrong(Rule):
-    """Tests are under a variable that nothing sets, or a node is installed only with the tests.
+    """Tests depend on a variable that is never set, or a node is installed only with the tests.
 
-    **Why.** A block under such a variable is never entered: ``colcon test`` runs no test, and says
+    **Why.** The block is never entered: ``colcon test`` runs no test, and says
     nothing. Releases are built with ``BUILD_TESTING`` off: ``No executable found`` for everyone but
     the author.
 

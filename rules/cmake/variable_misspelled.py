@@ -15,9 +15,9 @@ _LISTS = "project(talker)\n{}install(FILES a.yaml DESTINATION share/${{{}}})\nam
 
 
 class VariableMisspelled(Rule):
-    """A variable is used in place of ``PROJECT_NAME`` that nothing sets.
+    """An undefined variable is used instead of ``PROJECT_NAME``.
 
-    **Why.** CMake takes it for empty, without a word: files are installed in ``lib/`` or
+    **Why.** CMake silently treats it as empty: files are installed in ``lib/`` or
     ``share/`` instead of the directory of the package.
 
     **Fix.** Write ``${PROJECT_NAME}``; variables of CMake are case-sensitive.

@@ -71,12 +71,11 @@ _LATER = "from Kilted on, a timeout raises TimeoutError, and returned None befor
 
 
 class BehaviorChanged(PythonRule):
-    """A call does something else on the target than on the distribution that the code comes from.
+    """A call behaves differently on the target than on the distribution that the code comes from.
 
     Only ``migrate`` reports it: it knows where the code comes from.
 
-    **Why.** Nothing fails when the program starts: a default, or the way to report a failure, is
-    another.
+    **Why.** Nothing fails at start: a default, or the way to report a failure, has changed.
 
     **Fix.** Pass the value that the program relies on, or handle both behaviors.
 

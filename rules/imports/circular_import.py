@@ -13,7 +13,7 @@ _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
 class CircularImport(Rule):
     """Two modules import names from each other at their top.
 
-    **Why.** The second one is not complete when the first takes from it: ``ImportError: cannot
+    **Why.** The second one is not complete when the first imports from it: ``ImportError: cannot
     import name 'Talker' from partially initialized module``.
 
     **Fix.** Move what both need to a third module.

@@ -29,11 +29,11 @@ _OLD = "asyncio.get_event_loop()"
 class EventLoopMissing(PythonRule):
     """A program asks asyncio for the current event loop when there is none.
 
-    In ``main``, in a function that it calls, in the constructor or a timer of a node that it makes,
-    or at the top of a module, where no loop runs, and where the file sets none.
+    Reported in ``main``, in a function that it calls, in the constructor or a timer of its node,
+    and at the top of a module, if no loop is running and the file sets none.
 
-    **Why.** Python 3.14, which Lyrical runs on, makes none: ``RuntimeError: There is no current
-    event loop in thread 'MainThread'``.
+    **Why.** Python 3.14, which Lyrical uses, does not create one: ``RuntimeError: There is no
+    current event loop in thread 'MainThread'``.
 
     **Fix.** Run the coroutine with ``asyncio.run()``, or make the loop with
     ``asyncio.new_event_loop()`` and set it with ``asyncio.set_event_loop()``.

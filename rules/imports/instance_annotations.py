@@ -22,7 +22,7 @@ _CLASS = (
 class InstanceAnnotations(PythonRule):
     """Code asks an object for the annotations of its class.
 
-    **Why.** From Python 3.14 on, which Lyrical runs on, an object does not have them:
+    **Why.** From Python 3.14 on, which Lyrical uses, an object does not have them:
     ``self.__annotations__`` raises ``AttributeError``, and ``getattr`` returns its default, as if
     nothing were annotated.
 

@@ -24,7 +24,7 @@ _MANIFEST = (
 
 
 class ModuleOfRos1Imported(Rule):
-    """A module of ROS 1 is imported, or one of ROS 2 that is there for C++ alone.
+    """A module of ROS 1 is imported, or a ROS 2 module that exists only for C++.
 
     **Why.** ``ModuleNotFoundError: No module named 'rospy'`` when the node is started. ``rospkg``
     can be installed, but looks in ``ROS_PACKAGE_PATH``, which ROS 2 does not set:
@@ -68,7 +68,7 @@ class ModuleOfRos1Imported(Rule):
             },
             Report(
                 "talker/node.py:4:7",
-                "rospkg finds packages of ROS 1 alone: ResourceNotFound; use "
+                "rospkg only finds packages of ROS 1: ResourceNotFound; use "
                 "get_package_share_directory() of ament_index_python",
             ),
         ),
@@ -93,7 +93,7 @@ class ModuleOfRos1Imported(Rule):
                 yield self.report(item, message)
             for at in rospack_lookups(package, path):
                 message = (
-                    "rospkg finds packages of ROS 1 alone: ResourceNotFound; use "
+                    "rospkg only finds packages of ROS 1: ResourceNotFound; use "
                     "get_package_share_directory() of ament_index_python"
                 )
                 yield self.report(at, message)

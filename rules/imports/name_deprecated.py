@@ -23,7 +23,7 @@ class NameDeprecated(PythonRule):
 
     **Why.** It works, with a warning at most; a later distribution removes it.
 
-    **Fix.** Write the name that takes its place.
+    **Fix.** Use its replacement.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
     """

@@ -64,7 +64,7 @@ class NameGone(PythonRule):
     **Why.** ``AttributeError: module 'numpy' has no attribute 'float'`` as soon as the line runs.
     Names of NumPy 2 work on a machine with a newer NumPy from pip, and nowhere else.
 
-    **Fix.** Use the name that the message tells.
+    **Fix.** Use the name in the message.
 
     **Source.** Release notes of NumPy 1.24 and 2.0, Pillow 10 and SciPy; Ubuntu 24.04 has NumPy
     1.26, Pillow 10.2 and SciPy 1.11.

@@ -32,14 +32,14 @@ _ELSEWHERE = (
 
 
 class NameRemoved(PythonRule):
-    """Code uses a name that the distribution had and does not have any more.
+    """Code uses a name that was removed in the distribution.
 
     **Why.** ``AttributeError``, ``ImportError`` or ``ModuleNotFoundError``: Lyrical removed what
-    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies. Its
-    NumPy and its Python lack names as well, and arguments: ``TypeError`` or ``ValueError``.
+    rclpy had deprecated, such as ``get_logger().warn`` and the long names of the policies. Names
+    and arguments of its NumPy and Python were removed, too: ``TypeError`` or ``ValueError``.
 
-    **Fix.** Write the name that took its place. Where that is not on all distributions that the
-    package is kept for, ask for it first.
+    **Fix.** Use its replacement. If not all distributions of the package have it, test for it
+    first.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
     """

@@ -43,13 +43,13 @@ _ALONE = frozenset({"this is a list", "this is a tuple", "this is a function", "
 
 
 class ActionMadeWrongly(LaunchRule):
-    """An action lacks the program that it starts, or a list of actions is none, or holds others.
+    """An action lacks its program, or a list of actions is not a list or has other items.
 
     **Why.** ``ros2 launch`` stops: ``TypeError: 'Node' object is not iterable`` without the list,
     ``'list' object has no attribute 'describe_sub_entities'``, the same with
     ``'LaunchConfiguration'`` or ``'NoneType'``, ``'Node' object is not callable`` where a comma is
     missing between two actions, ``missing 1 required keyword-only argument: 'executable'``. A
-    setting at the end of a group sets nothing.
+    setting at the end of a group has no effect.
 
     **Fix.** ``Node(package=..., executable=...)``, ``actions=[...]``, and settings first;
     ``*nodes`` for the items of a list, ``RegisterEventHandler(...)`` around a handler,

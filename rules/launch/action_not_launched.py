@@ -34,9 +34,9 @@ _LAUNCH_ONCE = (
 
 
 class ActionNotLaunched(LaunchRule):
-    """A launch file makes an action that it does not return, or twice, or cannot be asked for it.
+    """A launch file does not return an action, returns it twice, or cannot be called.
 
-    **Why.** An action that is in no list is never executed, without a word, even if it is named as
+    **Why.** An action that is in no list is silently never executed, even if it is named as
     ``target_action``; one that is in two stops the launch: ``executed more than once``. ``ros2
     launch`` calls ``generate_launch_description`` without arguments, and ``add_action`` returns
     ``None``. A warning where a variable holds the action: it may be kept for later.

@@ -27,13 +27,13 @@ def _include(arguments: str) -> dict[str, str]:
 
 
 class ArgumentNotList(LaunchRule):
-    """An argument that launch goes through, such as ``parameters=`` of a node, is not a list.
+    """An argument that must be a list, such as ``parameters=`` of a node, is not a list.
 
     **Why.** ``parameters``: ``ros2 launch`` stops, ``'Node' expected 'parameters' to be one of
     [<class 'list'>]``; a tuple is refused as well. A text in ``arguments`` is split into letters:
-    the program gets ``-``, ``-``, ``r``, ``o`` ... and most often ignores them without a word.
+    the program gets ``-``, ``-``, ``r``, ``o`` ... and usually ignores them silently.
     ``remappings`` and ``launch_arguments`` are taken apart in pairs: ``ValueError: not enough
-    values to unpack``; names of two letters set wrong arguments without a word.
+    values to unpack``; names of two letters silently set wrong arguments.
 
     **Fix.** A list: of dictionaries and files, of texts, of pairs. ``launch_arguments`` are the
     ``.items()`` of a dictionary.

@@ -29,12 +29,12 @@ _LAUNCH = (
 
 
 class ConditionUnusable(LaunchRule):
-    """A condition is about something that launch cannot read as true or false, or never true.
+    """A condition has a value that launch cannot read as true or false, or is never true.
 
     **Why.** ``ros2 launch`` stops: ``'bool' object is not iterable`` for what Python decides,
     ``invalid condition expression, expected one of [true, 1, false, 0]`` for other texts, ``name
     'true' is not defined`` for ``not true`` in a PythonExpression. Texts are compared letter by
-    letter: ``true`` is not ``True``, and the node is left out without a word.
+    letter: ``true`` is not ``True``, and the node is silently not started.
 
     **Fix.** ``IfCondition(LaunchConfiguration('use'))``, ``UnlessCondition(...)`` instead of
     ``not``, quotes around what is text: ``PythonExpression(["'", mode, "' == 'fast'"])``.
@@ -84,7 +84,7 @@ class ConditionUnusable(LaunchRule):
             ),
             Report(
                 "launch/b.launch.py:12:65",
-                "'use' is 'false' by default: who sets it to 'true' does not get 'True'",
+                "'use' is 'false' by default: setting it to 'true' does not give 'True'",
                 severity=Severity.WARNING,
             ),
             Report("launch/c.launch.py:12:65", "'use' takes 'no', 'yes': it never equals 'true'"),

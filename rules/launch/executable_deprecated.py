@@ -25,8 +25,8 @@ class ExecutableDeprecated(Rule):
 
     **Why.** It warns at each start, and a later distribution does not have it: the launch stops.
 
-    **Fix.** Start what takes its place. No automatic fix: its arguments are others, and older
-    distributions do not have them.
+    **Fix.** Start its replacement. No automatic fix: the arguments differ, and older distributions
+    do not have them.
 
     **Source.** The pull requests that ``scaffold/data/changes.toml`` names.
     """

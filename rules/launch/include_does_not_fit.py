@@ -39,10 +39,10 @@ def _files(path: str, given: str) -> dict[str, str]:
 
 
 class IncludeDoesNotFit(LaunchRule):
-    """An include gives other arguments than the launch file has, or includes the file itself.
+    """An include passes arguments that the launch file does not have, or a file includes itself.
 
     **Why.** ``ros2 launch`` stops: ``Included launch description missing required argument
-    'robot_name'``. An argument that the file does not have is dropped without a word.
+    'robot_name'``. An argument that the file does not have is silently ignored.
 
     **Fix.** Write the name that the included file declares.
 

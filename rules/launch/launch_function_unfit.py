@@ -43,7 +43,7 @@ _LAUNCH_HANDLERS = (
 
 
 class LaunchFunctionUnfit(LaunchRule):
-    """The function of an OpaqueFunction or event handler takes other arguments, or returns no list.
+    """The function of an OpaqueFunction or event handler takes wrong arguments or returns no list.
 
     **Why.** ``ros2 launch`` stops when it calls it: ``set_up() takes 0 positional arguments but 1
     was given``, ``missing 1 required positional argument``; ``'list' object is not callable`` for a

@@ -20,7 +20,7 @@ _LAUNCH = (
 
 
 class LaunchNameInvalid(LaunchRule):
-    """A launch file gives a node a name or namespace that ROS 2 refuses, or a condition no truth.
+    """A launch file gives a node an invalid name or namespace, or a condition an invalid default.
 
     **Why.** The node dies at start: ``InvalidNodeNameException``, or ``Couldn't parse remap
     rule``. A condition on another text ends the launch: ``invalid condition expression``.
@@ -38,8 +38,8 @@ class LaunchNameInvalid(LaunchRule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            Report("7:56", "ROS 2 refuses the node name 'my/talker': letters, digits and _ only"),
-            Report("7:79", "ROS 2 refuses the namespace 'robot-1'"),
+            Report("7:56", "ROS 2 rejects the node name 'my/talker': letters, digits and _ only"),
+            Report("7:79", "ROS 2 rejects the namespace 'robot-1'"),
         ),
         Example(
             "a condition",
@@ -57,11 +57,11 @@ class LaunchNameInvalid(LaunchRule):
         for call in launch.find(*NODES, "ComposableNode"):
             name, space = launch.text(call, "name"), launch.text(call, "namespace")
             if isinstance(name, str) and not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
-                message = f"ROS 2 refuses the node name {name!r}: letters, digits and _ only"
+                message = f"ROS 2 rejects the node name {name!r}: letters, digits and _ only"
                 yield self.report(launch.location(call.given["name"]), message)
             is_space = re.fullmatch(r"(/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*/?|/|)", str(space), re.ASCII)
             if isinstance(space, str) and not is_space:
-                message = f"ROS 2 refuses the namespace {space!r}"
+                message = f"ROS 2 rejects the namespace {space!r}"
                 yield self.report(launch.location(call.given["namespace"]), message)
         for call in launch.find(*_CONDITIONS):
             node = next(iter([*call.given.values(), *call.call.args]), None)

@@ -33,7 +33,7 @@ class MarkupOfRos1(Rule):
     **Why.** ``ros2 launch`` stops: ``Attribute 'exec' of Entity node not found``, ``Unknown
     substitution: find``.
 
-    **Fix.** Write what ROS 2 has instead.
+    **Fix.** Write the equivalent of ROS 2.
 
     **Source.** ROS 2 documentation, "Migrating launch files from ROS 1 to ROS 2".
     """

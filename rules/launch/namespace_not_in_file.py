@@ -26,7 +26,7 @@ _FILE = "{}:\n  ros__parameters:\n    rate: 1.0\n"
 
 
 class NamespaceNotInFile(Rule):
-    """A node runs in a namespace, and the key in its parameter file has none.
+    """A node runs in a namespace that the key in its parameter file lacks.
 
     **Why.** Nothing warns: ``talker`` in the file is ``/talker``, not ``/left/talker``, and the
     node runs with its defaults.

@@ -19,10 +19,8 @@ _LAUNCH = (
 class NodeNameRepeated(Rule):
     """A launch file starts two nodes with one name.
 
-    **Why.** Nothing warns, but ``ros2 param``, services and ``ros2 node info`` reach one of the
-    two at random.
-
-    **Fix.** Give each a name, or a namespace, of its own.
+    **Why.** Nothing warns, but ``ros2 param``, services and ``ros2 node info`` reach one of the two
+    at random. **Fix.** Give each its own name or namespace.
 
     **Source.** ROS 2 documentation, "Passing ROS arguments to nodes"; ROS 2 design, "Unique
     network flows".

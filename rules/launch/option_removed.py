@@ -16,11 +16,11 @@ _XML = "<launch>\n  <executable cmd='ros2 bag record -a {}'/>\n</launch>\n"
 
 
 class OptionRemoved(Rule):
-    """A launch file starts a program with an option that the distribution has no more.
+    """A launch file starts a program with an option that was removed in the distribution.
 
     **Why.** The program ends at once, with ``ambiguous option`` or ``unrecognized arguments``.
 
-    **Fix.** Write the option that took its place.
+    **Fix.** Use its replacement.
 
     **Source.** rosbag2, ``ros2bag/verb/record.py``.
     """

@@ -25,8 +25,8 @@ class PackageUndeclared(Rule):
     **Why.** On a clean machine rosdep does not install the package: ``package 'rviz2' not
     found``.
 
-    **Fix.** Add an ``<exec_depend>``; where there is one whose condition leaves out the
-    distribution, change the condition.
+    **Fix.** Add an ``<exec_depend>``; if there is one whose condition excludes the distribution,
+    change the condition.
 
     **Source.** REP-149, ``<exec_depend>``; ROS 2 documentation, "Using ROS 2 launch for large
     projects".
@@ -93,7 +93,7 @@ class PackageUndeclared(Rule):
             Report(
                 "launch/a.launch.py:8:22",
                 "starts a node of 'rviz2', and line 4 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which leaves out Jazzy; change the condition",
+                "$ROS_DISTRO == humble, which excludes Jazzy; change the condition",
             ),
         ),
         Example(
@@ -187,7 +187,7 @@ class PackageUndeclared(Rule):
             if other is not None:
                 message = (
                     f"{_does(use)} {use.name!r}, and line {other.location.line} of package.xml "
-                    f"declares it only if {other.condition}, which leaves out "
+                    f"declares it only if {other.condition}, which excludes "
                     f"{target().title}; change the condition"
                 )
                 yield self.report(use.location, message, severity=severity)

@@ -17,7 +17,7 @@ _LAUNCH = (
 
 
 class PathJoinedWrongly(LaunchRule):
-    """A path below a share directory is joined with a slash too many, or without one.
+    """A path below a share directory is joined with an extra slash, or without one.
 
     **Why.** ``os.path.join(share, '/config')`` is ``/config``; ``share + 'config'`` is
     ``.../talkerconfig``: the file is not found, and a node runs without its parameters.

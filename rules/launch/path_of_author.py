@@ -31,9 +31,9 @@ _LAUNCH = (
 
 
 class PathOfAuthor(Rule):
-    """A launch file names a path in somebody's home or workspace, or in the current directory.
+    """A launch file uses a path in a home directory or workspace, or in the current directory.
 
-    **Why.** On every other machine it is not there: ``[WARNING] Parameter file path is not a
+    **Why.** It does not exist on any other machine: ``[WARNING] Parameter file path is not a
     file: /home/me/ros2_ws/...``, and the node runs with its defaults.
 
     **Fix.** ``PathJoinSubstitution([FindPackageShare('talker'), 'config', 'talker.yaml'])``, or a

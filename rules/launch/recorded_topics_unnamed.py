@@ -42,7 +42,7 @@ _XML = "<launch>\n  <executable cmd='ros2 bag record {}'/>\n</launch>\n"
 class RecordedTopicsUnnamed(Rule):
     """A launch file gives ``ros2 bag record`` topics without ``--topics``.
 
-    **Why.** Lyrical does not understand them any more: the recorder ends at once, with
+    **Why.** Lyrical no longer accepts them: the recorder exits at once, with
     ``unrecognized arguments``, and nothing is recorded.
 
     **Fix.** Write ``--topics`` before them, which distributions from Jazzy on know.

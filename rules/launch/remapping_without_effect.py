@@ -49,11 +49,11 @@ _LAUNCH = (
 class RemappingWithoutEffect(Rule):
     """A launch file remaps a name that the node does not have.
 
-    Reported where the code of the node is Python of the workspace, and all its topics, services
-    and actions are known.
+    Reported only for Python nodes of the workspace all of whose topics, services and actions are
+    known.
 
-    **Why.** Nothing is remapped, without a word: the node publishes and listens where it did
-    before, and what should reach it does not.
+    **Why.** Nothing is remapped, silently: the node keeps using its old names, and messages do not
+    reach it.
 
     **Fix.** Remap a name that the node has. A topic that a parameter names is set with that
     parameter.

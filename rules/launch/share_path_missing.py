@@ -34,7 +34,7 @@ _FILES = {
 
 
 class SharePathMissing(Rule):
-    """A launch file or a node names a file of a share directory that is not there when installed.
+    """A launch file or a node uses a file of a share directory that is not installed.
 
     **Why.** ``ros2 launch`` stops with ``No such file or directory``; for a parameter file it
     only warns, and the node runs with its defaults. A node ends with ``FileNotFoundError``.

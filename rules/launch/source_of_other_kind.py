@@ -25,7 +25,7 @@ _LAUNCH = (
 
 
 class SourceOfOtherKind(LaunchRule):
-    """A launch file is included with the source for another kind of file.
+    """A launch file is included with the source class of another file format.
 
     **Why.** ``ros2 launch`` stops: ``InvalidLaunchFileError``, with ``invalid syntax`` where Python
     reads XML.

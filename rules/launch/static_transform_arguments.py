@@ -72,7 +72,7 @@ _WIDTH = 99
 class StaticTransformArguments(Rule):
     """A launch file gives ``static_transform_publisher`` arguments without names.
 
-    **Why.** The program ends at once: Lyrical does not understand them any more.
+    **Why.** The program exits at once: Lyrical no longer accepts them.
 
     **Fix.** Put the name before each value; all distributions know the names.
 

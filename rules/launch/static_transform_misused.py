@@ -26,15 +26,15 @@ _TURN = 6.3
 class StaticTransformMisused(Rule):
     """A launch file gives static_transform_publisher options that it does not know, or too few.
 
-    Or an angle in degrees, or no number where one belongs, as with the arguments of ROS 1 that end
-    with a period.
+    Or an angle is in degrees, or a value is not a number, such as ROS 1 arguments that end with a
+    period.
 
     **Why.** It ends at once, ``must specify --frame-id``: the frame is missing, and nodes wait for
-    a transform that never comes. Angles are in radians: a frame that is turned by 90 of them points
-    anywhere.
+    a transform that never comes. Angles are in radians: a frame that is rotated by 90 of them
+    points anywhere.
 
-    **Fix.** ``--x 0.1 --yaw 1.57 --frame-id base_link --child-frame-id laser``, each value in a
-    string of its own.
+    **Fix.** ``--x 0.1 --yaw 1.57 --frame-id base_link --child-frame-id laser``, each value as a
+    separate string.
 
     **Source.** tf2_ros, ``static_transform_broadcaster_program.cpp``.
     """
@@ -61,7 +61,7 @@ class StaticTransformMisused(Rule):
             },
             Report(
                 "launch/a.launch.py:8:25",
-                "'--frame_id' is no option: static_transform_publisher ends at "
+                "'--frame_id' is not an option: static_transform_publisher ends at "
                 "once; closest: '--frame-id'",
             ),
             Report(
@@ -70,7 +70,7 @@ class StaticTransformMisused(Rule):
             ),
             Report(
                 "launch/c.launch.xml:2:63",
-                "'--tx' is no option: static_transform_publisher ends at once; closest: '--x'",
+                "'--tx' is not an option: static_transform_publisher ends at once; closest: '--x'",
             ),
         ),
         Example(
@@ -85,7 +85,7 @@ class StaticTransformMisused(Rule):
             },
             Report(
                 "launch/a.launch.py:8:25",
-                "'--tx' is no option: static_transform_publisher ignores it; closest: '--x'",
+                "'--tx' is not an option: static_transform_publisher ignores it; closest: '--x'",
             ),
             Report(
                 "launch/b.launch.py:8:25",
@@ -204,7 +204,7 @@ class StaticTransformMisused(Rule):
         for index in unknown:
             closest = closest_name(package, texts[index], (*_VALUES, *_FRAMES), 0.6)
             hint = f"; closest: {closest!r}" if closest else ""
-            message = f"{texts[index]!r} is no option: {PROGRAM} {then}{hint}"
+            message = f"{texts[index]!r} is not an option: {PROGRAM} {then}{hint}"
             yield self.report(words[index].location, message)
         for index in loose if not unknown else ():
             message = f"{texts[index]!r} follows no option: {PROGRAM} {then}"

@@ -36,7 +36,7 @@ _LAUNCH_TRUTH = (
 
 
 class SubstitutionUsedAsText(LaunchRule):
-    """A substitution such as LaunchConfiguration is used as text, or its text as a bool.
+    """A substitution such as LaunchConfiguration is used as a string, or its string as a bool.
 
     **Why.** It has a value only later, when actions are executed: ``TypeError: join() argument must
     be str ... not 'LaunchConfiguration'``; in an f-string, a comparison or after ``if`` it is an

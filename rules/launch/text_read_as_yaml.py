@@ -58,7 +58,7 @@ _NAMES_SOMETHING = (
 
 
 class TextReadAsYaml(Rule):
-    """A launch argument or the output of a command is a text, and launch reads it as YAML.
+    """A launch argument or the output of a command is a string, but launch reads it as YAML.
 
     **Why.** It works until somebody writes ``text:=42`` or ``text:=on``: ``InvalidParameterType
     Exception: Trying to set parameter 'text' to '42' of type 'INTEGER', expecting type 'STRING'``.

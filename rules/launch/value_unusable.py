@@ -62,7 +62,7 @@ _NODE = (
 
 
 class ValueUnusable(LaunchRule):
-    """An argument in a launch file has a value of a kind that launch cannot use.
+    """An argument in a launch file has a value of a type that launch cannot use.
 
     **Why.** ``ros2 launch`` stops with ``TypeError`` or ``ValueError``: ``'int' object is not
     iterable``, ``'TimerAction' expected 'period' to be one of ... float``, ``Provided default_value

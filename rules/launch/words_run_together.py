@@ -37,7 +37,7 @@ def _command(command: str) -> dict[str, str]:
 
 
 class WordsRunTogether(LaunchRule):
-    """Two words of a command line are one text: a comma or a space is missing between them.
+    """Two words of a command line are one string: a comma or a space is missing between them.
 
     **Why.** Python joins adjacent string literals: ``'--ros-args' '-r'`` is ``--ros-args-r``.
     ``'--ros-args -r a:=b'`` is one argument with spaces in it. The program ignores both, most often

@@ -34,9 +34,9 @@ _GIVEN = re.compile(r"(?:^|\s)([^\W\d]\w*):=")
 
 
 class XacroArgumentUnknown(LaunchRule):
-    """A launch file gives xacro an argument that the file and what it includes do not declare.
+    """A launch file gives xacro an argument that neither the file nor its includes declare.
 
-    **Why.** xacro ignores it without a word: the robot is built with the default.
+    **Why.** xacro silently ignores it: the robot is built with the default.
 
     **Fix.** Write the name of the ``<xacro:arg>``, or declare one.
 

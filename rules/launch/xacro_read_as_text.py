@@ -22,7 +22,7 @@ _LAUNCH = (
 
 
 class XacroReadAsText(LaunchRule):
-    """A launch file reads a xacro file as if it was URDF.
+    """A launch file reads a xacro file as if it were URDF.
 
     **Why.** The macros stay as they are: robot_state_publisher finds no links, or ends with
     ``Failed to parse robot description``.
@@ -54,18 +54,18 @@ class XacroReadAsText(LaunchRule):
             },
             Report(
                 "launch/a.launch.py:11:19",
-                "a xacro file is read as it is: its macros stay; run xacro in a Command",
+                "a xacro file is read without expanding its macros; run xacro in a Command",
             ),
             Report(
                 "launch/b.launch.py:11:28",
-                "a xacro file is read as it is: its macros stay; run xacro in a Command",
+                "a xacro file is read without expanding its macros; run xacro in a Command",
             ),
         ),
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for at in _reads(launch):
-            message = "a xacro file is read as it is: its macros stay; run xacro in a Command"
+            message = "a xacro file is read without expanding its macros; run xacro in a Command"
             yield self.report(at, message)
 
 

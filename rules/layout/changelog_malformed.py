@@ -16,14 +16,14 @@ _MANIFEST = "<package>\n  <version>{}</version>\n</package>\n"
 
 
 class ChangelogMalformed(Rule):
-    """CHANGELOG.rst has a section whose heading is no version, or none for that of the package.
+    """CHANGELOG.rst has a heading that is not a version, or no section for the current version.
 
     **Why.** ``catkin_prepare_release`` and bloom read the sections by their headings, ``0.1.0
     (2026-11-21)``; what does not fit is missing from the release, and a package whose version has
-    no section is released without a word about what is new.
+    no section is released without release notes.
 
     **Fix.** Write the heading as version and date, or ``Forthcoming``, and let
-    ``catkin_prepare_release`` raise the version in all places at once.
+    ``catkin_prepare_release`` update the version everywhere.
 
     **Source.** REP-132; ``catkin_pkg/changelog.py``; bloom, ``generators/debian``.
     """

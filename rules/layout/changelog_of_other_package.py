@@ -16,10 +16,10 @@ _MANIFEST = "<package><name>talker</name><version>1.2.0</version></package>\n"
 
 
 class ChangelogOfOtherPackage(Rule):
-    """CHANGELOG.rst has the name of another package in its title.
+    """The title of CHANGELOG.rst names another package.
 
-    **Why.** It is the page of the package in the index of ROS: readers take it for another one,
-    and it often was copied with the files of that one.
+    **Why.** It is shown on the page of the package in the ROS index, and was often copied from the
+    other package.
 
     **Fix.** Write the name of the package.
 

@@ -14,7 +14,7 @@ _DEPTH = 5
 class LicenseTextMissing(Rule):
     """Neither the package nor its repository has the text of the license.
 
-    **Why.** Most licenses ask that their text comes along; rosdistro asks for it at the first
+    **Why.** Most licenses require that their text is included; rosdistro requires it for the first
     release.
 
     **Fix.** Add a LICENSE file with the full text.

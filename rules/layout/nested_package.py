@@ -12,10 +12,9 @@ _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendo
 
 
 class NestedPackage(Rule):
-    """A package lies inside another package.
+    """A package is inside another package.
 
-    **Why.** colcon does not look inside a package that it has found: the inner one is never
-    built, without a message.
+    **Why.** colcon does not search inside packages: the inner one is silently never built.
 
     **Fix.** Move the inner package next to the outer one, below ``src/``.
 
@@ -49,7 +48,7 @@ class NestedPackage(Rule):
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
             Report(
                 "robot_msgs/package.xml:1:1",
-                "lies inside the package 'the package above it': colcon never builds it",
+                "is inside the package 'the package above it': colcon never builds it",
             ),
         ),
     )
@@ -60,7 +59,7 @@ class NestedPackage(Rule):
             if _is_built(package, directory):
                 continue
             at = package.start_of(f"{directory}/package.xml")
-            yield self.report(at, f"lies inside the package {outer!r}: colcon never builds it")
+            yield self.report(at, f"is inside the package {outer!r}: colcon never builds it")
 
 
 def _is_built(package: Package, directory: str) -> bool:

@@ -27,7 +27,7 @@ _LATER = "robot_state_publisher does not look, others refuse it"
 
 
 class ArraysOfTwoLengths(MessageRule):
-    """A message has names of joints, and another number of values for them.
+    """A message has a different number of joint names and values.
 
     **Why.** robot_state_publisher ignores it: ``Robot state publisher ignored an invalid
     JointState message``; others read past the end of the shorter array.

@@ -26,12 +26,12 @@ _NODE = (
 
 
 class FrameOfItself(RclpyRule):
-    """A transform leads from a frame to the same frame, or from the robot to the ground.
+    """A transform connects a frame to itself, or has the robot as the parent of the ground.
 
     **Why.** tf2 ignores it: ``TF_SELF_TRANSFORM: Ignoring transform ... with frame_id and
-    child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever
-    moves. A frame has one parent, and all ROS expects the order map, odom, base_link: the other
-    way round the tree falls apart, and the robot moves backwards.
+    child_frame_id "odom" because they are the same``. A lookup gives the identity, whatever moves.
+    A frame has one parent, and ROS expects the order map, odom, base_link: in the reverse order,
+    the tree falls apart and the robot moves backwards.
 
     **Fix.** Name the frame that moves as the child: ``child_frame_id = 'base_link'``.
 

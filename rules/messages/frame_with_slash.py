@@ -44,8 +44,8 @@ _OF_UNKNOWN = (
 class FrameWithSlash(MessageRule):
     """A frame name starts with a slash.
 
-    A warning in a transform, where tf2 removes the slash, and in a message of a package that is
-    not of ROS, as not all frames in these are looked up.
+    A warning in a transform, where tf2 removes the slash, and in messages of packages outside ROS,
+    whose frames may never be looked up.
 
     **Why.** tf2 rejects it in every program that uses the message: ``Invalid argument
     "/base_link" passed to lookupTransform ... frame_ids cannot start with a '/'``.

@@ -24,10 +24,10 @@ _NODE = (
 
 
 class HeaderIncomplete(MessageRule):
-    """A message is published with its data, and without its stamp, frame, size or range.
+    """A message is published with its data, but without its stamp, frame, size or range.
 
     **Why.** The stamp stays zero: tf2 has no transform for that time, ``message_filters`` never
-    finds a match, RViz drops the message. An empty frame is none that tf2 knows: RViz shows
+    finds a match, RViz drops the message. tf2 does not know the empty frame: RViz shows
     nothing, and Nav2 refuses the goal. A scan with ``range_max`` 0 has no reading in its range.
 
     **Fix.** Set ``message.header.stamp = self.get_clock().now().to_msg()`` and

@@ -35,10 +35,9 @@ class InterfaceMalformed(Rule):
 
     **Why.** The build stops in rosidl_adapter, with the line but not its number: an invalid type or
     array size, a default that does not fit its type, a missing ``---``, ``'maxSpeed' is an invalid
-    field name``. A backslash that is no escape, such as one at the end of a comment, in
-    ``C:/users`` written the other way around, or ``x`` after one, is a ``UnicodeDecodeError``
-    without the line. Code with a keyword of C or C++ for a name does not compile; with one of
-    Python ``message.from`` is a SyntaxError.
+    field name``. A backslash that is not a valid escape, such as at the end of a comment or before
+    ``x`` or ``users``, is a ``UnicodeDecodeError`` without the line. Code with a keyword of C or
+    C++ for a name does not compile; with one of Python ``message.from`` is a SyntaxError.
 
     **Fix.** Correct the line as the message shows. Types are files in CamelCase, fields are
     lower-case words with single underscores between them, constants are in capitals; a default

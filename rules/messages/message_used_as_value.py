@@ -26,7 +26,7 @@ _NODE = (
 
 
 class MessageUsedAsValue(MessageRule):
-    """A message is used as a list, number, text or function, or a plain value as a message.
+    """A message is used as a list, number, string or function, or a plain value as a message.
 
     **Why.** ``TypeError: 'String' object is not subscriptable``, ``AttributeError: 'str' object
     has no attribute 'data'``: in a callback, the first message ends the node. ``msg == 'go'`` is

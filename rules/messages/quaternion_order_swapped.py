@@ -42,7 +42,7 @@ _HEAD = (
 
 
 class QuaternionOrderSwapped(MessageRule):
-    """A quaternion is taken apart or put together in the order of another library.
+    """A quaternion is unpacked or built in the order of another library.
 
     **Why.** Nothing complains: the robot looks in another direction. Messages, tf_transformations
     and SciPy have x first, transforms3d has w first.

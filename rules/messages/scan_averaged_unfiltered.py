@@ -30,7 +30,7 @@ _FILTERS = frozenset(
 
 
 class ScanAveragedUnfiltered(MessageRule):
-    """The distances of a laser scan are added up or averaged as they come.
+    """The distances of a laser scan are added up or averaged without filtering.
 
     **Why.** A beam that hits nothing is ``inf``, or ``nan``: the sum and the mean are too, and
     no comparison with them says that something is near.
@@ -57,11 +57,11 @@ class ScanAveragedUnfiltered(MessageRule):
             {"guard.py": _NODE.format("np.mean(msg.ranges[:30]), sum(msg.ranges)")},
             Report(
                 "14:16",
-                "beams that hit nothing are inf: so is this result; leave them out with isfinite()",
+                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
             ),
             Report(
                 "14:42",
-                "beams that hit nothing are inf: so is this result; leave them out with isfinite()",
+                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
             ),
         ),
         Example(
@@ -79,7 +79,7 @@ class ScanAveragedUnfiltered(MessageRule):
             },
             Report(
                 "b.py:16:16",
-                "beams that hit nothing are inf: so is this result; leave them out with isfinite()",
+                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
             ),
         ),
         Example(
@@ -87,7 +87,7 @@ class ScanAveragedUnfiltered(MessageRule):
             {"guard.py": _NODE.format("np.array(msg.ranges).mean()")},
             Report(
                 "14:16",
-                "beams that hit nothing are inf: so is this result; leave them out with isfinite()",
+                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
             ),
         ),
     )
@@ -101,8 +101,7 @@ class ScanAveragedUnfiltered(MessageRule):
                 and not _is_filtered(types, call, summed)
             ):
                 message = (
-                    "beams that hit nothing are inf: so is this result; leave them out with "
-                    "isfinite()"
+                    "beams that hit nothing are inf: so is this result; filter them with isfinite()"
                 )
                 yield self.report(types.module.location(call), message)
 

@@ -25,7 +25,7 @@ _NODE = (
 
 
 class StampMadeOnce(RclpyRule):
-    """A callback stamps its messages with a time that only the constructor reads.
+    """A callback stamps its messages with a time that was read once in the constructor.
 
     **Why.** All messages have the time when the node was started: tf2 has no transforms for them
     any more, ``message_filters`` matches them with nothing, RViz drops them.
@@ -48,8 +48,8 @@ class StampMadeOnce(RclpyRule):
             {"sensor.py": _NODE.format("10", "self.stamp")},
             Report(
                 "14:37",
-                "self.stamp is made in the constructor alone: all messages have the "
-                "time of the start; use self.get_clock().now().to_msg()",
+                "self.stamp is only set in the constructor: all messages have the time of the "
+                "start; use self.get_clock().now().to_msg()",
             ),
         ),
         Example(
@@ -95,7 +95,7 @@ class StampMadeOnce(RclpyRule):
             function = file.function_of(node)
             if function in phases.running and _is_made_once(file, phases, value):
                 message = (
-                    f"{file.module.text(value)} is made in the constructor alone: all messages "
+                    f"{file.module.text(value)} is only set in the constructor: all messages "
                     "have the time of the start; use self.get_clock().now().to_msg()"
                 )
                 yield self.report(file.module.location(value), message)

@@ -29,18 +29,18 @@ _NODE = (
 _GOOD = ("0.8", "bgr8", "3 * width", "0.0")
 _TURN = 6.3
 _RANGES: Mapping[tuple[str, str], tuple[float, float, str]] = {
-    ("sensor_msgs/msg/BatteryState", "percentage"): (0, 1, "a share from 0 to 1"),
-    ("sensor_msgs/msg/RelativeHumidity", "relative_humidity"): (0, 1, "a share from 0 to 1"),
+    ("sensor_msgs/msg/BatteryState", "percentage"): (0, 1, "a fraction from 0 to 1"),
+    ("sensor_msgs/msg/RelativeHumidity", "relative_humidity"): (0, 1, "a fraction from 0 to 1"),
     ("sensor_msgs/msg/LaserScan", "angle_min"): (-_TURN, _TURN, "in radians"),
     ("sensor_msgs/msg/LaserScan", "angle_max"): (-_TURN, _TURN, "in radians"),
     ("sensor_msgs/msg/LaserScan", "angle_increment"): (-_TURN, _TURN, "in radians"),
     ("sensor_msgs/msg/Range", "field_of_view"): (0, _TURN, "in radians"),
     ("sensor_msgs/msg/NavSatFix", "latitude"): (-90, 90, "in degrees from -90 to 90"),
     ("sensor_msgs/msg/NavSatFix", "longitude"): (-180, 180, "in degrees from -180 to 180"),
-    ("vision_msgs/msg/ObjectHypothesis", "score"): (0, 1, "a share from 0 to 1"),
+    ("vision_msgs/msg/ObjectHypothesis", "score"): (0, 1, "a fraction from 0 to 1"),
     ("builtin_interfaces/msg/Time", "nanosec"): (0, 999_999_999, "less than a second"),
     ("builtin_interfaces/msg/Duration", "nanosec"): (0, 999_999_999, "less than a second"),
-    **{("std_msgs/msg/ColorRGBA", name): (0, 1, "a share from 0 to 1") for name in "rgba"},
+    **{("std_msgs/msg/ColorRGBA", name): (0, 1, "a fraction from 0 to 1") for name in "rgba"},
     **{("geometry_msgs/msg/Quaternion", name): (-1, 1, "between -1 and 1") for name in "xyzw"},
 }
 """What the comments of the definitions say."""
@@ -49,13 +49,13 @@ _PERCENT = 100
 
 
 class ValueImplausible(MessageRule):
-    """A message field gets a value that its unit or its definition rules out.
+    """A message field gets a value that contradicts its unit or definition.
 
-    **Why.** Nothing complains where it is sent: a battery of 8000 %, a robot that turns about
-    itself, colors that are white. cv_bridge refuses encodings it does not know:
-    ``Unrecognized image encoding [BGR8]``.
+    **Why.** Nothing complains where it is sent: a battery of 8000 %, a robot that spins, colors
+    that are white. cv_bridge refuses encodings it does not know: ``Unrecognized image encoding
+    [BGR8]``.
 
-    **Fix.** The comments of the definition say the unit: ``ros2 interface show
+    **Fix.** The comments of the definition give the unit: ``ros2 interface show
     sensor_msgs/msg/BatteryState``; a yaw is ``z=sin(yaw / 2)``, ``w=cos(yaw / 2)``.
 
     **Source.** The definitions in common_interfaces; ``sensor_msgs/image_encodings.hpp``; REP-103.
@@ -71,7 +71,9 @@ class ValueImplausible(MessageRule):
         Example(
             "a percentage; an encoding in capitals; bytes of a row; a yaw",
             {"talker.py": _NODE.format("80.0", "BGR8", "width", "self.yaw")},
-            Report("13:30", "percentage is a share from 0 to 1, not 80", severity=Severity.WARNING),
+            Report(
+                "13:30", ("percentage is a fraction from 0 to 1, not 80"), severity=Severity.WARNING
+            ),
             Report("16:26", "unknown encoding 'BGR8': cv_bridge raises an error; write 'bgr8'"),
             Report("17:22", "step is in bytes: a row of 'bgr8' has 3 * width"),
             Report(
@@ -87,10 +89,10 @@ class ValueImplausible(MessageRule):
                 "b.py": "from std_msgs.msg import ColorRGBA\n\n\n"
                 "def white():\n    return ColorRGBA(r=255.0, a=1.0)\n",
             },
-            Report("b.py:5:24", "r is a share from 0 to 1, not 255", severity=Severity.WARNING),
+            Report("b.py:5:24", "r is a fraction from 0 to 1, not 255", severity=Severity.WARNING),
             Report(
                 "talker.py:13:30",
-                "percentage is a share from 0 to 1, not a percentage; leave out 100",
+                "percentage is a fraction from 0 to 1, not a percentage; leave out 100",
                 severity=Severity.WARNING,
             ),
         ),
@@ -323,7 +325,7 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
         low, high, meaning = _RANGES[key]
         return "" if low <= value <= high else f"{name} is {meaning}, not {value:g}"
     if key in _SHARES and _is_times_hundred(types, node):
-        return f"{name} is a share from 0 to 1, not a percentage; leave out 100"
+        return f"{name} is a fraction from 0 to 1, not a percentage; leave out 100"
     return ""
 
 

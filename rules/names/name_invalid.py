@@ -50,8 +50,9 @@ class NameInvalid(RclpyRule):
     """A node, namespace, topic, service or action has a name that ROS 2 does not accept.
 
     **Why.** ``InvalidTopicNameException``, ``InvalidNodeNameException`` or
-    ``InvalidNamespaceException`` of ``rclpy.exceptions`` at start. A namespace does not belong into
-    the name of the node. Two underscores in a row are for middlewares, though no tool says so.
+    ``InvalidNamespaceException`` of ``rclpy.exceptions`` at start. A namespace does not belong in
+    the name of a node. Double underscores are reserved for middlewares, although no tool checks
+    this.
 
     **Fix.** Use letters, digits, single ``_`` and, but for nodes, ``/``; no digit at the start or
     after a ``/``, no ``/`` at the end.
@@ -62,7 +63,7 @@ class NameInvalid(RclpyRule):
 
     code = "NM001"
     name = "name-invalid"
-    other_severities = {Severity.WARNING: "it has two underscores in a row, which no tool refuses"}
+    other_severities = {Severity.WARNING: "it has a double underscore, which no tool refuses"}
     examples = (
         Example(
             "names of topics that are accepted", {"talker.py": _NODE.format("~/scan_2d/front")}
@@ -93,13 +94,13 @@ class NameInvalid(RclpyRule):
         Example(
             "constants of another module, and the default of its dataclass",
             {"topics.py": _TOPICS, "talker.py": _OTHER.format("")},
-            Report("talker.py:9:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
-            Report("talker.py:11:39", "ROS 2 refuses the name 'back-scan': '-' is not allowed"),
+            Report("talker.py:9:39", "ROS 2 rejects the name 'front-scan': '-' is not allowed"),
+            Report("talker.py:11:39", "ROS 2 rejects the name 'back-scan': '-' is not allowed"),
         ),
         Example(
             "a dash",
             {"talker.py": _NODE.format("front-scan")},
-            Report("8:39", "ROS 2 refuses the name 'front-scan': '-' is not allowed"),
+            Report("8:39", "ROS 2 rejects the name 'front-scan': '-' is not allowed"),
         ),
         Example(
             "parts of names, between those that are filled in",
@@ -134,7 +135,7 @@ class NameInvalid(RclpyRule):
         Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
-            Report("8:39", "ROS 2 refuses the name 'scan/2d': '2d' begins with a digit"),
+            Report("8:39", "ROS 2 rejects the name 'scan/2d': '2d' begins with a digit"),
         ),
         Example(
             "names of nodes that are accepted",
@@ -143,19 +144,19 @@ class NameInvalid(RclpyRule):
         Example(
             "a namespace in the name of a node",
             {"talker.py": _NODE_NODES.format("'left/talker'")},
-            Report("6:26", "ROS 2 refuses the node name 'left/talker': '/' is not allowed"),
+            Report("6:26", "ROS 2 rejects the node name 'left/talker': '/' is not allowed"),
         ),
         Example(
             "a namespace with a dash",
             {"talker.py": _NODE_NODES.format("'talker', namespace='left-arm'")},
-            Report("6:26", "ROS 2 refuses the namespace 'left-arm': '-' is not allowed"),
+            Report("6:26", "ROS 2 rejects the namespace 'left-arm': '-' is not allowed"),
         ),
         Example(
             "two underscores in a row",
             {"talker.py": _NODE.format("front__scan")},
             Report(
                 "8:39",
-                "the name 'front__scan' has two underscores in a row",
+                "the name 'front__scan' has a double underscore",
                 severity=Severity.WARNING,
             ),
         ),
@@ -184,7 +185,7 @@ class NameInvalid(RclpyRule):
                 continue
             problem = topic_problem(entity.name)
             if problem:
-                yield self.report(argument, f"ROS 2 refuses the name {entity.name!r}: {problem}")
+                yield self.report(argument, f"ROS 2 rejects the name {entity.name!r}: {problem}")
 
     def _check_nodes(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.nodes:
@@ -192,12 +193,12 @@ class NameInvalid(RclpyRule):
             if isinstance(node.node_name, str) and at.path == file.module.path:
                 problem = node_problem(node.node_name)
                 if problem:
-                    message = f"ROS 2 refuses the node name {node.node_name!r}: {problem}"
+                    message = f"ROS 2 rejects the node name {node.node_name!r}: {problem}"
                     yield self.report(at, message)
             if isinstance(node.namespace, str):
                 problem = namespace_problem(node.namespace)
                 if problem:
-                    message = f"ROS 2 refuses the namespace {node.namespace!r}: {problem}"
+                    message = f"ROS 2 rejects the namespace {node.namespace!r}: {problem}"
                     yield self.report(at, message)
 
     def _check_underscores(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -207,7 +208,7 @@ class NameInvalid(RclpyRule):
             if argument is None or not isinstance(name, str) or topic_problem(name):
                 continue
             if "__" in name:
-                message = f"the name {name!r} has two underscores in a row"
+                message = f"the name {name!r} has a double underscore"
                 yield self.report(argument, message, severity=Severity.WARNING)
 
 

@@ -34,7 +34,7 @@ class ScriptShadowsModule(Rule):
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
             Report(
                 "CMakeLists.txt:2:18",
-                "logging.py hides the module 'logging' from every program next to it",
+                "logging.py shadows the module 'logging' from every program next to it",
             ),
         ),
     )
@@ -45,5 +45,7 @@ class ScriptShadowsModule(Rule):
             if ending != "py":
                 continue
             if stem in sys.stdlib_module_names or (stem in ROS_PACKAGES and stem != package.name):
-                message = f"{program.name} hides the module {stem!r} from every program next to it"
+                message = (
+                    f"{program.name} shadows the module {stem!r} from every program next to it"
+                )
                 yield self.report(program, message)

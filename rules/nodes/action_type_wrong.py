@@ -23,7 +23,7 @@ _GOAL = "Fibonacci.Goal(order=3)"
 
 
 class ActionTypeWrong(RclpyRule):
-    """An action server or client is made with something that is no action type.
+    """An action server or client is created with something that is not an action type.
 
     **Why.** ``AttributeError: type object 'Fibonacci' has no attribute 'handle'``, or rclpy finds
     no type support.

@@ -65,7 +65,7 @@ _NODE_ORDER = (
 
 
 class ArgumentUnusable(RclpyRule):
-    """A function of rclpy gets a value of a type that it cannot use, or its first two swapped.
+    """An rclpy function gets an argument of the wrong type, or its first two arguments are swapped.
 
     **Why.** ``TypeError: 'str' object is not callable`` and the like, at start or at the first
     call. ``create_timer`` takes the period first, ``create_publisher`` and the like the type.

@@ -54,7 +54,7 @@ _CALLED_BY_NODE = (
 
 
 class AttributeUsedBeforeSet(RclpyRule):
-    """A node uses an attribute before it is set: further down, or by a message that comes later.
+    """A node uses an attribute before it is set: further down, or by a later message.
 
     **Why.** ``AttributeError: 'Talker' object has no attribute 'pub'`` at start. A timer may run
     before the first message.
@@ -62,7 +62,8 @@ class AttributeUsedBeforeSet(RclpyRule):
     **Fix.** Set it first, in the constructor: to ``None`` where only a message brings a value. A
     method such as ``get_name`` is called by the constructor of rclpy's Node: give it another name.
 
-    **Source.** Python documentation, "Classes"; https://github.com/4am-robotics/cob_command_tools/issues/95.
+    **Source.** Python documentation, "Classes";
+    https://github.com/4am-robotics/cob_command_tools/issues/95.
     """
 
     code = "ND062"
@@ -94,7 +95,7 @@ class AttributeUsedBeforeSet(RclpyRule):
             Report(
                 "11:16",
                 "rclpy's Node calls get_name() while it is made, before self.robot "
-                "is set in line 8: AttributeError; call the method otherwise",
+                "is set in line 8: AttributeError; rename the method",
             ),
         ),
         Example(
@@ -226,7 +227,7 @@ class AttributeUsedBeforeSet(RclpyRule):
                 if line > (call.end_lineno or call.lineno) and not is_handled_there:
                     message = (
                         f"rclpy's Node calls {name}() while it is made, before self.{used.attr} "
-                        f"is set in line {line}: AttributeError; call the method otherwise"
+                        f"is set in line {line}: AttributeError; rename the method"
                     )
                     yield self.report(file.module.location(used), message)
                     break

@@ -27,8 +27,8 @@ class CallbackWithoutSignature(PythonRule):
     the message alone; before Python 3.13 there is none for ``deque.append``: ``ValueError: no
     signature found for builtin``.
 
-    **Fix.** Pass ``lambda msg: self.heard.append(msg)``. No automatic fix: whether the attribute
-    is another object later, the rule does not know.
+    **Fix.** Pass ``lambda msg: self.heard.append(msg)``. No automatic fix: the attribute may be
+    another object later.
 
     **Source.** ``rclpy/subscription.py``, ``Subscription.callback``; ``inspect.signature``.
     """

@@ -34,7 +34,7 @@ class ClocksMixed(RclpyRule):
 
     **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` is of the
     system clock, the clock of a node is a ROS clock, also while it shows the system's time. A
-    number of seconds is no time of rclpy at all.
+    number of seconds is not an rclpy ``Time``.
 
     **Fix.** Begin with ``self.get_clock().now()``, or with
     ``Time(clock_type=ClockType.ROS_TIME)``.
@@ -76,7 +76,7 @@ class ClocksMixed(RclpyRule):
             },
             Report(
                 "driver.py:15:20",
-                "a time of rclpy and a number cannot be subtracted: TypeError; "
+                "an rclpy Time and a number cannot be subtracted: TypeError; "
                 "begin with the clock of the node: self.get_clock().now()",
             ),
         ),
@@ -114,7 +114,7 @@ class ClocksMixed(RclpyRule):
                 if NUMBER not in pair:
                     yield self.report(file.module.location(node), _of_two_clocks(pair, verb))
                 elif not isinstance(operator, ast.Eq | ast.NotEq):
-                    message = f"a time of rclpy and a number cannot be {verb}: TypeError; "
+                    message = f"an rclpy Time and a number cannot be {verb}: TypeError; "
                     message += "begin with the clock of the node: self.get_clock().now()"
                     yield self.report(file.module.location(node), message)
 

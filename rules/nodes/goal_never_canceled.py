@@ -38,7 +38,7 @@ _THREADS = ", executor=MultiThreadedExecutor()"
 
 
 class GoalNeverCanceled(RclpyRule):
-    """An action server asks whether a goal is to be canceled, and can never know.
+    """An action server checks for cancel requests that it can never receive.
 
     **Why.** Without a ``cancel_callback`` every request to cancel is rejected. With one thread, the
     request is read only after the goal is done: the callback that works on the goal occupies the

@@ -60,12 +60,12 @@ _MOST_CALLS = 5
 
 
 class LatchedTopicVolatile(RclpyRule):
-    """What is published once is volatile, or a topic that is transient local is used as volatile.
+    """A message published once is volatile, or a transient local topic is used as volatile.
 
     **Why.** The map, the description of the robot and static transforms are published once, when
     their node starts; so is what a constructor or a program that ends publishes, before subscribers
-    are discovered. A volatile subscription that comes later gets nothing, without any warning; to a
-    volatile publisher, those who request transient local do not connect.
+    are discovered. A volatile subscription that starts later gets nothing, without any warning;
+    subscriptions that request transient local do not connect to a volatile publisher.
 
     **Fix.** ``QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)`` on both sides.
 
@@ -87,8 +87,8 @@ class LatchedTopicVolatile(RclpyRule):
             {"viewer.py": _NODE.format("subscription(OccupancyGrid, '/map', print, 10)")},
             Report(
                 "10:64",
-                "'map' is latched: a volatile subscription gets nothing of what was "
-                "published before it; use QoSProfile(depth=1, "
+                "'map' is latched: a volatile subscription misses everything published before "
+                "it; use QoSProfile(depth=1, "
                 "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
             ),
         ),
@@ -97,8 +97,8 @@ class LatchedTopicVolatile(RclpyRule):
             {"viewer.py": _NODE.format("subscription(String, 'robot_description', print, 10)")},
             Report(
                 "10:70",
-                "'robot_description' is latched: a volatile subscription gets "
-                "nothing of what was published before it; use QoSProfile(depth=1, "
+                "'robot_description' is latched: a volatile subscription misses everything "
+                "published before it; use QoSProfile(depth=1, "
                 "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
                 severity=Severity.ERROR,
             ),
@@ -108,7 +108,7 @@ class LatchedTopicVolatile(RclpyRule):
             {"server.py": _NODE.format("publisher(OccupancyGrid, 'map', 1)")},
             Report(
                 "10:53",
-                "'map' is transient local everywhere: who requests that does not "
+                "'map' is transient local everywhere: subscriptions that request it do not "
                 "connect to this volatile publisher; use QoSProfile(depth=1, "
                 "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
             ),
@@ -124,8 +124,8 @@ class LatchedTopicVolatile(RclpyRule):
             },
             Report(
                 "viewer.py:10:58",
-                "'zones' is published in a constructor alone: this volatile "
-                "subscription gets nothing if it comes later; use "
+                "'zones' is only published in a constructor: this volatile subscription gets "
+                "nothing if it starts later; use "
                 "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
                 severity=Severity.ERROR,
             ),
@@ -198,8 +198,8 @@ class LatchedTopicVolatile(RclpyRule):
             topic = endpoint.name.lstrip("/") if isinstance(endpoint.name, str) else ""
             if isinstance(endpoint, Subscription) and _is_late(package, endpoint, topic):
                 message = (
-                    f"{topic!r} is published in a constructor alone: this volatile subscription "
-                    f"gets nothing if it comes later; {_USE}"
+                    f"{topic!r} is only published in a constructor: this volatile subscription "
+                    f"gets nothing if it starts later; {_USE}"
                 )
                 yield self.report(endpoint.qos or endpoint, message, severity=Severity.ERROR)
                 continue
@@ -213,13 +213,13 @@ class LatchedTopicVolatile(RclpyRule):
         there = topics_of(package).get(topic)
         if isinstance(endpoint, Publisher):
             message = (
-                f"{topic!r} is transient local everywhere: who requests that does not connect to "
-                f"this volatile publisher; {_USE}"
+                f"{topic!r} is transient local everywhere: subscriptions that request it do not "
+                f"connect to this volatile publisher; {_USE}"
             )
             yield self.report(endpoint.qos or endpoint, message)
         elif there is None or not there.publishers:
             message = (
-                f"{topic!r} is latched: a volatile subscription gets nothing of what was published "
+                f"{topic!r} is latched: a volatile subscription misses everything published "
                 f"before it; {_USE}"
             )
             is_sure = topic in _PUBLISHED_ONCE

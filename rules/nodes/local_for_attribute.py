@@ -27,7 +27,7 @@ _LOGGED = "self.get_logger().info(f'open: {is_open}')"
 
 
 class LocalForAttribute(RclpyRule):
-    """A method sets a local variable where it means the attribute of the same name.
+    """A method sets a local variable instead of the attribute of the same name.
 
     **Why.** The variable is gone when the method returns; the attribute keeps the value that the
     constructor gave it, and what other methods do with it never changes.

@@ -40,7 +40,7 @@ _NODE_LEVEL = (
 
 
 class LoggerMisused(RclpyRule):
-    """A logger gets what is not a str, a level that is no severity, or varying severities.
+    """A logger gets a message that is not a str, an invalid level, or varying severities.
 
     **Why.** rclpy does not convert a message, nor does Python add a number to a str: ``TypeError``
     when the line is reached. It remembers the severity of each place: ``ValueError: Logger severity

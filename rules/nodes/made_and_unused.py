@@ -49,7 +49,7 @@ class MadeAndUnused(RclpyRule):
     **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it. A callback
     that is not passed to anything never runs: often two subscriptions got the same one, or it has
     not the name that the base class subscribes with. Without its group, all callbacks stay in the
-    default one, which runs one at a time: what was to run side by side waits, or deadlocks.
+    default one, which runs one at a time: callbacks that should run in parallel wait, or deadlock.
 
     **Fix.** Publish, pass the callback to ``create_subscription``, the group as
     ``callback_group=``, or remove what is not used.
@@ -97,8 +97,8 @@ class MadeAndUnused(RclpyRule):
             ),
             Report(
                 "talker.py:20:29",
-                "each pass of the loop replaces 'lane_pub': messages go to the last "
-                "topic alone; keep the publishers in a list or a dict",
+                "each iteration of the loop replaces 'lane_pub': messages only go to the last "
+                "topic; keep the publishers in a list or a dict",
             ),
         ),
         Example(
@@ -126,8 +126,8 @@ class MadeAndUnused(RclpyRule):
             {"talker.py": _NODE_GROUPS.format("")},
             Report(
                 "8:22",
-                "callback group 'group' is given to nothing: all callbacks run one "
-                "at a time; pass callback_group=",
+                "callback group 'group' is never used: all callbacks run one at a time; pass "
+                "callback_group=",
             ),
         ),
     )
@@ -150,8 +150,8 @@ class MadeAndUnused(RclpyRule):
                 yield self.report(publisher, message)
             elif _is_replaced(file, publisher.call, name):
                 message = (
-                    f"each pass of the loop replaces {name!r}: messages go to the last topic "
-                    "alone; keep the publishers in a list or a dict"
+                    f"each iteration of the loop replaces {name!r}: messages only go to the "
+                    "last topic; keep the publishers in a list or a dict"
                 )
                 yield self.report(publisher, message)
         for class_ in file.classes:
@@ -178,8 +178,8 @@ class MadeAndUnused(RclpyRule):
             if attribute and is_used_elsewhere(package, file, attribute):
                 continue
             message = (
-                f"callback group {attribute or variable!r} is given to nothing: all callbacks run "
-                "one at a time; pass callback_group="
+                f"callback group {attribute or variable!r} is never used: all callbacks run one "
+                "at a time; pass callback_group="
             )
             yield self.report(file.module.location(call), message)
 

@@ -19,8 +19,8 @@ _MADE = {
     "create_timer": "a timer",
 }
 _USES = {
-    "a publisher": "what it publishes at once reaches nobody",
-    "a broadcaster": "what it sends at once reaches nobody",
+    "a publisher": "messages published at once reach nobody",
+    "a broadcaster": "transforms sent at once reach nobody",
 }
 _ENDS = ("cancel", "destroy_", "destroy", "unregister")
 _NODE = (
@@ -37,7 +37,7 @@ _NODE = (
 
 
 class MadeInCallback(RclpyRule):
-    """A callback makes a publisher, broadcaster, client or timer each time it is called.
+    """A callback creates a publisher, broadcaster, client or timer each time it is called.
 
     **Why.** Subscribers need a moment to discover a publisher: what is published until then is
     lost, so each message is. The node keeps them all, more with every call: with timers, the
@@ -58,8 +58,8 @@ class MadeInCallback(RclpyRule):
             {"talker.py": _NODE.format("")},
             Report(
                 "11:21",
-                "callback 'tick' makes a publisher each time: what it publishes at "
-                "once reaches nobody; make it in the constructor",
+                "callback 'tick' creates a publisher each time: messages published at once reach "
+                "nobody; create it in the constructor",
             ),
         ),
         Example(
@@ -67,8 +67,8 @@ class MadeInCallback(RclpyRule):
             {"talker.py": _NODE.format("").replace("        publisher", "        self.publisher")},
             Report(
                 "11:26",
-                "callback 'tick' makes a publisher each time: what it publishes at "
-                "once reaches nobody; make it in the constructor",
+                "callback 'tick' creates a publisher each time: messages published at once reach "
+                "nobody; create it in the constructor",
                 severity=Severity.WARNING,
             ),
         ),
@@ -85,19 +85,19 @@ class MadeInCallback(RclpyRule):
             },
             Report(
                 "once.py:13:21",
-                "callback 'tick' makes a publisher each time: what it publishes at "
-                "once reaches nobody; make it in the constructor",
+                "callback 'tick' creates a publisher each time: messages published at once reach "
+                "nobody; create it in the constructor",
             ),
             Report(
                 "talker.py:12:13",
-                "callback 'tick' makes a timer each time: all of them keep running; "
-                "make it in the constructor",
+                "callback 'tick' creates a timer each time: all of them keep running; create it "
+                "in the constructor",
                 severity=Severity.WARNING,
             ),
             Report(
                 "talker.py:13:21",
-                "callback 'tick' makes a publisher each time: what it publishes at "
-                "once reaches nobody; make it in the constructor",
+                "callback 'tick' creates a publisher each time: messages published at once reach "
+                "nobody; create it in the constructor",
             ),
         ),
         Example(
@@ -125,7 +125,7 @@ class MadeInCallback(RclpyRule):
                 happens = _USES.get(what, "the node keeps them all")
                 happens = "all of them keep running" if what == _TIMER else happens
                 message = (
-                    f"{executed.origin} makes {what} each time: {happens}; make it in the "
+                    f"{executed.origin} creates {what} each time: {happens}; create it in the "
                     "constructor"
                 )
                 _, variable = file.stored_in(call)

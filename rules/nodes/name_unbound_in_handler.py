@@ -23,8 +23,8 @@ _CODE = (
 class NameUnboundInHandler(PythonRule):
     """A handler uses a name that the failing statement itself would have assigned.
 
-    **Why.** ``UnboundLocalError``, in place of what the handler is for: when the statement fails,
-    nothing is assigned.
+    **Why.** ``UnboundLocalError``, instead of the handler's work: when the statement fails, nothing
+    is assigned.
 
     **Fix.** Use what went into the statement, or assign the name before the ``try``.
 

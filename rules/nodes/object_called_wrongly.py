@@ -39,7 +39,7 @@ _NODE_CALLBACKS = (
 
 
 class ObjectCalledWrongly(RclpyRule):
-    """A service or a property is called, or a callback that should be passed.
+    """A service type or a property is called, or a callback is called instead of passed.
 
     **Why.** A callback runs once, immediately, and its result, ``None``, becomes the callback:
     ``TypeError: 'NoneType' object is not callable``. ``NotImplementedError: Service classes can not

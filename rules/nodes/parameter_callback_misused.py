@@ -48,7 +48,7 @@ _NODE_USE = (
 
 
 class ParameterCallbackMisused(RclpyRule):
-    """A parameter callback is called, misreads its list, or looks for what is not declared.
+    """A parameter callback is called, misreads its list, or checks for undeclared parameters.
 
     **Why.** ``TypeError: ('Callback must be callable, got {}', ...)`` at start, ``AttributeError:
     'list' object has no attribute 'value'`` as soon as a parameter is set. Until the callback

@@ -28,8 +28,8 @@ _NODE = (
 class ResultNeverAsked(RclpyRule):
     """A node has a callback for the result of its goals, but never asks for the result.
 
-    **Why.** The future of ``send_goal_async`` is done when the goal is accepted; the result comes
-    only to who asks for it: the callback is never called.
+    **Why.** The future of ``send_goal_async`` is done when the goal is accepted; the result must be
+    requested separately: the callback is never called.
 
     **Fix.** ``goal_handle.get_result_async().add_done_callback(self.on_result)``.
 
@@ -53,7 +53,7 @@ class ResultNeverAsked(RclpyRule):
             {"caller.py": _NODE.format("self.handle = future.result()")},
             Report(
                 "19:9",
-                "nothing calls 'on_result': the result is never asked for; call "
+                "nothing calls 'on_result': the result is never requested; call "
                 "goal_handle.get_result_async().add_done_callback(self.on_result)",
             ),
         ),
@@ -73,7 +73,7 @@ class ResultNeverAsked(RclpyRule):
                 if not package.is_mentioned_once(name, file.module.path):
                     continue
                 message = (
-                    f"nothing calls {name!r}: the result is never asked for; call "
+                    f"nothing calls {name!r}: the result is never requested; call "
                     f"goal_handle.get_result_async().add_done_callback(self.{name})"
                 )
                 yield self.report(file.module.name_location(method), message)

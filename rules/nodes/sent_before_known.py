@@ -28,8 +28,8 @@ _NODE = (
 class SentBeforeKnown(RclpyRule):
     """The constructor of a node sends a goal or a request with a client that it has just made.
 
-    **Why.** The client does not know the server yet, so nobody gets what is sent: the future is
-    never done, and nothing says so.
+    **Why.** The client does not know the server yet, so the message is lost: the future is never
+    done, without any error.
 
     **Fix.** ``self.client.wait_for_server(timeout_sec=5.0)``, or send it from a timer when
     ``server_is_ready()``.

@@ -44,7 +44,7 @@ class SpinInCallback(RclpyRule):
 
     **Why.** ``rclpy.spin_...`` moves the node to another executor and removes it from there when
     done: the first call works, and after that no callback of the node runs. ``rclpy.spin`` in
-    the constructor returns at the shutdown: who makes the node gets it only then.
+    the constructor returns at shutdown: until then, the caller does not get the node.
 
     **Fix.** Spin the node in ``main``, after it is made. In callbacks, use
     ``future.add_done_callback``, or an ``async`` callback that awaits the future.

@@ -32,7 +32,7 @@ _SPIN = "    executor.spin()\n"
 
 
 class SpunWrongly(RclpyRule):
-    """A class or executor is spun, a node after the shutdown, or an executor has none or no spin.
+    """``rclpy.spin`` gets a class or executor or is too late, or an executor is empty or not spun.
 
     **Why.** No callback is ever called: an executor without nodes waits forever, and does nothing
     unless it is spun; after ``rclpy.shutdown()``, for which ``rclpy.spin`` waits, spinning has no

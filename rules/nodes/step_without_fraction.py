@@ -29,7 +29,7 @@ _BOTH = "now.sec - self.last.sec + (now.nanosec - self.last.nanosec) / 1e9"
 
 
 class StepWithoutFraction(RclpyRule):
-    """A time is computed from one of its parts, or in another unit than it is used in.
+    """A time is computed from only one of its fields, or used in another unit.
 
     **Why.** A step of ``sec`` is 0 within a second, and 1 from one second to the next: what is
     integrated stays still and jumps, what is divided ends in ``ZeroDivisionError``. ``nanosec``
@@ -175,7 +175,7 @@ class StepWithoutFraction(RclpyRule):
                     "Time(seconds=now.sec) - Time(seconds=now.sec, nanoseconds=now.nanosec)"
                 ).replace("from sensor", "from rclpy.time import Time\nfrom sensor")
             },
-            Report("15:18", "the fraction in 'nanosec' is left out: use Time.from_msg()"),
+            Report("15:18", "the fraction in 'nanosec' is ignored: use Time.from_msg()"),
         ),
     )
 

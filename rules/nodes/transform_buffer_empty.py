@@ -36,8 +36,8 @@ class TransformBufferEmpty(RclpyRule):
     """Transforms are looked up in a buffer that nothing fills, or before anything can.
 
     **Why.** ``LookupException: "map" passed to lookupTransform argument target_frame does not
-    exist``, every time: a ``Buffer`` gets transforms from a ``TransformListener`` alone, and that
-    one only while the node is spun, which is after the constructor.
+    exist``, every time: a ``Buffer`` only gets transforms from a ``TransformListener``, which only
+    receives them while the node is spun, after the constructor.
 
     **Fix.** ``self.listener = TransformListener(self.buffer, self)``; look transforms up in
     callbacks.
@@ -84,7 +84,7 @@ class TransformBufferEmpty(RclpyRule):
             Report(
                 "12:18",
                 "this buffer is new in every call, so it is empty: every lookup "
-                "fails; make buffer and listener in the constructor",
+                "fails; create buffer and listener in the constructor",
             ),
         ),
         Example(
@@ -105,7 +105,7 @@ class TransformBufferEmpty(RclpyRule):
             elif _is_made_to_ask(file, made):
                 message = (
                     "this buffer is new in every call, so it is empty: every lookup fails; "
-                    "make buffer and listener in the constructor"
+                    "create buffer and listener in the constructor"
                 )
                 yield self.report(file.module.location(made), message)
         if is_spun_by_listener(file) or spins_elsewhere(file):

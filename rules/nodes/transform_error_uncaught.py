@@ -31,10 +31,10 @@ _NODE = (
 
 
 class TransformErrorUncaught(RclpyRule):
-    """A lookup of a transform may raise what nothing catches.
+    """A transform lookup may raise an exception that is not caught.
 
-    **Why.** Right after the start frames are unknown (``LookupException``), then not connected
-    (``ConnectivityException``), then not of the time that is asked for
+    **Why.** Right after the start, frames are unknown (``LookupException``), then not connected
+    (``ConnectivityException``), then not available at the requested time
     (``ExtrapolationException``): an exception in a callback ends the node.
 
     **Fix.** ``except TransformException``, which is all of them.

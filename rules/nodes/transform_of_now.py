@@ -25,7 +25,7 @@ _NODE = (
 
 
 class TransformOfNow(RclpyRule):
-    """A transform is looked up for the present, where it cannot have arrived.
+    """A transform is looked up for the current time, before it can arrive.
 
     **Why.** Transforms arrive after the time that they are for: a lookup for ``now()`` raises
     ``ExtrapolationException: Lookup would require extrapolation into the future``, unless all

@@ -41,7 +41,7 @@ _TWO_FRAMES = (
 
 
 class TransformSentOnce(RclpyRule):
-    """A ``TransformBroadcaster`` sends the transform of a frame in the constructor alone.
+    """A ``TransformBroadcaster`` sends the transform of a frame only in the constructor.
 
     **Why.** Whoever subscribes to ``/tf`` later never gets them, and buffers forget them after ten
     seconds.

@@ -49,7 +49,7 @@ _FILES_CALLS = {
 
 
 class WaitsUnspun(Rule):
-    """``rate.sleep()`` or ``client.call()`` waits for what only the same thread could do.
+    """``rate.sleep()`` or ``client.call()`` waits for work that only its own thread could do.
 
     **Why.** A rate is woken by a timer of the node, and timers run and responses are received only
     while the node is spun: without a second thread, the program hangs there forever. ND058 reports

@@ -43,14 +43,13 @@ _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\nament_package()\n
 
 
 class BuildTypeWrong(Rule):
-    """``<build_type>`` is missing, repeated, unknown or of other files, or ament_cmake undeclared.
+    """``<build_type>`` is missing, repeated, unknown or wrong, or ament_cmake is undeclared.
 
-    **Why.** Without one, colcon takes the package for one of ROS 1, of build type catkin: it is
-    built without the hooks of ament, and ``ros2 run`` answers ``Package 'talker' not found``. For
-    one that does not exist it has no task; two make it ignore the package. Where the files do not
-    fit, the build stops: ``does not appear to contain CMakeLists.txt``. On a clean machine CMake
-    stops without a declaration: ``Could not find a package configuration file provided by
-    "ament_cmake"``.
+    **Why.** Without one, colcon assumes a ROS 1 package with the build type catkin: it is built
+    without the hooks of ament, and ``ros2 run`` answers ``Package 'talker' not found``. It cannot
+    build an unknown type, and ignores a package with two. If the files do not match, the build
+    stops: ``does not appear to contain CMakeLists.txt``. On a clean machine CMake stops without a
+    declaration: ``Could not find a package configuration file provided by "ament_cmake"``.
 
     **Fix.** Write one ``<build_type>``, ``ament_cmake``, ``ament_python`` or ``cmake``, as the
     files are, and ``<buildtool_depend>ament_cmake</buildtool_depend>``.

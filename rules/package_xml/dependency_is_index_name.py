@@ -9,9 +9,9 @@ from scaffold.api.catalog import keys_of_module, module_of_key
 
 
 class DependencyIsIndexName(Rule):
-    """A dependency has the name of the package on PyPI instead of its rosdep key.
+    """A dependency is named as on PyPI instead of by its rosdep key.
 
-    **Why.** rosdep finds no rule for ``numpy``: ``rosdep install`` and the release stop.
+    **Why.** rosdep has no key ``numpy``: ``rosdep install`` and the release stop.
 
     **Fix.** Write the rosdep key, usually ``python3-`` and the name.
 
@@ -41,7 +41,7 @@ class DependencyIsIndexName(Rule):
             {"package.xml": "<package>\n  <exec_depend>numpy</exec_depend>\n</package>\n"},
             Report(
                 "2:16",
-                "rosdep has no rule for 'numpy'; its key is 'python3-numpy'",
+                "rosdep has no key 'numpy'; its key is 'python3-numpy'",
                 fix="write python3-numpy",
             ),
             fixed={
@@ -56,7 +56,7 @@ class DependencyIsIndexName(Rule):
             },
             Report(
                 "package.xml:2:11",
-                "rosdep has no rule for 'opencv'; its key is 'libopencv-dev'",
+                "rosdep has no key 'opencv'; its key is 'libopencv-dev'",
                 fix="write libopencv-dev",
             ),
             fixed={"package.xml": "<package>\n  <depend>libopencv-dev</depend>\n</package>\n"},
@@ -73,7 +73,7 @@ class DependencyIsIndexName(Rule):
             if _is_found_by_cmake(package, dependency.name):
                 continue
             key = _key(package, module)
-            message = f"rosdep has no rule for {dependency.name!r}; its key is {key!r}"
+            message = f"rosdep has no key {dependency.name!r}; its key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
             yield self.report(dependency, message, Fix(f"write {key}", (edit,)))
 

@@ -17,9 +17,9 @@ from scaffold.api.interfaces import KINDS
 
 
 class DependencyMisspelled(Rule):
-    """The name of a dependency is misspelled, or one that no package has.
+    """The name of a dependency is misspelled or does not exist.
 
-    **Why.** rosdep finds no rule for it: ``rosdep install`` and the release stop.
+    **Why.** rosdep has no key for it: ``rosdep install`` and the release stop.
 
     **Fix.** Write the name as the package spells it.
 

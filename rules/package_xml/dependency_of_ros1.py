@@ -18,7 +18,7 @@ class DependencyOfRos1(Rule):
 
     **Why.** ROS 2 does not have it: rosdep finds no rule, and a build that looks for it stops.
 
-    **Fix.** Depend on what took its place. No automatic fix: the code has to change with it.
+    **Fix.** Depend on its replacement. No automatic fix: the code has to change with it.
 
     **Source.** ROS 2 documentation, "Migrating your package.xml to ROS 2".
     """

@@ -17,9 +17,9 @@ class DependencyRedundant(Rule):
     """Two tags name the same package, or a package depends on a group that it is a member of.
 
     **Why.** catkin_pkg, and with it colcon, refuses the manifest: ``The generic dependency on
-    'std_msgs' is redundant with: exec_depend``. So it is with two ``<depend>``, and with a group,
-    where the package would need itself; another tag twice is a line too many and nothing worse: a
-    warning.
+    'std_msgs' is redundant with: exec_depend``. The same applies to two ``<depend>``, and to a
+    group, in which case the package would depend on itself. Any other repeated tag is only
+    superfluous: a warning.
 
     **Fix.** Keep ``<depend>``, which covers building and running, and drop the other; remove one of
     the two for a group.

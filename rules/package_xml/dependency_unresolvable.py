@@ -26,11 +26,11 @@ _KEYS = ("python3-serial", "libserial-dev")
 
 
 class DependencyUnresolvable(Rule):
-    """rosdep has no rule for a dependency, and no package at hand has the name.
+    """rosdep has no key for a dependency, and no package at hand has the name.
 
-    Said only where ``rosdep update`` was run for Jazzy. A key counts as known if it has a rule for
-    any system: then it is spelled right, and who checks may well mean another system than this one.
-    The packages of the distribution are among its keys.
+    Reported only if ``rosdep update`` was run for Jazzy. A key is known if it has a rule for any
+    system, because the package may be meant for another one. The packages of the distribution are
+    among its keys.
 
     **Why.** ``rosdep install`` stops: ``Cannot locate rosdep definition for [pyserial-3]``. So do
     the build farm and everyone who installs the package with its dependencies.

@@ -18,8 +18,8 @@ _RCLPY = "  <exec_depend>rclpy</exec_depend>\n"
 class ImportDeclaredByOthers(Rule):
     """rclpy or messages are imported that only a dependency of a dependency declares.
 
-    **Why.** It works until that package needs it no more; bloom and reviewers see no dependency.
-    REP 149 asks for every package that the code uses directly.
+    **Why.** It works until that package drops the dependency; bloom and reviewers see no
+    dependency. REP 149 asks for every package that the code uses directly.
 
     **Fix.** Declare it with ``<exec_depend>``.
 

@@ -31,9 +31,9 @@ class ImportUndeclared(Rule):
     **Why.** It works on the machine of its author; on a clean one rosdep does not install the
     package and the node ends with ``ModuleNotFoundError``.
 
-    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it; where there
-    is one whose condition leaves out the distribution, change the condition. Each module is
-    reported at its first import, where ``# noqa: PX020`` accepts it.
+    **Fix.** Add an ``<exec_depend>``, or a ``<test_depend>`` when only tests import it; if there is
+    one whose condition excludes the distribution, change the condition. Each module is reported at
+    its first import, where ``# noqa: PX020`` accepts it.
 
     **Source.** REP-149, ``<exec_depend>``: "packages providing ... Python modules".
     """
@@ -257,7 +257,7 @@ class ImportUndeclared(Rule):
             Report(
                 "talker/node.py:2:1",
                 "imports 'std_msgs', and line 4 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which leaves out Jazzy; change the "
+                "$ROS_DISTRO == humble, which excludes Jazzy; change the "
                 "condition, or guard the import",
             ),
         ),
@@ -480,7 +480,7 @@ class ImportUndeclared(Rule):
             if other is not None:
                 message = (
                     f"imports {need.module!r}, and line {other.location.line} of package.xml "
-                    f"declares it only if {other.condition}, which leaves out "
+                    f"declares it only if {other.condition}, which excludes "
                     f"{target().title}; change the condition, or guard the import"
                 )
                 yield self.report(need, message, severity=severity)

@@ -20,9 +20,9 @@ _FILE = {"LICENSE": "                 Apache License\n           Version 2.0, Ja
 
 
 class LicenseDiffers(Rule):
-    """package.xml names another license than the LICENSE file of the package holds.
+    """The license in package.xml differs from the LICENSE file of the package.
 
-    **Why.** Who uses the package reads two different terms; reviewers of a release refuse it.
+    **Why.** Users find two different licenses; release reviewers reject the package.
 
     **Fix.** Name the license of the file.
 

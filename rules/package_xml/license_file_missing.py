@@ -12,7 +12,7 @@ _MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package
 class LicenseFileMissing(Rule):
     """``<license file="...">`` names a file that does not exist.
 
-    **Why.** The text of the license is part of the release; no tool looks whether it is there.
+    **Why.** The text of the license is part of the release; no tool checks that it exists.
 
     **Fix.** Write the path relative to package.xml, or add the file.
 

@@ -12,7 +12,7 @@ _PERSON = '<package>\n  <maintainer email="{}">{}</maintainer>\n</package>\n'
 
 
 class ManifestPlaceholder(Rule):
-    """``<license>``, ``<description>`` or who maintains the package is empty or a placeholder.
+    """``<license>``, ``<description>`` or ``<maintainer>`` is empty or a placeholder.
 
     **Why.** Without a license no one may use the package; catkin_pkg, and with it colcon and bloom,
     refuses an empty license or description. The description becomes the text of the Debian

@@ -14,16 +14,16 @@ _NAMED = "<package>\n  <name>talker</name>\n{}</package>\n"
 
 
 class PackageRemoved(Rule):
-    """A package is used that an older distribution has, and this one has no more.
+    """A package is used that this distribution has removed.
 
     Only packages of ROS 2 itself are judged, those in the repositories of ``ros2.repos``. A package
-    of the same name in the workspace takes its place; dependencies, imports and ``find_package``
-    calls that are for other distributions only are accepted.
+    of the same name in the workspace replaces it; dependencies, imports and ``find_package`` calls
+    that are for other distributions only are accepted.
 
     **Why.** ``rosdep install`` finds no rule for it, CMake stops at ``find_package``, and an import
     ends with ``ModuleNotFoundError``.
 
-    **Fix.** Use what took its place. No automatic fix: the code has to change with it.
+    **Fix.** Use its replacement. No automatic fix: the code has to change with it.
 
     **Source.** ``distribution.yaml`` of each distribution in ros/rosdistro, and ``ros2.repos``.
     """

@@ -30,7 +30,7 @@ class DivisorZero(Rule):
     **Why.** ``ZeroDivisionError: float division by zero``: the node ends at start, or in the
     callback that divides.
 
-    **Fix.** Set another value; in the node, give the parameter a range or look at it first.
+    **Fix.** Set another value; in the node, give the parameter a range or check it first.
 
     **Source.** Python documentation, "Built-in Exceptions".
     """

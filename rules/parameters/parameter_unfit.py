@@ -65,7 +65,7 @@ class ParameterUnfit(Rule):
     **Why.** The node ends at start: ``InvalidParameterTypeException: Trying to set parameter 'rate'
     to '2' of type 'INTEGER', expecting type 'DOUBLE'``, or ``InvalidParameterValueException: ...
     out of range``, likewise for a value between two steps. ``on``, ``yes`` and ``n`` are booleans,
-    ``2`` is not a double, and a default alone sets the type.
+    ``2`` is not a double, and the default determines the type.
 
     **Fix.** Write ``2.0``, also as the default; quote words; change the value or the range.
 

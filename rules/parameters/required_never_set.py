@@ -23,7 +23,7 @@ _ELSEWHERE = (*_LAUNCH, *_PARAMETERS)
 
 
 class RequiredNeverSet(RclpyRule):
-    """A parameter has a type and no value, is read, and no file of the package sets it.
+    """A parameter without a default is read, and no file of the package sets it.
 
     **Why.** ``ParameterUninitializedException: The parameter 'rate' is not initialized``, as soon
     as the node is started without it.
@@ -78,7 +78,7 @@ class RequiredNeverSet(RclpyRule):
             },
             Report(
                 "talker.py:9:21",
-                "parameter 'rate' has a type alone (line 8), and no file of the "
+                "parameter 'rate' has a type but no default (line 8), and no file of the "
                 "package sets it: ParameterUninitializedException; give a default",
             ),
         ),
@@ -99,7 +99,8 @@ class RequiredNeverSet(RclpyRule):
                     continue
                 if isinstance(name, str) and not _is_set(package, node, name):
                     message = (
-                        f"parameter {name!r} has a type alone (line {required[name]}), and no file "
+                        f"parameter {name!r} has a type but no default (line {required[name]}), "
+                        "and no file "
                         "of the package sets it: ParameterUninitializedException; give a default"
                     )
                     yield self.report(read, message)

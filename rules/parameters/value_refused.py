@@ -30,7 +30,7 @@ _FILE_EMPTY = "talker:\n  ros__parameters:\n    names: {}\n"
 
 
 class ValueRefused(Rule):
-    """A parameter file is valid YAML, but contains a value or a list that rcl does not take.
+    """A parameter file is valid YAML, but contains a value or a list that rcl rejects.
 
     **Why.** The node does not start: ``RCLError: failed to initialize rcl: Couldn't parse params
     file ... No value at line 3``, ``Will not support aliasing``, ``Sequence should be of same

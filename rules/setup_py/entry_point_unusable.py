@@ -44,11 +44,11 @@ _FILES = {"talker/__init__.py": "", "talker/node.py": "def main(args=None):\n   
 class EntryPointUnusable(Rule):
     """A console script is malformed, repeated, or leads to no function without arguments.
 
-    **Why.** setuptools stops the build, joins two lines without a comma between them, or makes only
-    the last of two scripts with one name. Else the build passes, and ``ros2 run`` ends with
-    ``ModuleNotFoundError: No module named 'node'``, ``AttributeError: module 'talker.node' has no
-    attribute 'run'`` or ``TypeError: main() missing 1 required positional argument``. Nothing
-    awaits an ``async`` function.
+    **Why.** setuptools stops the build, joins two lines without a comma between them, or creates
+    only the last of two scripts with the same name. Otherwise, the build passes, and ``ros2 run``
+    ends with ``ModuleNotFoundError: No module named 'node'``, ``AttributeError: module
+    'talker.node' has no attribute 'run'`` or ``TypeError: main() missing 1 required positional
+    argument``. Nothing awaits an ``async`` function.
 
     **Fix.** ``'name = package.module:function'``, a comma after each, and ``def main(args=None):``.
 

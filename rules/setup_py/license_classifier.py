@@ -21,7 +21,7 @@ _LICENSE = "    license='Apache-2.0',\n"
 
 
 class LicenseClassifier(Rule):
-    """A classifier of setup.py names the license, which setuptools is about to give up.
+    """A classifier in setup.py names the license, which setuptools has deprecated.
 
     **Why.** setuptools 77 and later, as on Lyrical, warn in each build: ``License classifiers are
     deprecated``. With a license expression in pyproject.toml they stop.

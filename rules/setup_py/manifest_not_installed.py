@@ -19,7 +19,7 @@ _LINE = "        ('share/talker', ['package.xml']),\n"
 class ManifestNotInstalled(Rule):
     """data_files do not install package.xml to ``share/<package>``.
 
-    **Why.** colcon warns and helps itself for now; tools that read the installed manifest do not
+    **Why.** colcon warns and adds it for now; tools that read the installed manifest do not
     find it in the released Debian package.
 
     **Fix.** Add ``('share/' + package_name, ['package.xml'])``.

@@ -18,8 +18,8 @@ _BOTH = f"('{INDEX}', ['resource/talker']), ('share/talker', ['package.xml'])"
 class MarkerMissing(Rule):
     """The file ``resource/<package>`` is missing, or data_files do not install it.
 
-    **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the line
-    colcon warns and helps itself, and the released Debian package is not found by ``ros2``.
+    **Why.** Without the file the build stops: ``can't copy 'resource/talker'``. Without the line,
+    colcon warns and adds it, but the released Debian package is not found by ``ros2``.
 
     **Fix.** Create the empty file, and install it to the ament index.
 

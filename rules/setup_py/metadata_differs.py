@@ -45,7 +45,7 @@ class MetadataDiffers(Rule):
     """Name, version, maintainer, description or license differ between setup.py and package.xml.
 
     **Why.** With two names, executables land below the one and ``ros2 run`` looks below the other.
-    Of the rest, ``ros2 pkg xml`` and ``importlib.metadata`` then tell different things, and
+    For the rest, ``ros2 pkg xml`` and ``importlib.metadata`` disagree, and
     ``catkin_prepare_release`` stops at two versions.
 
     **Fix.** Write the same in both, or read package.xml in setup.py; the name is also that in

@@ -32,12 +32,12 @@ _FILES_PLACES = {"src/talker/__init__.py": "", "src/text.py": ""}
 
 
 class ModuleNotPacked(Rule):
-    """``packages`` lacks a package or a sub-package, or what setup.py names is not there.
+    """``packages`` lacks a package or subpackage, or setup.py names a missing directory.
 
-    **Why.** The executables are made, the code is not installed: ``ModuleNotFoundError: No module
-    named 'talker.text'`` when they are started, though it works in the source tree. For what does
-    not exist the build stops: ``package directory 'demo' does not exist``, ``error in 'egg_base'
-    option: 'src' does not exist``.
+    **Why.** The executables are created, but the code is not installed: ``ModuleNotFoundError: No
+    module named 'talker.text'`` when they are started, though it works in the source tree. For what
+    does not exist the build stops: ``package directory 'demo' does not exist``, ``error in
+    'egg_base' option: 'src' does not exist``.
 
     **Fix.** ``packages=find_packages(exclude=['test'])``, and ``package_dir`` where the packages
     are.

@@ -22,7 +22,7 @@ _FILES = {
 
 
 class PackageDataMissing(Rule):
-    """A module reads a file that lies next to it, and setup.py does not install that file.
+    """A module reads a file next to it that setup.py does not install.
 
     **Why.** It works in the source tree and with ``--symlink-install``; installed it is
     ``FileNotFoundError: .../site-packages/talker/words.txt``.

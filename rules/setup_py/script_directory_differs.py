@@ -25,9 +25,9 @@ _CFG_VALUE = "[develop]\nscript_dir={}\n[install]\ninstall_scripts={}\n"
 
 
 class ScriptDirectoryDiffers(Rule):
-    """No setup.cfg sends executables to ``$base/lib/<package>``.
+    """setup.cfg does not install executables to ``$base/lib/<package>``.
 
-    **Why.** They land in ``bin/`` or elsewhere; ``ros2 run`` looks in ``lib/<package>`` alone: ``No
+    **Why.** They land in ``bin/`` or elsewhere; ``ros2 run`` only looks in ``lib/<package>``: ``No
     executable found``.
 
     **Fix.** Write a setup.cfg with ``script_dir`` and ``install_scripts`` set to ``$base/lib/`` and

@@ -75,7 +75,7 @@ class SetupFileMissing(Rule):
             Report(
                 "setup.py:9:33",
                 "the pattern config/* matches the directory config/arm, which "
-                "cannot be copied: the build stops; give it a line of its own",
+                "cannot be copied: the build stops; list it separately",
             ),
         ),
         Example(
@@ -197,7 +197,7 @@ def _directory_in(package: Package, pattern: Glob) -> str | None:
         if fnmatchcase(folder, name):
             return (
                 f"the pattern {pattern.pattern} matches the directory {start}{folder}, which "
-                "cannot be copied: the build stops; give it a line of its own"
+                "cannot be copied: the build stops; list it separately"
             )
     return None
 

@@ -37,9 +37,9 @@ _TEST = "def test_talk():\n    pass\n"
 
 
 class TestsNotRun(Rule):
-    """setup.py does not say that the tests need pytest, or says so with ``tests_require``.
+    """setup.py does not declare pytest for the tests, or does so with ``tests_require``.
 
-    setup.cfg may say so for it.
+    setup.cfg may declare it instead.
 
     **Why.** ``colcon test`` falls back to unittest, which finds nothing in pytest files: ``Ran 0
     tests ... OK``. setuptools 72 dropped ``tests_require``; the version of Ubuntu 24.04 still reads

@@ -16,7 +16,7 @@ _ENDS = frozenset({"pytest.fail", "pytest.skip", "pytest.xfail"})
 
 
 class AssertionWithoutEffect(TestRule):
-    """A test states something that nothing checks, or asserts something that is always true.
+    """A test has a condition without an assert, or asserts something that is always true.
 
     **Why.** The test passes whatever happens: a comparison without ``assert``, ``pytest.raises``
     with nothing to call, ``assert`` in a ``try`` that drops the AssertionError. A function that is

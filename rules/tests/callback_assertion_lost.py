@@ -23,7 +23,7 @@ _MAKERS = frozenset({"create_subscription", "create_timer", "create_service", "a
 
 
 class CallbackAssertionLost(TestRule):
-    """A test asserts in a callback, and another thread spins.
+    """A test asserts in a callback that another thread runs.
 
     **Why.** The ``AssertionError`` ends that thread, and pytest never sees it: the test passes,
     whatever arrives.

@@ -39,14 +39,14 @@ _TEST_MADE = (
 
 
 class FixtureMisused(Rule):
-    """A fixture is called, has another name, gives nothing, yields twice, or has a wrong scope.
+    """A fixture is called, misspelled, returns nothing, yields twice, or has a wrong scope.
 
     **Why.** The test ends in an error: ``Fixture "text" called directly``, ``fixture 'txt' not
     found``, ``'NoneType' object has no attribute ...``, ``ScopeMismatch``, ``fixture function has
     more than one 'yield'``.
 
     **Fix.** Take the fixture as an argument of the test, under its name; ``return`` or ``yield``
-    once what the test needs, with a scope that is not wider than those of the fixtures it takes.
+    the value once, with a scope that is not wider than those of the fixtures it takes.
 
     **Source.** pytest documentation, "How to use fixtures".
     """
@@ -81,7 +81,8 @@ class FixtureMisused(Rule):
                 )
             },
             Report(
-                "8:5", "text() is no fixture: pytest finds none of this name; add @pytest.fixture"
+                "8:5",
+                ("text() is not a fixture: pytest finds none with this name; add @pytest.fixture"),
             ),
         ),
         Example(
@@ -177,7 +178,7 @@ def _missing(
     if name in _BUILT_IN:
         return ""
     if name in module.functions:
-        return f"{name}() is no fixture: pytest finds none of this name; add @pytest.fixture"
+        return f"{name}() is not a fixture: pytest finds none with this name; add @pytest.fixture"
     closest = get_close_matches(name, available, 1, 0.75)
     return f"there is no fixture {name!r}; closest: {closest[0]!r}" if closest else ""
 

@@ -24,8 +24,8 @@ _DEPTH = 3
 class FloatComparedExactly(TestRule):
     """A test compares the result of sines, roots and the like with ``==``.
 
-    **Why.** ``math.cos(math.pi / 2)`` is 6e-17 and not 0.0: the test fails by rounding, here or on
-    another machine.
+    **Why.** ``math.cos(math.pi / 2)`` is 6e-17 and not 0.0: the test fails because of rounding,
+    here or on another machine.
 
     **Fix.** ``assert w == pytest.approx(0.0, abs=1e-9)``.
 

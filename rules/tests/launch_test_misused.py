@@ -34,12 +34,12 @@ _OTHER = _TEST.format("", *_RIGHT[1:3], "object")
 
 
 class LaunchTestMisused(Rule):
-    """A test with launch_testing never becomes ready, is not run with its launch, or has no tests.
+    """A launch_testing test never becomes ready, runs without its launch file, or has no tests.
 
     **Why.** launch_testing stops: ``generate_test_description functions must return a
-    LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs
-    the tests of an ament_python package, and starts none of the nodes. Classes that are no
-    ``TestCase`` are not run at all.
+    LaunchDescription containing a ReadyToTest action``. Without the mark pytest runs the tests of
+    an ament_python package, and starts none of the nodes. Classes that are not a ``TestCase`` are
+    not run at all.
 
     **Fix.** ``launch_testing.actions.ReadyToTest()`` in the list; ``@pytest.mark.launch_test``;
     ``class TestTalker(unittest.TestCase)``.
@@ -66,7 +66,7 @@ class LaunchTestMisused(Rule):
             Report(
                 "test/test_a.py:8:5",
                 "generate_test_description has no ReadyToTest() in its list: "
-                "launch_testing refuses it",
+                "launch_testing rejects it",
             ),
         ),
         Example(
@@ -75,7 +75,7 @@ class LaunchTestMisused(Rule):
             Report(
                 "test/test_talker.py:9:5",
                 "generate_test_description has no ReadyToTest() in its list: "
-                "launch_testing refuses it",
+                "launch_testing rejects it",
             ),
         ),
         Example(
@@ -137,7 +137,7 @@ def _problems(package: Package, module: PythonModule) -> Iterator[str]:
         or "ready_fn" in arguments
         or _calls_others(module, node)
     ):
-        yield f"{LAUNCH} has no ReadyToTest() in its list: launch_testing refuses it"
+        yield f"{LAUNCH} has no ReadyToTest() in its list: launch_testing rejects it"
     tests = any(is_test_case(module, class_.node) for class_ in module.classes.values())
     name = module.path.rpartition("/")[2]
     by_pytest = package.has("setup.py") and not package.has("CMakeLists.txt")

@@ -34,14 +34,14 @@ _WORDS = ("spin", "launch_testing", "Executor")
 
 
 class NodeTestMisused(Rule):
-    """A test makes a node without rclpy.init(), or waits for messages without spinning.
+    """A test creates a node without rclpy.init(), or waits for messages without spinning.
 
     **Why.** ``NotInitializedException: rclpy.init() has not been called``; ``Context.init() must
     only be called once`` in the second test. Callbacks run while somebody spins: nothing is ever
     received, and the assertion fails.
 
     **Fix.** A fixture with ``rclpy.init()``, ``yield`` and ``rclpy.shutdown()``; ``spin_once`` with
-    ``timeout_sec=0.1`` in a loop until it has arrived or a limit of time is over.
+    ``timeout_sec=0.1`` in a loop until the message arrives or a timeout expires.
 
     **Source.** rclpy, ``context.py``, ``node.py``, ``executors.py``; ROS 2 documentation,
     "Executors".

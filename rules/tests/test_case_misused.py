@@ -20,7 +20,7 @@ _CASE = "unittest.TestCase"
 
 
 class TestCaseMisused(TestRule):
-    """A TestCase has a method that unittest never calls, or that it calls in another way.
+    """A TestCase has a method that unittest never calls, or calls with other arguments.
 
     **Why.** ``set_up`` is never called, nor is ``setUp`` in a class without TestCase:
     AttributeError in the tests. unittest gives a test no arguments, so neither fixtures nor

@@ -20,9 +20,9 @@ _TEST = (
 
 
 class TestNeverEnds(Rule):
-    """A test spins a node, or waits for an answer, and nothing ends that.
+    """A test spins a node, or waits for a response, without an end.
 
-    **Why.** ``rclpy.spin`` returns only when somebody shuts down, and ``client.call`` only when
+    **Why.** ``rclpy.spin`` returns only at shutdown, and ``client.call`` only when
     another thread spins, so ``colcon test`` hangs.
 
     **Fix.** ``spin_once`` with ``timeout_sec`` until a deadline; ``call_async`` and

@@ -12,7 +12,7 @@ _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_t
 
 
 class TestWithoutTests(TestRule):
-    """A file of tests has no test that pytest collects, or one that never fails.
+    """A test file has no test that pytest collects, or a test that never fails.
 
     **Why.** pytest collects functions that begin with ``test`` and classes that begin with
     ``Test`` and have no constructor: the file passes without having tested anything.

@@ -96,7 +96,7 @@ _FLEET = (
 
 
 class ArgumentTypeUnfit(TypeRule):
-    """An argument of a function of ROS has a type that the function cannot use.
+    """An argument of a ROS function has a type that the function cannot use.
 
     **Why.** The function raises ``TypeError`` or ``AttributeError``, at this line or when it uses
     the value.

@@ -61,7 +61,7 @@ _LOG = (
 class ArgumentsUnfit(TypeRule):
     """A call lacks an argument, or has one too many or an unknown one.
 
-    The function is one of ROS, or of another module of the workspace.
+    The function belongs to ROS or to another module of the workspace.
 
     **Why.** ``TypeError: create_timer() missing 1 required positional argument: 'callback'`` as
     soon as the line runs.

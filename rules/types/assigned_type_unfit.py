@@ -46,7 +46,7 @@ _TRAIL = (
 class AssignedTypeUnfit(TypeRule):
     """A field of a message is set to a value of another type.
 
-    **Why.** ROS 2 Jazzy does not look at the value when it is set: publishing the message raises
+    **Why.** ROS 2 Jazzy does not check the value when it is set: publishing the message raises
     an error that does not name the field, or sends something else.
 
     **Fix.** Set it to a value of the type that ``ros2-scaffold interfaces`` shows. With

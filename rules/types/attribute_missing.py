@@ -146,7 +146,7 @@ _FEW = 6
 class AttributeMissing(TypeRule):
     """Code uses an attribute that an object, a class or a module does not have.
 
-    It is one of ROS, or a class of the workspace that another module defines.
+    The class belongs to ROS or to another module of the workspace.
 
     **Why.** ``AttributeError`` as soon as the line runs.
 

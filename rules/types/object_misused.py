@@ -55,9 +55,9 @@ _NUMBER = (
 
 
 class ObjectMisused(TypeRule):
-    """An object is called, indexed, looped over, awaited or unpacked, and is not made for it.
+    """An object is called, indexed, iterated, awaited or unpacked, but does not support it.
 
-    It is one of ROS, or what a function of the workspace returns.
+    The object comes from ROS, or a function of the workspace returns it.
 
     **Why.** ``TypeError: 'Point' object is not subscriptable``, or ``ValueError: too many values to
     unpack``, as soon as the line runs.

@@ -35,7 +35,7 @@ _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 
 
 class OperatorUnsupported(TypeRule):
-    """An operator gets an object of ROS that it does not work on.
+    """An operator does not support an object of ROS.
 
     **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``.
 

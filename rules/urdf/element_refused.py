@@ -81,9 +81,9 @@ _COUNTS: Mapping[tuple[str, str], int] = {
 
 
 class ElementRefused(Rule):
-    """An element of URDF or xacro lacks an attribute or a child, or has a value that is refused.
+    """An element of URDF or xacro lacks an attribute or a child, or has an invalid value.
 
-    **Why.** The parser of URDF refuses the whole file, and xacro stops: robot_state_publisher ends
+    **Why.** The URDF parser rejects the whole file, and xacro stops: robot_state_publisher ends
     with ``Failed to parse robot description``, for a joint with ``Joint [axis] is of type REVOLUTE
     but it does not specify limits`` or ``has no known type [continous]``.
 
@@ -125,7 +125,7 @@ class ElementRefused(Rule):
             "another name for an attribute",
             {"robot.urdf": _ROBOT.format("val")},
             Report(
-                "4:8", "<mass> has no 'value': urdfdom refuses the whole file; 'val' is not read"
+                "4:8", "<mass> has no 'value': urdfdom rejects the whole file; 'val' is not read"
             ),
         ),
         Example(
@@ -136,7 +136,7 @@ class ElementRefused(Rule):
                 '    <parent link="a"/>\n    <child link="b"/>\n'
                 '    <limit lower="-1" upper="1"/>\n  </joint>\n</robot>\n'
             },
-            Report("7:6", "<limit> has no 'effort' or 'velocity': urdfdom refuses the whole file"),
+            Report("7:6", "<limit> has no 'effort' or 'velocity': urdfdom rejects the whole file"),
         ),
         Example(
             "an argument without a default",
@@ -146,7 +146,7 @@ class ElementRefused(Rule):
         Example(
             "a robot without a name",
             {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
-            Report("1:2", "<robot> has no 'name': urdfdom refuses the whole file"),
+            Report("1:2", "<robot> has no 'name': urdfdom rejects the whole file"),
         ),
         Example(
             "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
@@ -159,14 +159,14 @@ class ElementRefused(Rule):
             {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD)},
             Report(
                 "4:4",
-                "joint 'axis' is revolute and has no <limit>: urdfdom refuses the "
-                "whole file; add effort, velocity, lower and upper",
+                "joint 'axis' is revolute and has no <limit>: urdfdom rejects the whole file; "
+                "add effort, velocity, lower and upper",
             ),
         ),
         Example(
             "a joint without a child",
             {"robot.urdf": _ROBOT_JOINTS.format("prismatic", _LIMIT)},
-            Report("4:4", "joint 'axis' has no <child>: urdfdom refuses the whole file"),
+            Report("4:4", "joint 'axis' has no <child>: urdfdom rejects the whole file"),
         ),
         Example(
             "values as they are",
@@ -184,12 +184,12 @@ class ElementRefused(Rule):
             },
             Report(
                 "a.urdf:8:28",
-                "unknown joint type 'continous': urdfdom refuses the whole file; "
+                "unknown joint type 'continous': urdfdom rejects the whole file; "
                 "closest: 'continuous'",
             ),
             Report(
                 "b.urdf:8:28",
-                "unknown joint type 'ball': urdfdom refuses the whole file; known: "
+                "unknown joint type 'ball': urdfdom rejects the whole file; known: "
                 "revolute, continuous, prismatic, fixed, floating, planar",
             ),
         ),
@@ -201,18 +201,18 @@ class ElementRefused(Rule):
             },
             Report(
                 "a.urdf:5:18",
-                "unknown shape <cube>: urdfdom refuses the whole file; known: box, "
+                "unknown shape <cube>: urdfdom rejects the whole file; known: box, "
                 "cylinder, sphere, mesh",
             ),
             Report(
                 "a.urdf:11:18",
                 "xyz is '0, 0, 0', but must be 3 numbers with spaces between: "
-                "urdfdom refuses the whole file",
+                "urdfdom rejects the whole file",
             ),
             Report(
                 "b.urdf:5:28",
                 "size is '1 1', but must be 3 numbers with spaces between: urdfdom "
-                "refuses the whole file",
+                "rejects the whole file",
             ),
         ),
     )
@@ -228,7 +228,7 @@ class ElementRefused(Rule):
     def _check_attributes(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
             if robot.file.is_robot and robot.root.get("name") is None:
-                message = "<robot> has no 'name': urdfdom refuses the whole file"
+                message = "<robot> has no 'name': urdfdom rejects the whole file"
                 yield self.report(robot.root, message)
         for part in filter(_is_urdf, urdf_parts(package)):
             holder = part.holder.tag if part.holder is not None else ""
@@ -238,7 +238,7 @@ class ElementRefused(Rule):
                 near = [closest_name(package, it, list(part.attributes), 0.6) for it in missing]
                 hint = "".join(f"; {closest!r} is not read" for closest in near if closest)
                 which = f"<{part.tag}> has no {_listed(missing)}"
-                yield self.report(part, f"{which}: urdfdom refuses the whole file{hint}")
+                yield self.report(part, f"{which}: urdfdom rejects the whole file{hint}")
         for path in robot_paths(package):
             try:
                 file = robot_file(package, path)
@@ -260,12 +260,12 @@ class ElementRefused(Rule):
             name = part.get("name")
             for tag in ("parent", "child"):
                 if part.one(tag) is None:
-                    message = f"joint {name!r} has no <{tag}>: urdfdom refuses the whole file"
+                    message = f"joint {name!r} has no <{tag}>: urdfdom rejects the whole file"
                     yield self.report(part, message)
             type_ = part.get("type")
             if type_ in {"revolute", "prismatic"} and part.one("limit") is None:
                 message = (
-                    f"joint {name!r} is {type_} and has no <limit>: urdfdom refuses the whole "
+                    f"joint {name!r} is {type_} and has no <limit>: urdfdom rejects the whole "
                     "file; add effort, velocity, lower and upper"
                 )
                 yield self.report(part, message)
@@ -277,11 +277,11 @@ class ElementRefused(Rule):
             if type_ is not None and is_known(type_) and type_ not in _TYPES:
                 closest = closest_name(package, type_.lower(), _TYPES, 0.7)
                 hint = f"closest: {closest!r}" if closest else f"known: {', '.join(_TYPES)}"
-                message = f"unknown joint type {type_!r}: urdfdom refuses the whole file; {hint}"
+                message = f"unknown joint type {type_!r}: urdfdom rejects the whole file; {hint}"
                 yield self.report(part.at("type"), message)
             if holder == "geometry" and part.tag not in _SHAPES and ":" not in part.tag:
                 message = (
-                    f"unknown shape <{part.tag}>: urdfdom refuses the whole file; "
+                    f"unknown shape <{part.tag}>: urdfdom rejects the whole file; "
                     "known: box, cylinder, sphere, mesh"
                 )
                 yield self.report(part, message)
@@ -290,8 +290,8 @@ class ElementRefused(Rule):
                 if count and is_known(value) and not _fits(value, count):
                     numbers = "a number" if count == 1 else f"{count} numbers with spaces between"
                     message = (
-                        f"{name} is {value!r}, but must be {numbers}: urdfdom refuses the "
-                        "whole file"
+                        f"{name} is {value!r}, but must be {numbers}: urdfdom rejects the whole "
+                        "file"
                     )
                     yield self.report(part.at(name), message)
 

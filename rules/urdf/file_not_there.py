@@ -48,7 +48,7 @@ _ROBOT_PACKAGES = (
 
 
 class FileNotThere(Rule):
-    """A URDF or xacro file names a file or a package that is not there after installation.
+    """A URDF or xacro file uses a file or a package that does not exist after installation.
 
     **Why.** xacro stops at an include with ``No such file or directory`` or ``package 'robopy' not
     found``, so the robot has no description; for a mesh, RViz shows ``Could not load resource`` and

@@ -51,15 +51,15 @@ _MIMIC = (
 
 
 class TreeBroken(Rule):
-    """The links do not hang together as a tree, have the same name, or are not there.
+    """The links do not form a tree, have the same name, or do not exist.
 
     **Why.** ``Two root links found: [base_link] and [camera]``, ``link 'wheel' is not unique``,
-    ``parent link [base] of joint [axis] not found``: the parser of URDF refuses the whole file, and
-    robot_state_publisher ends. Gazebo leaves out the sensors, plugins and friction of what is not
-    there, without a word.
+    ``parent link [base] of joint [axis] not found``: the URDF parser rejects the whole file, and
+    robot_state_publisher ends. Gazebo silently ignores the sensors, plugins and friction of missing
+    links.
 
-    **Fix.** Connect each link but the first to its parent, by one joint; give each a name of its
-    own, in a macro one made of a parameter: ``${name}_link``.
+    **Fix.** Connect each link but the first to its parent, by one joint; give each a unique name,
+    in a macro derived from a parameter: ``${name}_link``.
 
     **Source.** urdfdom, ``ModelInterface::initTree`` and ``initRoot``, ``model.cpp``.
     """
@@ -74,7 +74,7 @@ class TreeBroken(Rule):
             Report(
                 "4:15",
                 "no joint connects 'camera': urdfdom finds two roots, it and "
-                "'base_link', and refuses the whole file",
+                "'base_link', and rejects the whole file",
             ),
             Report(
                 "9:4", "link 'wheel' is the child of 'axis' and of 'mount': a link has one parent"
@@ -106,7 +106,7 @@ class TreeBroken(Rule):
             {"robot.urdf": _ROBOT_NAMES.format("wheel", "shoulder", "arm")},
             Report(
                 "4:15",
-                "a link 'wheel' is already defined in robot.urdf:3: urdfdom refuses the whole file",
+                "a link 'wheel' is already defined in robot.urdf:3: urdfdom rejects the whole file",
             ),
             Report(
                 "11:18",
@@ -119,7 +119,7 @@ class TreeBroken(Rule):
             {"robot.urdf": _ROBOT_NAMES.format("arm", "axis", "arm")},
             Report(
                 "9:16",
-                "a joint 'axis' is already defined in robot.urdf:5: urdfdom refuses the whole file",
+                "a joint 'axis' is already defined in robot.urdf:5: urdfdom rejects the whole file",
             ),
         ),
         Example(
@@ -128,7 +128,7 @@ class TreeBroken(Rule):
             Report(
                 "4:17",
                 "a link 'wheel' is already defined in an earlier call of the macro: "
-                "urdfdom refuses the whole file",
+                "urdfdom rejects the whole file",
             ),
             Report(
                 "5:6",
@@ -174,7 +174,7 @@ class TreeBroken(Rule):
             },
             Report(
                 "10:22",
-                "gazebo is about 'wheels', which is no link or joint of this robot: "
+                "gazebo is about 'wheels', which is not a link or joint of this robot: "
                 "Gazebo ignores it; closest: 'wheel'",
             ),
         ),
@@ -217,7 +217,7 @@ class TreeBroken(Rule):
             if part.file.package is package:
                 message = (
                     f"no joint connects {part.get('name')!r}: urdfdom finds two roots, it and "
-                    f"{roots[0].get('name')!r}, and refuses the whole file"
+                    f"{roots[0].get('name')!r}, and rejects the whole file"
                 )
                 yield self.report(part.at("name"), message)
         for joint in _loops(parents):
@@ -242,7 +242,7 @@ class TreeBroken(Rule):
                 if other.element is part.element:
                     where = "an earlier call of the macro"
                 message = (
-                    f"a {tag} {_shown(name)!r} is already defined in {where}: urdfdom refuses "
+                    f"a {tag} {_shown(name)!r} is already defined in {where}: urdfdom rejects "
                     "the whole file"
                 )
                 cause = f"defined again in {part.location.path}"
@@ -271,7 +271,7 @@ class TreeBroken(Rule):
             if reference and links and not _is_among(reference, [*links, *joints]):
                 hint = _hint(package, reference, links)
                 message = (
-                    f"gazebo is about {reference!r}, which is no link or joint of this robot: "
+                    f"gazebo is about {reference!r}, which is not a link or joint of this robot: "
                     f"Gazebo ignores it{hint}"
                 )
                 if _is_here(package, part):

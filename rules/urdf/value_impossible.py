@@ -30,11 +30,11 @@ _RADIAN = 3.14159265 / 180
 
 
 class ValueImpossible(Rule):
-    """An angle is in degrees, or an axis, limit, mass or color is one that nothing can have.
+    """An angle is in degrees, or an axis, limit, mass or color is impossible.
 
-    **Why.** URDF has radians: with 90 for a quarter turn the part is turned by 116.6 degrees, and a
-    joint with such limits is not limited at all. With limits the wrong way round or an axis of
-    length zero, nothing can move the joint, and Gazebo leaves out a link without mass.
+    **Why.** URDF uses radians: with 90 for a quarter turn, the part is rotated by 116.6 degrees,
+    and a joint with such limits is not limited at all. With swapped limits or an axis of length
+    zero, nothing can move the joint, and Gazebo ignores a link without mass.
 
     **Fix.** ``1.5708``, or ``${radians(90)}`` and ``${pi/2}`` in xacro; the smaller limit is
     ``lower``; an axis is a direction such as ``0 0 1``.
@@ -64,7 +64,7 @@ class ValueImpossible(Rule):
                     '  <material name="b"><color rgba="1 0.5 0 1.0"/></material>\n</robot>',
                 )
             },
-            Report("4:20", "a mass of 0: Gazebo leaves the link out, and its joint"),
+            Report("4:20", "a mass of 0: Gazebo ignores the link and its joint"),
             Report("15:35", "colors are from 0 to 1, alpha as well: all above is 1; divide by 255"),
         ),
         Example(
@@ -75,12 +75,12 @@ class ValueImpossible(Rule):
                 .replace('iyy="1"', 'iyy="0.0"')
                 .replace('izz="1"', 'izz="0"')
             },
-            Report("5:21", "all moments of inertia are 0: Gazebo refuses the link"),
+            Report("5:21", "all moments of inertia are 0: Gazebo rejects the link"),
         ),
         Example(
             "impossible",
             {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
-            Report("4:20", "a mass is not negative: Gazebo refuses the link"),
+            Report("4:20", "a mass is not negative: Gazebo rejects the link"),
             Report("12:16", "the axis has no direction: the joint cannot move; write 0 0 1"),
             Report(
                 "13:19",
@@ -122,10 +122,10 @@ class ValueImpossible(Rule):
             joint = part.holder
             moves = joint is not None and joint.get("type") in _MOVING
             if part.tag == "mass" and any(value < 0 for value in _numbers(part, "value")):
-                message = "a mass is not negative: Gazebo refuses the link"
+                message = "a mass is not negative: Gazebo rejects the link"
                 yield self.report(part.at("value"), message)
             elif part.tag == "mass" and _numbers(part, "value") == [0] and _is_moved(part):
-                message = "a mass of 0: Gazebo leaves the link out, and its joint"
+                message = "a mass of 0: Gazebo ignores the link and its joint"
                 yield self.report(part.at("value"), message)
             elif part.tag == "color" and any(value > 1 for value in _numbers(part, "rgba")):
                 message = "colors are from 0 to 1, alpha as well: all above is 1; divide by 255"
@@ -142,7 +142,7 @@ class ValueImpossible(Rule):
                     )
                     yield self.report(part.at("lower"), message)
             elif part.tag == "inertia" and _has_no_moment(part) and _is_moved(part):
-                message = "all moments of inertia are 0: Gazebo refuses the link"
+                message = "all moments of inertia are 0: Gazebo rejects the link"
                 yield self.report(part.at("ixx"), message)
 
     def _check_angles(self, package: Package) -> Iterator[Diagnostic]:

@@ -43,7 +43,7 @@ _ORIGIN = '<origin xyz="0 0 0"/>'
 
 
 class XacroNameUndefined(Rule):
-    """A xacro file uses a name that nothing defines, or calls a macro with other parameters.
+    """A xacro file uses an undefined name, or calls a macro with wrong parameters.
 
     **Why.** xacro stops, ``unknown macro name: xacro:weel``, ``name 'radus' is not defined``,
     ``Undefined parameters [y]`` or ``Invalid parameter "z"``, so the robot has no description. A

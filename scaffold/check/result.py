@@ -28,7 +28,7 @@ class Verdict(NamedTuple):
     """What was found in a package, in parts that hold while what they depend on is the same.
 
     That is on condition that nothing but files that are followed (`scaffold.model.reads`) was
-    edited: after any other change nothing of it holds.
+    edited: after any other change nothing in it holds.
     """
 
     parts: Mapping[str, Part]

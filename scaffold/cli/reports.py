@@ -32,7 +32,7 @@ def validate(options: argparse.Namespace) -> None:
     if path is None:
         return
     if options.diff:
-        raise InputError("--diff writes a patch to standard output: leave out --output-file")
+        raise InputError("--diff writes a patch to standard output: omit --output-file")
     validate_path(path)
 
 
@@ -45,7 +45,7 @@ def validate_path(path: str | None) -> None:
     if path is None:
         return
     if os.path.isdir(path):
-        raise InputError(f"--output-file {path}: is a directory; name a file")
+        raise InputError(f"--output-file {path}: is a directory, not a file")
     directory = os.path.dirname(path)
     if not os.path.isdir(directory or os.curdir):
         raise InputError(f"--output-file {path}: there is no directory {directory!r}; create it")
@@ -121,7 +121,7 @@ def add_job_summary(text: str) -> None:
         with open(path, "a", encoding="utf-8", errors="backslashreplace") as file:
             file.write(text)
     except OSError as error:
-        terminal.warn(f"the summary of the job is not written: {path}: {error.strerror}")
+        terminal.warn(f"cannot write the job summary: {path}: {error.strerror}")
 
 
 def write_file(path: str, content: bytes, flag: str) -> None:

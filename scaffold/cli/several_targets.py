@@ -68,14 +68,16 @@ class SeveralTargets:
         for flag in ONE_AT_A_TIME:
             if getattr(self._options, flag):
                 name = f"--{flag.replace('_', '-')}"
-                raise InputError(f"{name} works for one distribution at a time; name it: --distro")
+                raise InputError(
+                    f"{name} works for one distribution at a time; select it with --distro"
+                )
         if self._options.stdin_filename:
             return self._run_unsaved()
         if self._is_mixed and (self._options.fix or self._options.diff):
             titles = distributions.titles(self._options.distributions)
             raise InputError(
-                f"the packages are for {titles}, and not all for the same: fix those of each on "
-                "their own, by their paths"
+                f"the packages are for {titles}, which differ between them: fix the packages of "
+                "each distribution separately, by their paths"
             )
         if self._options.fix or self._options.diff:
             return self._fix()

@@ -27,7 +27,7 @@ def validate(options: argparse.Namespace) -> None:
     """
     for flag in ("fix", "diff", "reference", "stdin_filename", "write_baseline"):
         if options.since is not None and getattr(options, flag):
-            raise InputError(f"--since only reports: leave out --{flag.replace('_', '-')}")
+            raise InputError(f"--since only reports: omit --{flag.replace('_', '-')}")
 
 
 class Since:

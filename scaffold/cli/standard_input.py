@@ -32,13 +32,15 @@ def validate(options: argparse.Namespace) -> bool:
     name = options.stdin_filename
     if name is None:
         if WORD in options.paths:
-            raise InputError("- means standard input: add --stdin-filename, the name of its file")
+            raise InputError(
+                "- means standard input: add --stdin-filename with the name of the file"
+            )
         return False
     if options.paths not in ([WORD], ["."]):
-        raise InputError("--stdin-filename goes with standard input alone: leave out the paths")
+        raise InputError("--stdin-filename only works with standard input: omit the paths")
     for flag in ("diff", "reference"):
         if getattr(options, flag):
-            raise InputError(f"--{flag} does not go with --stdin-filename")
+            raise InputError(f"--{flag} cannot be combined with --stdin-filename")
     return True
 
 
@@ -55,7 +57,7 @@ def read(path: str, disk: Disk) -> bytes:
     from scaffold.files.disk import MAX_BYTES
 
     if disk.is_directory(path):
-        raise InputError(f"--stdin-filename {path}: is a directory; name a file")
+        raise InputError(f"--stdin-filename {path}: is a directory, not a file")
     data = sys.stdin.buffer.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
         raise InputError(f"standard input: {MAX_BYTES // 1_000_000} MB is the limit")

@@ -24,7 +24,6 @@ from scaffold.record import NamedTuple
 
 PROJECT_FILE = "ros2-scaffold.toml"
 PYPROJECT_FILE = "pyproject.toml"
-PROJECT_FILES = (PROJECT_FILE, PYPROJECT_FILE)
 TOOL = "ros2-scaffold"
 """The table of ``[tool]`` in ``pyproject.toml``."""
 MAX_BYTES = 100_000
@@ -135,7 +134,7 @@ def _validate(file: _File, table: str, entries: object) -> None:
     """Raise if the configuration has no such table or key, or the value is of another type."""
     if not isinstance(entries, dict):
         raise ConfigError(
-            f"{file.path}: {table!r} is outside of a table{_key_hint(file.prefix, table)}"
+            f"{file.path}: {table!r} must be in a table{_key_hint(file.prefix, table)}"
         )
     if table not in keys.TABLES:
         raise ConfigError(f"{file.path}: unknown table [{file.prefix}{table}]{_table_hint(table)}")
@@ -152,8 +151,8 @@ def _validate(file: _File, table: str, entries: object) -> None:
             raise ConfigError(f"{file.path}: {key.path} {wrong}")
         if key.is_projects and not file.is_projects:
             raise ConfigError(
-                f"{file.path}: {key.path} belongs in the file of a project: its paths are "
-                "relative to that file"
+                f"{file.path}: {key.path} is only allowed in the file of a project, because its "
+                "paths are relative to it"
             )
 
 
@@ -205,8 +204,7 @@ def _project_file(disk: Disk, directory: str, warnings: list[str]) -> _File | No
                 return file
             continue
         warnings.append(
-            f"{path}: ignored: it is not in {top} and belongs to another user; copy it there "
-            "if it is yours to use"
+            f"{path}: ignored: outside of {top} and owned by another user; copy it there to use it"
         )
     return None
 
@@ -296,8 +294,8 @@ def _refused(disk: Disk, path: str) -> str | None:
     if trust.is_trusted(disk, directory):
         return None
     return (
-        f"{path}: 'content' ignored: it names code, and you do not trust this directory; "
-        f"if you do: ros2-scaffold trust {quote(directory)}"
+        f"{path}: 'content' ignored: it loads code, and you do not trust this directory; to "
+        f"trust it: ros2-scaffold trust {quote(directory)}"
     )
 
 

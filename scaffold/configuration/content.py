@@ -66,10 +66,12 @@ def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
     own = [_directory(base) for base in own]
     for base in own:
         if not os.path.isdir(base):
-            raise ConfigError(f"{base}: no such directory; --content or the configuration names it")
+            raise ConfigError(
+                f"{base}: no such directory, but --content or the configuration names it"
+            )
         if not any(os.path.isdir(os.path.join(base, name)) for name in _KINDS):
             name = os.path.basename(os.path.abspath(base))
-            hint = "; name the directory above it" if name in _KINDS else ""
+            hint = "; use the parent directory" if name in _KINDS else ""
             raise ConfigError(f"{base}: has no directory 'rules' or 'templates'{hint}")
     candidates = [os.path.join(base, kind) for base in (built_in(), *own)]
     return [path for path in candidates if os.path.isdir(path)]

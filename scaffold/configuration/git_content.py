@@ -47,7 +47,7 @@ def split(text: str) -> tuple[str, str]:
     """
     match = _URL.fullmatch(text)
     if match is None:
-        raise ConfigError(f"{text}: name a tag, a branch or a commit of it, such as {text}@v1.0")
+        raise ConfigError(f"{text}: add a tag, a branch or a commit, such as {text}@v1.0")
     url, name = match.groups()
     if not _REVISION.fullmatch(name) or ".." in name:
         raise ConfigError(f"{text}: {name!r} is not the name of a tag, a branch or a commit")
@@ -64,12 +64,13 @@ def resolve(text: str) -> Revision:
     url, name = split(text)
     if not trust.is_trusted_url(url):
         raise ConfigError(
-            f"{url}: not trusted: what is in it may run as you; look at it, then: "
+            f"{url}: not trusted: its content would run with your permissions; review it, then "
+            "run: "
             f"ros2-scaffold trust {url}"
         )
     top = kept.directory("content")
     if top is None:
-        raise ConfigError(f"{url}: there is no cache to fetch it to; see docs/configuration.md")
+        raise ConfigError(f"{url}: no cache to fetch it to; see docs/configuration.md")
     place = os.path.join(top, digest(os.fsencode(url)))
     mirror = os.path.join(place, "mirror.git")
     commit = _fixed(mirror, name)
@@ -121,8 +122,8 @@ def _fetch(url: str, mirror: str) -> None:
         lines = done.stderr.decode(errors="replace").splitlines() or ["git failed"]
         reason = next((line for line in lines if line.startswith(("fatal:", "ERROR"))), lines[-1])
         raise ConfigError(
-            f"{url}: cannot be fetched: {reason.removeprefix('fatal: ')}; a tag or a commit that "
-            "was fetched before needs no network"
+            f"{url}: cannot be fetched: {reason.removeprefix('fatal: ')}; tags and commits that "
+            "were fetched before need no network"
         )
 
 

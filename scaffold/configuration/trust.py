@@ -92,9 +92,9 @@ def add(directory: str) -> str:
     disk = Disk()
     real = disk.real(directory)
     if real.splitlines() != [real]:
-        raise InputError(f"{directory}: a name with a line break cannot be trusted")
+        raise InputError(f"{directory}: names with line breaks cannot be trusted")
     if disk.is_shared(real):
-        raise InputError(f"{directory}: everybody may write there, so it cannot be trusted")
+        raise InputError(f"{directory}: world-writable, so it cannot be trusted")
     with _locked() as path:
         _write(path, {**_entries(Disk()), real: disk.owner(real)})
     return real
@@ -112,9 +112,7 @@ def remove(directory: str) -> str:
         names = (directory, os.path.realpath(directory), os.path.abspath(directory))
         name = next((name for name in names if name in entries), None)
         if name is None:
-            raise InputError(
-                f"{directory}: not trusted; `ros2-scaffold trust --list` lists what is"
-            )
+            raise InputError(f"{directory}: not trusted; see `ros2-scaffold trust --list`")
         del entries[name]
         _write(path, entries)
     return name
@@ -132,7 +130,7 @@ def _locked() -> Iterator[str]:
 
     path = _path()
     if path is None:
-        raise ConfigError("no home directory to keep the list of trusted directories in; set HOME")
+        raise ConfigError("no home directory for the list of trusted directories; set HOME")
     try:
         os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
         descriptor = os.open(os.path.dirname(path), os.O_RDONLY)

@@ -76,16 +76,14 @@ def _wheels(machine: Machine) -> Environment:
     command = wheels.command(distributions.named(distribution))
     if not has_package(machine.own_prefix, "rclpy"):
         missing = [Missing("the extra 'ros'", command)]
-        return Environment(
-            "wheels", "", "", missing, "rclpy is not among the packages of this tool"
-        )
+        return Environment("wheels", "", "", missing, "rclpy is not installed next to this tool")
     needed = {"colcon": "bin/colcon", "ament_cmake": "share/ament_cmake"}
     lacking = [
         Missing(name, command)
         for name, path in needed.items()
         if not os.path.exists(os.path.join(machine.own_prefix, path))
     ]
-    reason = "rclpy is among the packages of this tool"
+    reason = "rclpy is installed next to this tool"
     return Environment("wheels", machine.own_prefix, distribution, lacking, reason)
 
 

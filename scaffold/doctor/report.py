@@ -58,11 +58,11 @@ def text(environments: Sequence[Environment], findings: Findings) -> Iterator[st
 
 
 def _lines(environments: Sequence[Environment], findings: Findings) -> Iterator[str]:
-    yield "ROS 2 environments, in the order in which `smoke` tries them:"
+    yield "ROS 2 environments, in the order of preference of `smoke`:"
     for item in environments:
         yield from _environment(item)
     if not any(item.taken for item in environments):
-        yield "error: no ROS 2 that can build and run packages: install one of these"
+        yield "error: no ROS 2 environment can build and run packages; install one of these"
     yield ""
     order = (Severity.ERROR, Severity.WARNING, Severity.INFO)
     for name, finding in sorted(findings, key=lambda item: order.index(item[1].severity)):
@@ -79,7 +79,7 @@ def _lines(environments: Sequence[Environment], findings: Findings) -> Iterator[
 def _environment(item: Environment) -> Iterator[str]:
     place = item.prefix or "none"
     distribution = f" ({item.distribution})" if item.distribution else ""
-    mark = "  <- `smoke` takes this one" if item.taken else ""
+    mark = "  <- used by `smoke`" if item.taken else ""
     yield f"  {_NAMES[item.kind]}: {place}{distribution}: {item.reason}{mark}"
     for missing in item.missing:
         yield f"    {missing.what} is missing: {missing.command}"

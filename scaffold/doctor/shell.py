@@ -48,7 +48,7 @@ def _posix(shell: str, setup: str, top: str) -> Iterator[str]:
 
 
 def _fish(top: str) -> Iterator[str]:
-    yield "# ROS 2 has no setup file for fish: start fish from a bash that has sourced one."
+    yield "# ROS 2 has no setup file for fish: start fish from a bash that has sourced it."
     yield f"alias build {quote(f'cd {quote(top)}; and colcon build')}"
     for command in ("ros2", "colcon"):
         yield (

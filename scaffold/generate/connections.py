@@ -60,7 +60,7 @@ class Mismatch(NamedTuple):
         return (
             f"the topic {self.publisher.name} is published {offered} by {_place(self.publisher)}, "
             f"but the subscription of {_place(self.subscription)} is {requested}: they do not "
-            "connect; give both the same quality of service"
+            "connect; use the same quality of service for both"
         )
 
 
@@ -86,7 +86,7 @@ class Clash(NamedTuple):
     def __str__(self) -> str:
         return (
             f"the {self.first.kind} {self.first.name} is {self.first}, but {self.other}: "
-            "they do not connect; give both the same type, or another name to one"
+            "they do not connect; use the same type for both, or different names"
         )
 
 

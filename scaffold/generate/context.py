@@ -149,7 +149,8 @@ def _node(
     name, package = part.name, context["package"]
     if name == package:
         raise InputError(
-            f"--node-name: {name!r} is the name of the package; its script would shadow it"
+            f"--node-name: {name!r} is the name of the package; the script of the node would "
+            "shadow the package"
         )
     _refuse_two_classes(part)
     taken = [item for value in part.answers.values() for item in getattr(value, "class_names", ())]
@@ -165,7 +166,7 @@ def _node(
             if other != flag(question.name):
                 raise InputError(
                     f"{other} and {flag(question.name)} are both {full_name!r}: the node would "
-                    "receive what it sends"
+                    "receive its own messages"
                 )
     build = next(layer for layer in layers if layer.role is Role.BUILD_TYPE)
     scope = {**context, "node": node}
@@ -199,7 +200,7 @@ def _refuse_two_classes(part: Part) -> None:
                 if first != module:
                     raise InputError(
                         f"{flag(name)}: {item} of {module} and {item} of {first} (for "
-                        f"{flag(other)}) cannot be in one module; choose something else for one"
+                        f"{flag(other)}) cannot be in one module; change one of them"
                     )
 
 
@@ -261,7 +262,7 @@ def _depends(
         if name == context["package"]:
             raise InputError(f"--dependencies: {name} is the package itself")
         if name in result["buildtool"] or name in BUILD_TOOLS:
-            raise InputError(f"--dependencies: {name} builds the package; nodes do not need it")
+            raise InputError(f"--dependencies: {name} is a build tool; nodes do not need it")
         result["exec"].add(name)
     for kind in ("test", "exec", "build", "build_export"):
         wider: str | None = _WIDER[kind]

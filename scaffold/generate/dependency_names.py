@@ -54,7 +54,8 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
         if slips or resolves is False:
             raise InputError(f"{origin}: there is no package or rosdep key {name!r}{hint}")
         yield (
-            f"{name!r} is in no package here, not installed and not widely known{hint or ';'} "
+            f"{name!r} is not a package of the workspace, not installed and not widely "
+            f"known{hint or ';'} "
             "`rosdep resolve` shows whether it can be installed"
         )
 

@@ -29,13 +29,13 @@ def check(destination: str, package: str) -> None:
         raise InputError(f"{destination}: {top} is not a directory")
     if outer := colcon.package_around(Disk(), top):
         raise ConflictError(
-            f"{outer} is a package, and colcon does not look for others inside of it"
+            f"{outer} is a package, and colcon does not search for packages inside of packages"
         )
     own = os.path.join(os.path.realpath(destination), package)
     for other in neighbours(top):
         directory = os.path.realpath(other)
         if directory != own and Package.at(directory).name == package:
-            raise ConflictError(f"{directory} is a package with the name {package!r} already")
+            raise ConflictError(f"{directory} is already a package named {package!r}")
 
 
 def workspace(destination: str) -> str | None:

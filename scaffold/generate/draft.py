@@ -135,7 +135,7 @@ def _refuse_different(
         pairs = enumerate(zip_longest(lines, others), 1)
         number, line = next((at, line or "") for at, (line, same) in pairs if line != same)
         raise InputError(
-            f"--distro: no code serves both {first.title} and {other.title}: line {number} of "
+            f"--distro: no code works for both {first.title} and {other.title}: line {number} of "
             f"{path} would differ ({line.strip()!r}); make a package for each"
         )
 
@@ -264,7 +264,7 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
     for name in sorted(_NODE):
         if name in given and given[name].origin.startswith("--"):
             raise InputError(
-                f"{given[name].origin}: does not apply with {questions.flag(parts.ADD)}"
+                f"{given[name].origin}: cannot be combined with {questions.flag(parts.ADD)}"
             )
     question = next(item for item in templates[BASE].questions if item.name == parts.ADD)
     wanted = questions.parse(question, given[parts.ADD])

@@ -141,7 +141,7 @@ def refuse_impossible(
     for part in parts:
         other = names.setdefault(part.name, part)
         if other is not part:
-            raise InputError(f"two parts of the package have the name {part.name!r}")
+            raise InputError(f"the package has two parts named {part.name!r}")
     _refuse_alike([part for part in parts if part.template.role is Role.INTERFACE])
 
 
@@ -154,8 +154,8 @@ def _refuse_one_frame_twice(part: Part) -> None:
             other = names.setdefault(frame, question.name)
             if other != question.name:
                 raise InputError(
-                    f"{part.name}: {other} and {question.name} are both {frame!r}, and tf2 has no "
-                    "transform from a frame to itself; name two frames"
+                    f"{part.name}: {other} and {question.name} are both {frame!r}, and tf2 has "
+                    "no transform from a frame to itself; choose different frames"
                 )
 
 
@@ -189,8 +189,7 @@ def _refuse_alike(interfaces: Sequence[Part]) -> None:
         other = headers.setdefault((part.template.definition, header), part.name)
         if other != part.name:
             raise InputError(
-                f"{other!r} and {part.name!r} are too similar: the code of both would be in "
-                f"{header}.hpp"
+                f"{other!r} and {part.name!r} are too similar: both would generate {header}.hpp"
             )
 
 

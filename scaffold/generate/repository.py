@@ -185,7 +185,7 @@ def left_to_owner(path: str, there: bytes, text: str) -> ByHand | None:
 
     entry = missing_entry(there, text)
     reason = "the file has other hooks and cannot be edited safely"
-    return ByHand(path, f"add this to repos: {entry}", reason) if entry else None
+    return ByHand(path, f"add to `repos`: {entry}", reason) if entry else None
 
 
 def _top(directory: str) -> str | None:

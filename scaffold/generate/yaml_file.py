@@ -81,7 +81,7 @@ class _Reader:
             if isinstance(event, yaml.DocumentStartEvent):
                 count += 1
                 if count > 1:
-                    self._refuse(event, "a second document; write only one")
+                    self._refuse(event, "a second document; only one is allowed")
             elif isinstance(event, yaml.NodeEvent):
                 result = self._value(event, events, 0)
         return result
@@ -92,7 +92,7 @@ class _Reader:
         if depth > MAX_DEPTH:
             self._refuse(event, f"nested more than {MAX_DEPTH} levels deep")
         if isinstance(event, yaml.AliasEvent):
-            self._refuse(event, f"the alias *{event.anchor}: write out its value")
+            self._refuse(event, f"the alias *{event.anchor}: write its value instead")
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)
         self._refuse_tag(event, {f"{_TAG}seq", f"{_TAG}map"})
@@ -120,7 +120,7 @@ class _Reader:
             if not isinstance(event, yaml.ScalarEvent):
                 self._refuse(event, "a key that is not a string")
             if event.value == "<<" and event.implicit[0]:
-                self._refuse(event, "the merge key <<: write out its value")
+                self._refuse(event, "the merge key <<: write its value instead")
             if event.value in result:
                 self._refuse(event, f"the key {event.value!r} is a duplicate")
             result[event.value] = self._value(next(events), events, depth)
@@ -147,7 +147,9 @@ class _Reader:
     def _refuse_tag(self, event: yaml.Event, allowed: set[str]) -> None:
         tag = getattr(event, "tag", None)
         if tag is not None and tag not in allowed:
-            self._refuse(event, f"the tag {tag.replace(_TAG, '!!')!r}: write the value without it")
+            self._refuse(
+                event, f"the tag {tag.replace(_TAG, '!!')!r}: write the value without the tag"
+            )
 
     def _refuse(self, event: yaml.Event, reason: str) -> NoReturn:
         mark = event.start_mark

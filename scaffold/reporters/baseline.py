@@ -83,7 +83,7 @@ def _findings(data: object) -> list[dict[str, str]]:
         raise ValueError(f"version is {version!r} instead of {VERSION}")
     findings = data.get("findings")
     if not isinstance(findings, list):
-        raise ValueError("'findings' is no list")  # noqa: TRY004  `read` names the file for all
+        raise ValueError("'findings' is not a list")  # noqa: TRY004  `read` names the file for all
     for at, entry in enumerate(findings, 1):
         is_entry = isinstance(entry, dict) and {*entry} == {*Entry._fields}
         if not is_entry or not all(isinstance(value, str) for value in entry.values()):

@@ -98,7 +98,7 @@ def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
 
 
 def cell(text: str) -> str:
-    """Return text for a cell of a table: nothing of it is Markdown or HTML."""
+    """Return text for a cell of a table: nothing in it is Markdown or HTML."""
     escaped = "".join(f"\\{item}" if item in "\\`*_[]|~" else item for item in printable(text))
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 

@@ -93,7 +93,7 @@ async def build(
             raise
         in_time = exit_code is not None
         if not in_time:
-            said += f"\nthe build did not end within {timeout:g} s\n"
+            said += f"\nthe build did not finish within {timeout:g} s\n"
         log = _Log.read(latest, said, succeeded=exit_code == 0)
         log = replace(log, left_running=tuple(left_running))
         # A package that makes colcon itself fail ends the build also of those that come later.
@@ -286,7 +286,7 @@ class _Log:
         if job is None:
             # Also when colcon has given up before it began: then it says why.
             why = [] if self.succeeded else output.errors(self.console)
-            return Build(ok=False, errors=("not built: colcon does not find it", *why))
+            return Build(ok=False, errors=("not built: colcon does not find the package", *why))
         seconds = 0.0 if job.ended is None else job.ended - job.started
         errors = () if job.succeeded else tuple(self._errors(job, written))
         return Build(ok=job.succeeded, seconds=seconds, errors=errors, warnings=warnings)

@@ -131,7 +131,7 @@ def _named(environment: Environment) -> str:
     """Return an environment in words."""
     if environment.kind == "sourced":
         return "the sourced environment"
-    return f"{'that of the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
+    return f"{'the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
 
 
 def _ways(wanted: Sequence[Distribution], why: str, paths: Sequence[str]) -> str:
@@ -158,7 +158,9 @@ def _forced(
     """
     if wanted == "sourced":
         if not variables.get("AMENT_PREFIX_PATH"):
-            raise _UnusableError("nothing is sourced; source the setup file of a ROS 2 first")
+            raise _UnusableError(
+                "nothing is sourced; first source the setup file of a ROS 2 installation"
+            )
         return _sourced(variables, origin)
     if wanted == "wheels":
         if not _has_package(own_prefix, "rclpy"):
@@ -168,7 +170,7 @@ def _forced(
     if not setup.is_file():
         names = ", ".join(sorted(path.parent.name for path in installed.glob("*/setup.bash")))
         there = f"sourced, wheels, {names}" if names else "sourced, wheels"
-        raise _UnusableError(f"there is no {setup}; name a directory, or one of {there}")
+        raise _UnusableError(f"there is no {setup}; use a directory, or one of {there}")
     return _installed(variables, setup.absolute(), own_prefix, origin)
 
 

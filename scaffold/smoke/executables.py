@@ -193,7 +193,7 @@ def _judge(name: str, trials: Sequence[NodeRun], expectation: Expectation) -> Ex
         problems += verdicts.problems(expectation.scenario, first.observation)
         problems += lifecycle.problems(first.observation.transitions)
     if finished and not problems:
-        notes.append(f"finished by itself after {first.stop.seconds:.1f} s")
+        notes.append(f"exited by itself after {first.stop.seconds:.1f} s")
     for other in trials[1:]:
         notes += other.notes
         problems += [problem for problem in other.problems if problem not in problems]

@@ -101,7 +101,8 @@ def compare(
         *(Problem(f"{t.name} cannot be read: {t.error}") for t in observation.topics if t.error),
     ]
     notes = [
-        f"several nodes have the name {name}: a call of its services or parameters reaches any one"
+        f"several nodes are named {name}: calls of its services and parameters reach an "
+        "arbitrary one"
         for name in observation.doubled
     ]
     if finished:
@@ -150,7 +151,7 @@ def _finished_early(
 ) -> list[Problem]:
     """Return the problem of a program that should have kept running."""
     if expectation.runs_nothing:
-        return [Problem(f"finished by itself: nothing in {expectation.source} runs its node")]
+        return [Problem(f"exited by itself: nothing in {expectation.source} spins its node")]
     for publication in expectation.publications:
         topic = observation.topic(publication.topic)
         is_due = publication.certain or publication.timer_hz
@@ -158,7 +159,7 @@ def _finished_early(
             said = _said(publication, expectation)
             return [
                 Problem(
-                    f"finished by itself after {seconds:.1f} s, before any message came on "
+                    f"exited by itself after {seconds:.1f} s, before a message on "
                     f"{publication.topic}: {said}"
                 )
             ]
@@ -181,9 +182,9 @@ def _silent(
     if rate and seconds < PATIENCE / rate:
         return [], [f"no message on {topic.name} yet: its period is {1 / rate:g} s"]
     if publication.never:
-        return [Problem(f"no message on {topic.name}: nothing that runs calls publish")], []
+        return [Problem(f"no message on {topic.name}: no running code calls publish()")], []
     if not publication.certain:
-        return [], [f"no message on {topic.name}: something has to happen first"]
+        return [], [f"no message on {topic.name}: it is only published on some event"]
     return [Problem(f"no message on {topic.name} within {seconds:.1f} s: {text}")], []
 
 
@@ -215,4 +216,4 @@ def _wrong_rate(publication: Publication, topic: Topic, text: str) -> list[Probl
     at_the_ends = (publication.sources - 1 + rate * LATENESS) / topic.span
     if abs(topic.rate_hz - rate) <= tolerance * rate + at_the_ends:
         return []
-    return [Problem(f"{topic.name} comes at {topic.rate_hz:g} Hz: {text}")]
+    return [Problem(f"{topic.name} is published at {topic.rate_hz:g} Hz: {text}")]

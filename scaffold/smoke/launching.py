@@ -52,9 +52,10 @@ def require(environment: Environment, packages: Sequence[Package], origin: Origi
     if environment.kind == "wheels":
         branches = f"--branch {distribution} https://github.com/ros2"
         way = (
-            "there is no wheel; clone its sources to the packages that are run: "
+            "there is no wheel; clone its sources next to your packages: "
             f"git clone {branches}/launch && git clone {branches}/launch_ros, "
-            f"and what they need: {environment.python} -m pip install lark osrf-pycommon"
+            f"and install their dependencies: {environment.python} -m pip install lark "
+            "osrf-pycommon"
         )
     raise EnvironmentMissingError(f"--launch: {environment.prefix} lacks launch_ros; {way}")
 

@@ -96,7 +96,7 @@ class Lifecycles:
         seconds = time.monotonic() - begun
         after, error = await self._state(node)
         if not answer.error and not (answer.value or {}).get("success"):
-            error = error or f"it refuses, or its callback fails or raises: {after}"
+            error = error or f"rejected, or its callback failed or raised an exception: {after}"
         if not error and after != _GOALS[name]:
             error = f"it is {after} and not {_GOALS[name]}"
         error = answer.error or error

@@ -218,7 +218,7 @@ class Observer:
             timeout=timeout,
         )
         if not await self.wait_for(lambda: number in self._answers, timeout * 2, running):
-            return Answer(None, "it ended before it answered")
+            return Answer(None, "it exited before it answered")
         return self._answers[number]
 
     def dismiss(self) -> None:
@@ -270,7 +270,7 @@ class Observer:
         """Wait for an event of the probe, for something else, or for the time to pass."""
         if self._ended:
             last = "".join(output.tail(output.read(self._errors), 1))
-            raise ObserverError(f"the observer has ended: {last or 'no message'}")
+            raise ObserverError(f"the observer has exited: {last or 'no message'}")
         self._changed.clear()
         event = asyncio.ensure_future(self._changed.wait())
         futures: set[asyncio.Future[Any]] = {event} if other is None else {event, other}

@@ -29,7 +29,7 @@ SETTLING = 1.0
 ENDING = 2.0
 """Seconds that a program may take to end because of an exception."""
 
-_GIVING = f"if it needs arguments, name them in {FILE}: `arguments` of the executable"
+_GIVING = f"if it needs arguments, set `arguments` of the executable in {FILE}"
 
 _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 """rclpy ends the context at once on a signal, also in the middle of a callback."""
@@ -252,8 +252,8 @@ class _Run:
         if others:
             where = ", ".join(map(str, sorted(others)))
             self._report(
-                f"is in the ROS domain {where}, not in that of ROS_DOMAIN_ID "
-                f"({self._station.number}): nothing of it was seen"
+                f"uses ROS domain {where} instead of ROS_DOMAIN_ID ({self._station.number}), so "
+                "it could not be observed"
             )
             return
         if self._expectation.is_node is False:
@@ -272,12 +272,12 @@ class _Run:
         if self._is_expected(code) and (trace is None or code):
             return
         if self._expectation.exit_code is not None and trace is None:
-            self._report(f"finished by itself, {self._unexpected(code)}", _said(running))
+            self._report(f"exited by itself, {self._unexpected(code)}", _said(running))
             return
         lack = None if self._scenario.arguments else _missing_arguments(running)
         if code and lack is not None:
             lines = tuple(output.short(trace)) if trace else _said(running)
-            self._report(f"ended, {ending(code)}: {lack}; {_GIVING}", lines)
+            self._report(f"exited, {ending(code)}: {lack}; {_GIVING}", lines)
             return
         when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
         reason = output.exception(trace) if trace else output.named_error(said)
@@ -324,7 +324,7 @@ class _Run:
         """Report an exception that did not end the executable: of a thread, or printed by it."""
         trace = output.traceback(output.read(running.err))
         if trace is not None:
-            what = f"an exception while it ran: {output.exception(trace)}"
+            what = f"exception at run time: {output.exception(trace)}"
             self._report(what, tuple(output.short(trace)))
 
     def _report(self, message: str, lines: tuple[str, ...] = (), *, doubtful: bool = False) -> None:

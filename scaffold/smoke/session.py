@@ -223,7 +223,7 @@ class _Session:
         }
         if self._left_out:
             names = ", ".join(sorted(self._left_out))
-            self._announce(f"not built, as they cannot be and are not run: {names}")
+            self._announce(f"not built, because they cannot be built here and are not run: {names}")
         return [source for source in sources if source.name not in self._left_out]
 
     def results(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
@@ -315,7 +315,7 @@ class _Session:
                 if not stated.get(path.name, NOTHING).skip
             ]
             if len(paths) > 1:
-                self._tell(f"running all of {source.name} together")
+                self._tell(f"running all executables of {source.name} together")
                 group = of_executables(source.name, paths, stated)
                 record = partial(self._together.__setitem__, source.name)
                 await run_together(plan, group, record)
@@ -360,7 +360,7 @@ class _Session:
 
     def say_interrupted(self) -> None:
         """Tell what takes its time after ^C."""
-        self._tell("interrupted, stopping what was started")
+        self._tell("interrupted, stopping all processes")
 
     def _tell(self, text: str) -> None:
         if self._progress is not None:

@@ -83,7 +83,7 @@ async def _run(
         finally:
             await run.close()
     if not in_time:
-        return f"the tests did not end within {timeout:g} s"
+        return f"the tests did not finish within {timeout:g} s"
     if not run.exit_code:
         return ""
     errors = output.errors(output.read(run.out) + output.read(run.err))

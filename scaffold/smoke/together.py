@@ -182,7 +182,7 @@ def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
             trace = output.traceback(written)
             how = ending(running.exit_code) + (f": {output.exception(trace)}" if trace else "")
             lines = output.short(trace) if trace else output.tail(written)
-            yield Problem(f"{name} ended among the others, {how}", tuple(lines))
+            yield Problem(f"{name} exited while running with the others, {how}", tuple(lines))
 
 
 def connections(seen: Observation) -> Iterator[Problem]:
@@ -195,7 +195,8 @@ def connections(seen: Observation) -> Iterator[Problem]:
                 reason = _mismatch(publisher, subscription)
                 if reason:
                     yield Problem(
-                        f"{topic.name}: {subscription.node} gets nothing from {publisher.node}: "
+                        f"{topic.name}: {subscription.node} receives nothing from "
+                        f"{publisher.node}: "
                         f"{reason}"
                     )
     yield from _misspelled(seen.topics)
@@ -204,18 +205,23 @@ def connections(seen: Observation) -> Iterator[Problem]:
 def _mismatch(publisher: Endpoint, subscription: Endpoint) -> str:
     """Return why nothing comes from a publisher to a subscription; empty if it does."""
     if publisher.type != subscription.type:
-        return f"it publishes {publisher.type}, the other subscribes to {subscription.type}"
+        return f"the types {publisher.type} and {subscription.type} differ"
     offered, wanted = publisher.qos, subscription.qos
     if (offered["reliability"], wanted["reliability"]) == ("best_effort", "reliable"):
-        return "it publishes best effort, the other wants reliable"
+        return "the publisher offers best effort, the subscription requests reliable"
     if offered["durability"] == "volatile" and wanted["durability"] in _KEPT:
-        return f"it publishes volatile, the other wants {_words(wanted['durability'])}"
+        return (
+            "the publisher offers volatile, the subscription requests "
+            f"{_words(wanted['durability'])}"
+        )
     if wanted.get("deadline") is not None and (
         offered.get("deadline") is None or offered["deadline"] > wanted["deadline"]
     ):
         return f"the other wants a deadline of {wanted['deadline']:g} s, which it does not promise"
     if (offered.get("liveliness"), wanted.get("liveliness")) == ("automatic", "manual_by_topic"):
-        return "its liveliness is automatic, the other wants manual by topic"
+        return (
+            "the publisher offers automatic liveliness, the subscription requests manual by topic"
+        )
     return ""
 
 
@@ -228,8 +234,8 @@ def _misspelled(topics: Sequence[Topic]) -> Iterator[Problem]:
         same_type = [name for name, other in unheard.items() if other.type == topic.type]
         for near in get_close_matches(topic.name, same_type, 1, cutoff=0.75):
             yield Problem(
-                f"nothing publishes {topic.name}, to which {_nodes(topic)} subscribes; "
-                f"{_nodes(unheard[near])} publishes {near}, to which nobody does"
+                f"nothing publishes {topic.name}, which {_nodes(topic)} subscribes to; "
+                f"{_nodes(unheard[near])} publishes {near}, which nobody subscribes to"
             )
 
 

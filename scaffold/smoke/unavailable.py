@@ -46,7 +46,7 @@ def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterat
         apt = f"sudo apt install ros-{distribution}-{name.replace('_', '-')}"
         way = f"run: {apt}"
         if environment.kind == "wheels":
-            way = f"there is no wheel; take a ROS 2 with it: {apt}, and --ros {distribution}"
+            way = f"there is no wheel; install it with {apt}, and use --ros {distribution}"
         yield Lack(
             f"{', '.join(sorted(users))} needs {name}, which {environment.prefix} lacks; {way}",
             frozenset(users),

@@ -88,8 +88,8 @@ def refusal(root: str, changed: Sequence[str], left: Sequence[str]) -> str:
     """Return the message for files that somebody else has changed."""
     message = f"{_names(root, changed)} changed after it was read"
     if left:
-        return f"{message}; all was undone but {_names(root, left)}, which changed as well"
-    return f"{message}; nothing was written: run this again"
+        return f"{message}; everything was undone except {_names(root, left)}, which changed too"
+    return f"{message}; nothing was written; run the command again"
 
 
 def _names(root: str, paths: Sequence[str]) -> str:

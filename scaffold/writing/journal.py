@@ -174,7 +174,7 @@ class Transaction:
             outcome, left = "undone", self.undo(touch=True)
         left = sorted({*left, *(change.path for change in edited)})
         names = ", ".join(shown(self.root, path) for path in left)
-        return f"{outcome}; edited since, left alone: {names}" if left else outcome
+        return f"{outcome}; edited since, not restored: {names}" if left else outcome
 
     def complete(self) -> list[str]:
         """Do what is not done; return the files that were left because they were edited."""

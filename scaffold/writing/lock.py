@@ -105,7 +105,7 @@ def _open_file(directory: str) -> tuple[int, str]:
         return os.open(path, flags, 0o600), path
     except OSError as error:
         raise InputError(
-            f"{directory} cannot be locked, neither can {path}: {error.strerror}"
+            f"{directory} cannot be locked, and neither can {path}: {error.strerror}"
         ) from error
 
 
@@ -123,7 +123,7 @@ def _wait(descriptor: int, directory: str, notify: Callable[[str], None]) -> Non
         elif time.monotonic() > deadline:
             raise LockedError(
                 f"{directory} is locked by {holder} for more than {PATIENCE:.0f} s; "
-                "nothing was written: wait for it or end it, and run this again"
+                "nothing was written: wait for it or stop it, then run the command again"
             )
 
 

@@ -157,7 +157,7 @@ def _replacements(plans: Sequence[WritePlan], root: str) -> list[Replacement]:
             new = Replacement(path, file.seen, content, file.executable)
             if result.setdefault(path, new) != new:
                 raise ConflictError(
-                    f"{file.path} in {plan.root} is another name of a file that is to have other "
+                    f"{file.path} in {plan.root} is the same file as another one with different "
                     "content; nothing was written"
                 )
     return list(result.values())
@@ -170,7 +170,7 @@ def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:
         is_there = f"{file.target}{os.sep}".startswith(f"{name}{os.sep}")
         if is_there and not f"{root}{os.sep}".startswith(f"{name}{os.sep}"):
             if error.errno == errno.EXDEV:
-                return f"{file.target} is on another file system than {root}: add it by hand"
+                return f"{file.target} is on a different file system than {root}: add it by hand"
             return f"{name} cannot be written: {error.strerror}"
     return f"{root} cannot be written: {error.strerror}"
 
@@ -196,18 +196,18 @@ def _resolve(base: str, path: str) -> str:
 def _read(target: str, path: str) -> tuple[bytes | None, int]:
     """Return the content and the mode of a file; no content if it is not there."""
     if os.path.isdir(target):
-        raise ConflictError(f"{path} is to be a file, and a directory is in its place")
+        raise ConflictError(f"{path} should be a file, but is a directory")
     try:
         # A pipe would be waited for.
         with open(os.open(target, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
             mode = os.fstat(file.fileno()).st_mode
             if not stat.S_ISREG(mode):
-                raise ConflictError(f"{path} is to be a file, and a device or pipe is in its place")
+                raise ConflictError(f"{path} should be a file, but is a device or pipe")
             return file.read(), mode
     except FileNotFoundError:
         return None, 0
     except NotADirectoryError as error:
-        message = f"{path} is to be in a directory, and a file is in its place"
+        message = f"{path} should be in a directory, but that is a file"
         raise ConflictError(message) from error
 
 
@@ -235,7 +235,9 @@ def _refuse_files_inside_files(planned: list[PlannedFile]) -> None:
         parts = path.split("/")
         for depth in range(1, len(parts)):
             if "/".join(parts[:depth]) in paths:
-                raise ConflictError(f"{'/'.join(parts[:depth])} is to be a file and a directory")
+                raise ConflictError(
+                    f"{'/'.join(parts[:depth])} should be both a file and a directory"
+                )
 
 
 def _write_new(root: str, file: PlannedFile) -> None:

@@ -127,7 +127,7 @@ def appear(tree: str, root: str, around: Sequence[Replacement]) -> None:
 
 def _rename_to_free_place(tree: str, root: str) -> None:
     if os.path.lexists(root):
-        raise ConflictError(f"{root} has appeared in the meantime")
+        raise ConflictError(f"{root} was created in the meantime")
     os.rename(tree, root)
 
 
@@ -177,11 +177,13 @@ def _recover(root: str, directory: str, notify: Callable[[str], None]) -> None:
         transaction = Transaction.of_journal(root, stage)
         if transaction is None:
             notify(
-                f"{os.path.join(directory, name)}: left by a run of ros2-scaffold in another "
-                "place or by somebody else; ignored: remove it"
+                f"{os.path.join(directory, name)}: left by a run of ros2-scaffold elsewhere, or "
+                "by another user; ignored; remove it"
             )
             continue
-        notify(f"{directory}: an earlier run was cut off; its changes were {transaction.heal()}")
+        notify(
+            f"{directory}: an earlier run was interrupted; its changes were {transaction.heal()}"
+        )
     sweep(root)
 
 

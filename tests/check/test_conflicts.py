@@ -89,7 +89,7 @@ def test_update_refuses_a_file_with_a_conflict(
     capsys.readouterr()
     assert main(["update", "talker"]) == 2
     assert capsys.readouterr().err == (
-        "ros2-scaffold: error: talker/CMakeLists.txt: has merge conflict marks at line "
+        "ros2-scaffold: error: talker/CMakeLists.txt: has conflict markers on line "
         f"{line}; resolve the conflict first; nothing was changed\n"
     )
     assert (package / "CMakeLists.txt").read_bytes() == before

@@ -163,7 +163,7 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
             ["check", "--ignore", "f4oi"],
             "--ignore: no rule has the code 'f4oi'; did you mean F401?",
         ),
-        (["rules", "--content", "nowhere"], "nowhere: no such directory; --content or"),
+        (["rules", "--content", "nowhere"], "nowhere: no such directory, but --content or"),
     ],
 )
 def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:
@@ -261,7 +261,7 @@ def test_content_that_holds_nothing_is_refused(
 ) -> None:
     (tmp_path / "own" / "rules" / "area").mkdir(parents=True)
     assert main(["check", "--content", "own/rules", "talker"]) == 2
-    error = "own/rules: has no directory 'rules' or 'templates'; name the directory above it\n"
+    error = "own/rules: has no directory 'rules' or 'templates'; use the parent directory\n"
     assert capsys.readouterr().err == f"ros2-scaffold: error: {error}"
     assert main(["check", "--content", "own", "talker"]) == 0
     (tmp_path / "own" / "rules" / "lost.py").touch()
@@ -315,7 +315,7 @@ def test_per_path_ignores(flawed: Path) -> None:
         ("[checks]\nselect = []\n", "unknown table [checks]; did you mean 'check'?"),
         ("[tool.ros2-scaffold]\n", "unknown table [tool]: write [check] instead of [tool.ros2-"),
         ("[lint]\nselect = []\n", "unknown table [lint]; choose from check, new"),
-        ("select = []\n", "'select' is outside of a table; did you mean 'select' in [check]?"),
+        ("select = []\n", "'select' must be in a table; did you mean 'select' in [check]?"),
         ("[check]\nselect = ['XX']\n", "ros2-scaffold.toml: select: no rule has the name 'XX'"),
         (
             "[check.per-path-ignores]\n'a.py' = ['CM9999']\n",

@@ -132,7 +132,7 @@ def test_it_goes_with_a_baseline(workspace: Path, capsys: pytest.CaptureFixture[
         (["--since", "nowhere"], "--since nowhere: git knows no such commit"),
         (["--since=--all"], "--since --all: git knows no such commit"),
         (["--since", "HEAD:first"], "--since HEAD:first: git knows no such commit"),
-        (["--since", "HEAD", "--fix"], "--since only reports: leave out --fix"),
+        (["--since", "HEAD", "--fix"], "--since only reports: omit --fix"),
         (["--since", "HEAD", "--write-baseline", "a"], "leave out --write-baseline"),
     ],
 )

@@ -91,9 +91,9 @@ def test_a_text_without_anything_to_fix_is_given_back(package: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("-",), "- means standard input: add --stdin-filename, the name of its file"),
-        (("--stdin-filename", "a.py", "talker"), "--stdin-filename goes with standard input alone"),
-        (("--stdin-filename", "a.py", "--diff"), "--diff does not go with --stdin-filename"),
+        (("-",), "- means standard input: add --stdin-filename with the name of the file"),
+        (("--stdin-filename", "a.py", "talker"), "--stdin-filename only works with standard input"),
+        (("--stdin-filename", "a.py", "--diff"), "--diff cannot be combined with --stdin-filename"),
         (("--stdin-filename", "no/where.py"), "no/where.py: no such file or directory"),
         (("--stdin-filename", "talker"), "--stdin-filename talker: is a directory"),
         (("--stdin-filename", "/notes.txt"), "/notes.txt: belongs to no package and is not a Py"),

@@ -151,7 +151,7 @@ def test_the_file_of_the_user_excludes_nothing(
     path = workspace.parent / "config" / "ros2-scaffold" / "config.toml"
     path.parent.mkdir(parents=True)
     path.write_text('[check]\nexclude = ["talker"]\n')
-    assert "check.exclude belongs in the file of a project" in refused(capsys)
+    assert "check.exclude is only allowed in the file of a project" in refused(capsys)
 
 
 def test_severity_decides_the_exit_code(

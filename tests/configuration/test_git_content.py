@@ -135,13 +135,13 @@ def test_tags_and_commits_need_no_network_again(
     assert new(f"{team.url}@main") == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert "cannot be fetched" in line
-    assert "a tag or a commit that was fetched before" in line
+    assert "tags and commits that were fetched before" in line
 
 
 @pytest.mark.parametrize(
     ("revision", "message"),
     [
-        ("", "name a tag, a branch or a commit of it"),
+        ("", "add a tag, a branch or a commit"),
         ("@v9", "has no tag, branch or commit 'v9'; it has main, v1"),
         ("@../x", "is not the name of a tag"),
         ("@HEAD~1", "is not the name of a tag"),

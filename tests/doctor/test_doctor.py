@@ -117,7 +117,7 @@ def test_two_distributions_in_one_shell(root: Path) -> None:
     assert [finding.severity for finding in every] == [Severity.ERROR, Severity.ERROR]
     assert every[0].message == (
         "two distributions are sourced in one shell: humble in PYTHONPATH; jazzy in "
-        "AMENT_PREFIX_PATH, PYTHONPATH; libraries of one crash the other"
+        "AMENT_PREFIX_PATH, PYTHONPATH; their libraries are incompatible"
     )
     assert every[1].message == "ROS_DISTRO is 'humble', but AMENT_PREFIX_PATH names jazzy"
 
@@ -130,7 +130,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
         "mixed-distributions"
     ]
     assert severity == "error"
-    assert message == (f"{top}/install was built with humble, which its setup files source again")
+    assert message == (f"{top}/install was built with humble, which its setup files source")
     assert fix == f"cd {top} && rm -r build install && colcon build"
 
 
@@ -143,7 +143,7 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
             "error",
             (
                 "RMW_IMPLEMENTATION is 'rmw_cyclonedds_cpp', which is not installed: `import "
-                "rclpy` fails; there is rmw_fastrtps_cpp"
+                "rclpy` fails; installed: rmw_fastrtps_cpp"
             ),
             "sudo apt install ros-jazzy-rmw-cyclonedds-cpp  # or: unset RMW_IMPLEMENTATION",
         ),
@@ -151,21 +151,21 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
             "domain-id",
             {"ROS_DOMAIN_ID": "233"},
             "error",
-            "ROS_DOMAIN_ID is '233': no node starts; it has to be a number from 0 to 232",
+            "ROS_DOMAIN_ID is '233': no node starts; use a number from 0 to 232",
             "export ROS_DOMAIN_ID=0",
         ),
         (
             "domain-id",
             {"ROS_DOMAIN_ID": "five"},
             "error",
-            "ROS_DOMAIN_ID is 'five': no node starts; it has to be a number from 0 to 232",
+            "ROS_DOMAIN_ID is 'five': no node starts; use a number from 0 to 232",
             "export ROS_DOMAIN_ID=0",
         ),
         (
             "domain-id",
             {"ROS_DOMAIN_ID": "150"},
             "warning",
-            "ROS_DOMAIN_ID is 150: its ports may be taken by other programs now and then",
+            "ROS_DOMAIN_ID is 150: its ports may be in use by other programs",
             "export ROS_DOMAIN_ID=48  # a number from 0 to 101",
         ),
         (
@@ -239,7 +239,7 @@ def test_no_colcon(root: Path) -> None:
     assert (first.is_usable, [item.what for item in first.missing]) == (False, ["colcon"])
     text = "\n".join(report.text(environments(seen), []))
     assert "    colcon is missing: sudo apt install python3-colcon-common-extensions" in text
-    assert "error: no ROS 2 that can build and run packages: install one of these" in text
+    assert "error: no ROS 2 environment can build and run packages; install one of these" in text
 
 
 def test_colcon_of_wheels_that_are_sourced(root: Path) -> None:
@@ -271,7 +271,7 @@ def test_installation_that_is_gone(root: Path) -> None:
     variables = sourced(installation(root))
     both = {**variables, "AMENT_PREFIX_PATH": f"{variables['AMENT_PREFIX_PATH']}:{gone}"}
     severity, message, _ = found(machine(root, **both))["prefix-gone"]
-    assert (severity, message.endswith(": nothing of it is found")) == ("warning", True)
+    assert (severity, message.endswith(": nothing in it is found")) == ("warning", True)
 
 
 @pytest.mark.parametrize(("isolated", "is_found"), [("false", True), ("true", False)])
@@ -323,7 +323,7 @@ def test_package_that_was_removed_or_renamed(root: Path) -> None:
         "stale-install": (
             "warning",
             (
-                f"'old_name' is installed in {top}/install, but not in src any more: `ros2 run` "
+                f"'old_name' is installed in {top}/install, but no longer in src: `ros2 run` "
                 "still finds it"
             ),
             f"rm -r {top}/build/old_name {top}/install/old_name",

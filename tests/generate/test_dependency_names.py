@@ -51,7 +51,7 @@ def test_what_everybody_knows(name: str, tmp_path: Path) -> None:
 def test_what_nobody_knows_is_a_note(name: str, tmp_path: Path) -> None:
     (line,) = notes([name], "--dependencies", str(tmp_path))
 
-    assert line.startswith(f"{name!r} is in no package here")
+    assert line.startswith(f"{name!r} is not a package of the workspace")
 
 
 def test_a_package_of_ros_1_has_an_heir(tmp_path: Path) -> None:

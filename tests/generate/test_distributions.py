@@ -213,7 +213,7 @@ def test_what_no_code_can_serve_is_refused_with_the_line(
     type_ = "lifecycle_msgs/msg/TransitionEvent"
     assert new("--distro", "jazzy,lyrical", "--message-type", type_) == 2
     message = capsys.readouterr().err
-    assert "no code serves both Jazzy and Lyrical: line " in message
+    assert "no code works for both Jazzy and Lyrical: line " in message
     assert not Path("robot").exists()
 
 
@@ -298,5 +298,6 @@ def test_packages_for_different_distributions_are_checked_each_for_its_own(
     assert "2 packages, 24 files for Jazzy and Kilted: no findings" in capsys.readouterr().out
     assert main(["check", ".", "--fix"]) == 2
     assert (
-        "the packages are for Jazzy and Kilted, and not all for the same" in capsys.readouterr().err
+        "the packages are for Jazzy and Kilted, which differ between them"
+        in capsys.readouterr().err
     )

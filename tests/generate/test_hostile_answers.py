@@ -863,9 +863,9 @@ def test_the_real_linters_accept_what_is_written(
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        ({"dependencies": ["numpy"]}, "no rule for 'numpy'; its key is python3-numpy"),
+        ({"dependencies": ["numpy"]}, "no key 'numpy'; its key is python3-numpy"),
         ({"dependencies": ["rosidl_default_generators"]}, "builds the package"),
-        ({"add": [{"kind": "timer", "name": "launch"}]}, "would hide the Python module launch"),
+        ({"add": [{"kind": "timer", "name": "launch"}]}, "would shadow the Python module launch"),
         (
             {"add": [{"kind": "message", "fields": ["int32 class"]}]},
             "'int32 class': 'class' is a keyword of C or C\\+\\+: .*; choose another name",
@@ -879,7 +879,7 @@ def test_the_real_linters_accept_what_is_written(
             },
             "'HTTPServer' and 'HttpServer' are too similar: .* http_server.hpp",
         ),
-        ({"copyright_holder": "Ada coding: latin-1"}, "would tell Python the encoding"),
+        ({"copyright_holder": "Ada coding: latin-1"}, "would be read as an encoding declaration"),
         (
             {"maintainer_name": "\u202eAda"},
             r"contains the character U\+202E, which changes the direction of text",
@@ -888,11 +888,11 @@ def test_the_real_linters_accept_what_is_written(
         ({"add": [{"kind": "message", "name": "NULL"}]}, "'NULL' is a macro of C"),
         (
             {"add": [{"kind": "message", "fields": "int32 a  # C:\\new"}]},
-            "rosidl takes a backslash for the start of an escape",
+            "rosidl reads a backslash as the start of an escape sequence",
         ),
         (
             {"add": [{"kind": "message", "fields": "string s 'a # b'"}]},
-            "the string is not closed; a '#' in it starts a comment",
+            "the string is not closed; a '#' inside starts a comment",
         ),
         (
             {"add": [{"kind": "message", "fields": "int32[<=4294967296] a"}]},

@@ -62,8 +62,8 @@ def test_fields_become_a_definition_and_dependencies() -> None:
         ("float distance", "'float distance': "),
         ("float64 Distance", "'float64 Distance': "),
         ("std_msgs/Heder header", "there is no interface 'std_msgs/msg/Heder'; did you mean std"),
-        ("int32 a, int32 b", "write each field as a string of its own"),
-        ("int32 a; int32 b", "write each field as a string of its own"),
+        ("int32 a, int32 b", "quote each field separately"),
+        ("int32 a; int32 b", "quote each field separately"),
         (7, "7 is not a field such as 'float64 distance'"),
     ],
 )

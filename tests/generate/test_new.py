@@ -477,13 +477,13 @@ def test_installed_packages_are_existing_ones(
     ("name", "message"),
     [
         ("talker", "--node-name: 'talker' is the name of the package"),
-        ("random", "would hide the Python module random"),
-        ("rclpy", "would hide the Python module rclpy"),
-        ("yaml", "would hide the Python module yaml"),
+        ("random", "would shadow the Python module random"),
+        ("rclpy", "would shadow the Python module rclpy"),
+        ("yaml", "would shadow the Python module yaml"),
         ("import", "is a keyword of Python"),
         ("test_node", "is the name of a test file for pytest"),
         ("node_test", "is the name of a test file for pytest"),
-        ("flake8", "would hide the Python module flake8"),
+        ("flake8", "would shadow the Python module flake8"),
         ("copyright", "is the name of a test file"),
         ("my-node", "such as my_node$"),
         ("MinimalPublisher", "such as minimal_publisher$"),
@@ -593,9 +593,9 @@ def test_unknown_message_types(name: str, message: str) -> None:
     ("address", "message"),
     [
         ("todo", "is a placeholder"),
-        ("a@b", "is not a mail address"),
-        ("a b@example.com", "is not a mail address"),
-        ("ada@exämple.com", "is not a mail address"),
+        ("a@b", "is not an email address"),
+        ("a b@example.com", "is not an email address"),
+        ("ada@exämple.com", "is not an email address"),
         ("root@todo.todo", "is a placeholder"),
         ("a" * 60 + "@example.com", "has more than 60 characters"),
     ],
@@ -747,7 +747,7 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
             "zzz: 2\n",
             "answers.yaml: 'zzz' is not a question of the templates; see ",
         ),
-        ("- a\n", "answers.yaml: must map questions to answers, such as 'rate: 2.0'"),
+        ("- a\n", "answers.yaml: must be a mapping of questions to answers, such as 'rate: 2.0'"),
         ("a: [\n", "answers.yaml:2: invalid YAML: "),
         ("rate: 0\n", "answers.yaml: rate: 0 Hz is not between"),
         ("comments: loud\n", "answers.yaml: comments: 'loud' is not one of brief, tutorial"),
@@ -820,8 +820,8 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert said.out == dedent(f"""\
         talker/
             .gitattributes                 how git merges the two .ros2-scaffold files
-            .ros2-scaffold.bases           what the templates gave, for `ros2-scaffold update`
-            .ros2-scaffold.json            how it was made, for `ros2-scaffold update`
+            .ros2-scaffold.bases           the rendered templates, for `ros2-scaffold update`
+            .ros2-scaffold.json            answers and hashes, for `ros2-scaffold update`
             CHANGELOG.rst                  what changed in each release
             CMakeLists.txt                 what is installed and tested
             LICENSE                        the full text of the license
@@ -912,7 +912,10 @@ def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[s
         ("file", "/file is not a directory"),
         ("file/below", "/file is not a directory"),
         ("link", "link/talker is a link to "),
-        ("outer/deep", "/outer is a package, and colcon does not look for others inside of it"),
+        (
+            "outer/deep",
+            "/outer is a package, and colcon does not search for packages inside of packages",
+        ),
         ("ws/src/mine", "/folder is a package with the name 'talker' already"),
         ("ws", "/folder is a package with the name 'talker' already"),
     ):
@@ -1028,8 +1031,12 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
         ("a.jinja", "{% if %}", "a.jinja:1: Expected an expression"),
         ("a.jinja", "{{ ''.__class__.__mro__ }}", "SecurityError"),
         ("a.jinja", "{% include '../../x' %}", "a.jinja:1: no template has the file '../../x'"),
-        ("{{ package | upper }}.jinja", "", "a path holds only {{ names }} that are defined"),
-        ("{{ nobody }}.jinja", "", "a path holds only {{ names }} that are defined"),
+        (
+            "{{ package | upper }}.jinja",
+            "",
+            "a path may only contain {{ variables }} that are defined",
+        ),
+        ("{{ nobody }}.jinja", "", "a path may only contain {{ variables }} that are defined"),
         ("README.md.jinja", "", "README.md is rendered twice"),
         ("setup.py", "", "setup.py: must end in .jinja"),
     ],
@@ -1236,9 +1243,9 @@ def test_parts_that_are_refused(capsys: pytest.CaptureFixture[str], add: str, me
 
 def test_two_nodes_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
     command = ["new", "conversation", "--add", "publisher:talker", "--add", "publisher:talker"]
-    assert_refused(capsys, command, "two parts of the package have the name 'talker'")
+    assert_refused(capsys, command, "the package has two parts named 'talker'")
     command = ["new", "conversation", "--add", "publisher:talker", "--node-name", "announcer"]
-    assert_refused(capsys, command, "--node-name: does not apply with --add")
+    assert_refused(capsys, command, "--node-name: cannot be combined with --add")
 
 
 def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:

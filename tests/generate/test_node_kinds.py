@@ -101,7 +101,7 @@ def test_parts_of_a_result_that_name_a_frame_keep_their_parameter() -> None:
 
 @pytest.mark.parametrize(("input_topic", "topic"), [("a", "a"), ("/a", "a"), ("~/a", "/worker/a")])
 def test_a_node_does_not_listen_to_itself(input_topic: str, topic: str) -> None:
-    message = "--input-topic and --topic are both '.*': the node would receive what it sends"
+    message = "--input-topic and --topic are both '.*': the node would receive its own messages"
     with pytest.raises(InputError, match=message):
         files_of("publisher_subscriber", input_topic=input_topic, topic=topic)
 

@@ -217,7 +217,7 @@ def test_a_configuration_of_pre_commit_is_left_to_its_owner(
     assert (package / "package.xml").is_file()
     assert path.read_text() == OF_A_TEAM
     said = capsys.readouterr().err
-    _, _, line = said.partition(f"{CONFIG}: add this to repos: ")
+    _, _, line = said.partition(f"{CONFIG}: add to `repos`: ")
     entry = line.splitlines()[0]
     assert add(package, "pre_commit", "--force") == 1
     assert path.read_text() == OF_A_TEAM
@@ -285,7 +285,7 @@ def test_what_is_at_the_top_is_taken_back_when_the_package_cannot_be_written(
     package = WritePlan.of(workspace / "src" / "talker", {"a": "a\n"})
     (workspace / "src" / "talker").mkdir()
     (workspace / "src" / "talker" / "a").write_text("mine\n")
-    with pytest.raises(ConflictError, match="has appeared in the meantime"):
+    with pytest.raises(ConflictError, match="was created in the meantime"):
         package.write(force=True, around=first)
     assert files(workspace) == {"old": b"old\n", "src/talker/a": b"mine\n"}
     assert not (workspace / ".github").exists()

@@ -150,7 +150,7 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     ("name", "said"),
     [
         ("aborts", "SIGABRT"),
-        ("arguments", "name them in smoke.yaml"),
+        ("arguments", "`arguments` of the executable in smoke.yaml"),
         ("crashes", "SIGSEGV"),
         ("daemon", "leaves a process running: "),
         ("dies", "RuntimeError: ten seconds are over"),
@@ -161,7 +161,7 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
         ("keeps", "leaves shared memory behind: /dev/shm/psm_"),
         ("nothing", "no message on /nothing"),
         ("renames", "leaves a process running: [kworker/0:2]"),
-        ("strays", "is in the ROS domain 77, not in that of ROS_DOMAIN_ID"),
+        ("strays", "uses ROS domain 77 instead of ROS_DOMAIN_ID"),
     ],
 )
 def test_what_is_wrong_is_named(problems: dict[str, str], name: str, said: str) -> None:

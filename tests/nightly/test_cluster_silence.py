@@ -149,7 +149,7 @@ def test_packages_whose_worker_is_cut_off_run_elsewhere(tmp_path: Path) -> None:
 
 
 def test_worker_that_is_heard_again_gives_its_results(tmp_path: Path) -> None:
-    """It is named when it is silent, and nothing of it is lost or counted twice."""
+    """It is named when it is silent, and nothing in it is lost or counted twice."""
     with cluster(tmp_path, 1) as running:
         proxy = Proxy(port_of(running.address))
         with running.worker(f"tcp://127.0.0.1:{proxy.port}", {}) as worker:

@@ -153,4 +153,4 @@ def test_figures_of_what_is_strange(executables: dict[str, Any]) -> None:
     assert len(executables["new_names"]["nodes"]) == 5
     assert len(executables["grandchildren"]["problems"]) == 4
     (note,) = executables["thread_exits"]["notes"]
-    assert note.startswith("finished by itself after ")
+    assert note.startswith("exited by itself after ")

@@ -143,7 +143,7 @@ def test_fixes_are_applied_and_the_rest_is_hidden(capsys: pytest.CaptureFixture[
         ("<<<<<<< ours\n", "--baseline base.json: not a baseline: "),
         ("[]", "not a baseline: version is None instead of 1"),
         ('{"version": 2}', "not a baseline: version is 2 instead of 1"),
-        ('{"version": 1}', "not a baseline: 'findings' is no list"),
+        ('{"version": 1}', "not a baseline: 'findings' is not a list"),
         ('{"version": 1, "findings": [{"path": "a"}]}', "not a baseline: entry 1 is not one of "),
         ("[" * 100_000, "not a baseline: "),
     ],

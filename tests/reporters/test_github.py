@@ -85,4 +85,4 @@ def test_a_summary_that_cannot_be_written_is_no_failure(
     assert main(["check", "--format", "github", str(repository)]) == 1
     output = capsys.readouterr()
     assert "::error" in output.out
-    assert "the summary of the job is not written" in output.err
+    assert "cannot write the job summary" in output.err

@@ -87,8 +87,8 @@ def test_a_device_is_written_to_and_not_replaced(check: Check) -> None:
     ("words", "message"),
     [
         (["--output-file", "nowhere/report"], "there is no directory 'nowhere'; create it"),
-        (["--output-file", "src"], "is a directory; name a file"),
-        (["--diff", "--output-file", "report"], "leave out --output-file"),
+        (["--output-file", "src"], "is a directory, not a file"),
+        (["--diff", "--output-file", "report"], "omit --output-file"),
     ],
 )
 def test_a_place_that_takes_no_report_is_one_clear_line(

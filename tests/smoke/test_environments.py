@@ -20,10 +20,10 @@ from tests.smoke.smoke_runs import NEEDS_ROS
 @pytest.mark.parametrize(
     ("wanted", "reason"),
     [
-        ("sourced", "nothing is sourced; source the setup file of a ROS 2 first"),
+        ("sourced", "nothing is sourced; first source the setup file of a ROS 2 installation"),
         ("wheels", "they are missing; run: "),
-        ("humble", "humble/setup.bash; name a directory, or one of sourced, wheels, jazzy"),
-        ("/nowhere", "there is no /nowhere/setup.bash; name a directory, or one of "),
+        ("humble", "humble/setup.bash; use a directory, or one of sourced, wheels, jazzy"),
+        ("/nowhere", "there is no /nowhere/setup.bash; use a directory, or one of "),
     ],
 )
 def test_an_environment_that_is_asked_for_and_is_not_there(
@@ -60,8 +60,8 @@ def test_what_an_environment_lacks_is_named_with_the_way_to_get_it(tmp_path: Pat
     )
     ((line, _),) = unavailable(wheels, [Package.at(str(package))])
     assert line == (
-        "viewer needs cv_bridge, which /wheels lacks; there is no wheel; take a ROS 2 with it: "
-        "sudo apt install ros-jazzy-cv-bridge, and --ros jazzy"
+        "viewer needs cv_bridge, which /wheels lacks; there is no wheel; install it with "
+        "sudo apt install ros-jazzy-cv-bridge, and use --ros jazzy"
     )
     installed = replace(wheels, kind="installed", prefix="/opt/ros/kilted")
     installed = replace(installed, distribution="kilted")

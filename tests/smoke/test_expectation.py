@@ -279,7 +279,7 @@ def test_program_that_ends_before_its_timer_has_published(
     assert expectation.publications[0].timer_hz == rate
     problems, _ = compare(expectation, Observation(), 0.6, finished=True)
     problem = (
-        "finished by itself after 0.6 s, before any message came on /words: "
+        "exited by itself after 0.6 s, before a message on /words: "
         f"demo/run.py publishes {STRING} at 2 Hz"
     )
     assert list(map(str, problems)) == ([problem] if rate else [])
@@ -310,13 +310,13 @@ def expecting(
     [
         (10.0, seen(50, 10.4, 4.9), None),
         (10.0, seen(50, 9.6, 4.9), None),
-        (10.0, seen(50, 10.7, 4.9), "/words comes at 10.7 Hz"),
+        (10.0, seen(50, 10.7, 4.9), "/words is published at 10.7 Hz"),
         (200.0, seen(900, 180.0, 4.9), None),
-        (200.0, seen(900, 160.0, 4.9), "/words comes at 160 Hz"),
+        (200.0, seen(900, 160.0, 4.9), "/words is published at 160 Hz"),
         (1000.0, seen(5, 1.0, 0.9, 0.9), "only 5 messages on /words in 0.9 s"),
         (10.0, seen(4, 7.0, 0.5, 0.5), None),
         (0.5, seen(3, 0.5, 4.0), None),
-        (0.5, seen(2, 0.25, 4.0), "/words comes at 0.25 Hz"),
+        (0.5, seen(2, 0.25, 4.0), "/words is published at 0.25 Hz"),
         (10.0, seen(3, 10.0, 0.2, 5.0), "only 3 messages on /words in 5.0 s"),
         (10.0, seen(1, None, 0.0, 5.0), "only 1 message on /words in 5.0 s"),
         (None, seen(1, None, 0.0, 5.0), None),
@@ -337,7 +337,7 @@ def test_messages_that_come_at_once() -> None:
 def test_publisher_that_is_not_used() -> None:
     unused = Expectation((Publication("/words", STRING, None, never=True),), source="talker.py")
     problems, _ = compare(unused, seen(0, None, 0.0), 5.0)
-    assert list(map(str, problems)) == ["no message on /words: nothing that runs calls publish"]
+    assert list(map(str, problems)) == ["no message on /words: no running code calls publish()"]
     assert compare(unused, Observation(), 1.0, finished=True) == ([], [])
 
 
@@ -349,7 +349,7 @@ def test_silence() -> None:
     assert notes == []
     assert compare(expecting(None, certain=False), seen(0, None, 0.0), 9.0) == (
         [],
-        ["no message on /words: something has to happen first"],
+        ["no message on /words: it is only published on some event"],
     )
     assert compare(expecting(0.2), seen(0, None, 0.0), 9.0) == (
         [],
@@ -369,7 +369,7 @@ def test_timers_that_stand_still_without_a_clock() -> None:
 
 def test_nodes_of_the_same_name() -> None:
     _, (note,) = compare(Expectation(), Observation(nodes=("/one",), doubled=("/one",)), 5.0)
-    assert note.startswith("several nodes have the name /one: ")
+    assert note.startswith("several nodes are named /one: ")
 
 
 def test_missing_topic_and_wrong_type() -> None:
@@ -434,10 +434,10 @@ def test_finished_program() -> None:
     problems, _ = compare(expecting(10.0), Observation(), 0.3, finished=True)
     assert list(map(str, problems)) == [
         (
-            "finished by itself after 0.3 s, before any message came on /words: "
+            "exited by itself after 0.3 s, before a message on /words: "
             f"talker.py publishes {STRING} at 10 Hz"
         )
     ]
     script = Expectation(is_node=True, runs_nothing=True, source="talker.py")
     problems, _ = compare(script, Observation(), 0.3, finished=True)
-    assert list(map(str, problems)) == ["finished by itself: nothing in talker.py runs its node"]
+    assert list(map(str, problems)) == ["exited by itself: nothing in talker.py spins its node"]

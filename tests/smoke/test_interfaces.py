@@ -97,7 +97,8 @@ def test_without_generators_it_is_said_what_to_do(tmp_path: Path) -> None:
         (tmp_path / "share/ament_index/resource_index/packages" / name).touch()
     _, (line,) = provided(wheels(tmp_path), needing("ackermann_msgs"), tmp_path)
     assert line.startswith(
-        "ackermann_msgs: not among the ROS wheels, and not built: the generators are missing; run: "
+        "ackermann_msgs: not among the ROS wheels, and not built: the interface generators are "
+        "missing; run: "
     )
 
 

@@ -62,7 +62,7 @@ def test_json_says_what_was_not_done() -> None:
 def test_junit_counts_what_was_not_done_as_errors() -> None:
     text = written("junit")
     assert 'errors="2"' in text
-    assert "interrupted before it was built" in text
+    assert "interrupted before the build" in text
 
 
 def test_github_annotates_the_end() -> None:

@@ -278,13 +278,13 @@ def test_verbose_text_shows_all_figures() -> None:
         "      first message 0.50 s after the start",
         "      interval 100.00 ms, deviation 1.00 ms, 98.00 to 102.00 ms",
         "      size 52 B, 520 B/s",
-        "      2 messages lost on the way to the observer",
+        "      2 messages lost between node and observer",
         "      publisher of /sensor: best effort, volatile, keep last 3, deadline 2 s",
         '    parameter frame_id = "front"',
         "    parameters of /deaf: no answer",
         "    logged 1 error, 3 info",
         "      ERROR sensor: not calibrated",
-        "    memory 70.0 MB, at most 71.0 MB, 12 % of a processor",
+        "    memory 70.0 MB, at most 71.0 MB, 12 % of a core",
         "",
     ]
 

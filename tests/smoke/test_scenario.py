@@ -105,7 +105,7 @@ def test_package_without_a_file_says_nothing() -> None:
         ("a: [", "1: not YAML: did not find expected node content while parsing a flow node"),
         ("executable: {}", "1: smoke.yaml has no key 'executable'; did you mean 'executables'?"),
         ("executables: 5", "1: executables needs keys with values"),
-        ("a: 1\n---\nb: 2", "3: a second document; write only one"),
+        ("a: 1\n---\nb: 2", "3: a second document; only one is allowed"),
         (
             "executables:\n  talkr: {}",
             "2: the package has no executable 'talkr'; did you mean 'talker'?",
@@ -139,10 +139,10 @@ def test_package_without_a_file_says_nothing() -> None:
             "executables: {talker: {services: {a: {}}}}",
             "1: service '/a' needs the key 'type'",
         ),
-        ("executables: {talker: {topics: {a b: {}}}}", "1: 'a b' is not a name of the graph"),
+        ("executables: {talker: {topics: {a b: {}}}}", "1: 'a b' is not a valid ROS name"),
         (
             "executables: {talker: {parameters: {a: *b}}}",
-            "1: the alias *b: write out its value",
+            "1: the alias *b: write its value instead",
         ),
     ],
 )
@@ -246,9 +246,9 @@ def test_values_of_a_field(
     [
         ({"sum": 3}, Answer({"sum": 3, "more": 1}), None),
         ({"a": {"b": [0.1, 2]}}, Answer({"a": {"b": [0.1, 2], "c": 0}}), None),
-        ({"sum": 3}, Answer({"sum": 4}), " answers sum: 4: smoke.yaml expects 3"),
+        ({"sum": 3}, Answer({"sum": 4}), " returned sum: 4: smoke.yaml expects 3"),
         ({}, Answer(None, "it does not answer within 5 s"), ": it does not answer within 5 s"),
-        ({"a": [1]}, Answer({"a": [1, 2]}), " answers a: [1, 2]: smoke.yaml expects [1]"),
+        ({"a": [1]}, Answer({"a": [1, 2]}), " returned a: [1, 2]: smoke.yaml expects [1]"),
     ],
 )
 def test_answer_of_a_service(
@@ -369,7 +369,7 @@ def test_node_that_does_something_else(tmp_path: Path) -> None:
         ": smoke.yaml expects std_msgs/msg/String at 30 Hz",
         'data of /words is "hello": smoke.yaml expects "bye"',
         "data of /doubled is 4.5: smoke.yaml expects at least 5",
-        'service /switch answers message: "on": smoke.yaml expects "off"',
+        'service /switch returned message: "on": smoke.yaml expects "off"',
     )
     found = server["problems"]
     assert isinstance(found, list)

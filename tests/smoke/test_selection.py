@@ -110,7 +110,10 @@ def test_dependency_is_built_and_not_run_unless_the_environment_cannot(workspace
     )
     lack, left_out = done.stderr.splitlines()
     assert lack.startswith("ros2-scaffold: native needs moveit_core, which ")
-    assert left_out == "ros2-scaffold: not built, as they cannot be and are not run: native"
+    assert (
+        left_out
+        == "ros2-scaffold: not built, because they cannot be built here and are not run: native"
+    )
     assert done.returncode == 0
     packages = {item["name"]: item for item in json.loads(done.stdout)["packages"]}
     assert set(packages) == {"base", "middle"}

@@ -151,7 +151,7 @@ def test_namespace_latched_message_and_relay(packages: dict[str, Result]) -> Non
     assert kept["rate_hz"] is None
     assert kept["messages"][0]["data"] == [0.1] * 16 + ["..."]
     assert (topics["/heard"]["publishers"], topics["/heard"]["subscribers"]) == (0, 1)
-    assert found["notes"] == ["no message on /deep/relayed: something has to happen first"]
+    assert found["notes"] == ["no message on /deep/relayed: it is only published on some event"]
     assert found["services"] == [
         {"name": "/deep/answers", "type": "rcl_interfaces/srv/ListParameters"}
     ]
@@ -161,7 +161,7 @@ def test_program_that_is_no_node(packages: dict[str, Result]) -> None:
     found = executable(packages, "good_py", "once")
     assert (found["ok"], found["nodes"], found["topics"]) == (True, [], [])
     assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
-    assert found["notes"][0].startswith("finished by itself after ")
+    assert found["notes"][0].startswith("exited by itself after ")
 
 
 def test_crash_at_start(packages: dict[str, Result]) -> None:
@@ -202,7 +202,7 @@ def test_leaves_a_process(packages: dict[str, Result]) -> None:
 
 def test_never_publishes(packages: dict[str, Result]) -> None:
     found, problem = bad(packages, "silent")
-    assert problem == "no message on /silent: nothing that runs calls publish"
+    assert problem == "no message on /silent: no running code calls publish()"
     assert found["topics"][0]["count"] == 0
 
 
@@ -236,15 +236,15 @@ def test_traceback_at_stop(packages: dict[str, Result]) -> None:
 
 def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
     _, problem = bad(packages, "unspun")
-    assert problem.startswith("finished by itself after ")
-    assert "before any message came on /unspun: bad_py/unspun.py publishes" in problem
+    assert problem.startswith("exited by itself after ")
+    assert "before a message on /unspun: bad_py/unspun.py publishes" in problem
 
 
 def test_node_that_leaves_before_it_has_published(packages: dict[str, Result]) -> None:
     found, problem = bad(packages, "leaves")
-    assert problem.startswith("finished by itself after ")
+    assert problem.startswith("exited by itself after ")
     assert problem.endswith(
-        "before any message came on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
+        "before a message on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
     )
     assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
 
@@ -276,14 +276,14 @@ def test_package_that_colcon_ignores(tmp_path: Path) -> None:
     (package / "COLCON_IGNORE").touch()
     result = smoke(packages_of(targets.find([str(package)])), Options())
     assert not result.ok
-    assert result.packages[0].build.errors == ("not built: colcon does not find it",)
+    assert result.packages[0].build.errors == ("not built: colcon does not find the package",)
 
 
 def test_build_that_takes_too_long(sources: Path) -> None:
     found = packages_of(targets.find([str(sources / "good_py")]))
     result = smoke(found, Options(build_timeout=0.1))
     assert not result.ok
-    assert result.packages[0].build.errors[-1] == "the build did not end within 0.1 s"
+    assert result.packages[0].build.errors[-1] == "the build did not finish within 0.1 s"
 
 
 def test_executable_that_ros2_run_does_not_find(packages: dict[str, Result]) -> None:

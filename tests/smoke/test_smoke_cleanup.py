@@ -176,7 +176,7 @@ def test_short_command_leaves_nothing() -> None:
     assert (done.exit_code, done.out, done.err) == (0, "out\n", "")
     late = process.capture([sys.executable, "-c", "while True: pass"], {}, origin, 0.5)
     assert late.exit_code < 0
-    assert "it did not end within 0.5 s" in late.err
+    assert "it did not exit within 0.5 s" in late.err
 
 
 # -- what a killed run has left
@@ -307,8 +307,8 @@ def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
         pass
     holder = f"process {os.getpid()}"
     assert str(caught.value) == (
-        f"'{tmp_path}' is in use by another smoke ({holder}): "
-        "wait for it to finish, or choose another --workspace"
+        f"'{tmp_path}' is in use by another smoke ({holder}): wait for it, or choose another "
+        "--workspace"
     )
     assert told == [f"waiting for another smoke ({holder}) in '{tmp_path}'"]
     assert list(tmp_path.iterdir()) == []

@@ -78,9 +78,9 @@ def test_tests_that_pass_are_counted() -> None:
 
 
 def test_colcon_that_fails_by_itself() -> None:
-    tests = Tests((), "the tests did not end within 5 s")
+    tests = Tests((), "the tests did not finish within 5 s")
     assert not smoke_of(tests).ok
-    assert "    problem: the tests did not end within 5 s" in written(tests, "text").splitlines()
+    assert "    problem: the tests did not finish within 5 s" in written(tests, "text").splitlines()
 
 
 def test_cases_are_part_of_the_suite(tmp_path: Path) -> None:

@@ -53,17 +53,17 @@ def subscription(kind: str = STRING, **changes: object) -> Endpoint:
         (
             publisher(),
             subscription("std_msgs/msg/Bool"),
-            "it publishes std_msgs/msg/String, the other subscribes to std_msgs/msg/Bool",
+            "the types std_msgs/msg/String and std_msgs/msg/Bool differ",
         ),
         (
             publisher(reliability="best_effort"),
             subscription(),
-            "it publishes best effort, the other wants reliable",
+            "the publisher offers best effort, the subscription requests reliable",
         ),
         (
             publisher(),
             subscription(durability="transient_local"),
-            "it publishes volatile, the other wants transient local",
+            "the publisher offers volatile, the subscription requests transient local",
         ),
         (
             publisher(),
@@ -73,13 +73,13 @@ def subscription(kind: str = STRING, **changes: object) -> Endpoint:
         (
             publisher(),
             subscription(liveliness="manual_by_topic"),
-            "its liveliness is automatic, the other wants manual by topic",
+            "the publisher offers automatic liveliness, the subscription requests manual by topic",
         ),
     ],
 )
 def test_quality_of_service(offered: Endpoint, wanted: Endpoint, reason: str | None) -> None:
     found = [str(item) for item in connections(Observation(topics=(topic("/t", offered, wanted),)))]
-    expected = f"/t: /listener gets nothing from /talker: {reason}"
+    expected = f"/t: /listener receives nothing from /talker: {reason}"
     assert found == ([expected] if reason else [])
 
 
@@ -87,8 +87,8 @@ def test_names_that_differ_by_a_slip() -> None:
     seen = Observation(topics=(topic("/chatter", publisher()), topic("/chater", subscription())))
     assert [str(item) for item in connections(seen)] == [
         (
-            "nothing publishes /chater, to which /listener subscribes; /talker publishes "
-            "/chatter, to which nobody does"
+            "nothing publishes /chater, which /listener subscribes to; /talker publishes "
+            "/chatter, which nobody subscribes to"
         )
     ]
 
@@ -130,7 +130,8 @@ def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
     assert set(together["nodes"]) == {"/listener", "/talker"}
     assert together["problems"] == [
         (
-            "/numbers: /listener gets nothing from /talker: it publishes volatile, the other wants "
+            "/numbers: /listener receives nothing from /talker: the publisher offers volatile, the "
+            "subscription requests "
             "transient local"
         )
     ]
@@ -172,7 +173,7 @@ def test_what_nodes_together_leave_behind_is_named(tmp_path: Path) -> None:
     problems = [problem.splitlines()[0] for problem in result["together"]["problems"]]
     memory = "leaves shared memory behind: /dev/shm/scaffold_test_keeps"
     assert problems[:2] == [
-        "keeps ended among the others, killed by SIGKILL",
+        "keeps exited while running with the others, killed by SIGKILL",
         "ignores ignored SIGINT: it was still running after 5 s, SIGKILL ended it",
     ]
     assert problems[2].startswith("parent leaves a process running: ")

@@ -115,8 +115,8 @@ def test_files_and_directories_do_not_mix(tmp_path: Path) -> None:
     (tmp_path / "d").mkdir()
     (tmp_path / "f").write_text("")
     for files, words in (
-        ({"d": ""}, "a directory is in its place"),
-        ({"f/x": ""}, "a file is in its place"),
+        ({"d": ""}, "but is a directory"),
+        ({"f/x": ""}, "but that is a file"),
         ({"n": "", "n/x": ""}, "a file and a directory"),
     ):
         with pytest.raises(ConflictError, match=words):
@@ -152,7 +152,7 @@ def test_a_failure_puts_back_what_was_there(tmp_path: Path) -> None:
 def test_a_directory_that_appears_in_the_meantime_is_kept(tmp_path: Path) -> None:
     plan = WritePlan.of(tmp_path / "p", {"a": "1"})
     (tmp_path / "p").mkdir()
-    with pytest.raises(ConflictError, match="appeared in the meantime"):
+    with pytest.raises(ConflictError, match="created in the meantime"):
         plan.write()
     assert os.listdir(tmp_path) == ["p"]
 

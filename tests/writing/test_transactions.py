@@ -199,7 +199,7 @@ def test_a_file_around_it_on_another_file_system_stops_all(tmp_path: Path) -> No
     with TemporaryDirectory(dir=memory) as other:
         write(Path(other), {"hooks": "old\n"})
         around = WritePlan.of(other, {"hooks": "new\n"})
-        with pytest.raises(InputError, match=f"^{other}/hooks is on another file system than"):
+        with pytest.raises(InputError, match=f"^{other}/hooks is on a different file system than"):
             WritePlan.of(tmp_path, AFTER).write(force=True, around=around)
         assert tree(Path(other)) == {"hooks": "old\n"}
     assert tree(tmp_path) == BEFORE
@@ -217,7 +217,7 @@ def test_another_user_cannot_mean_files_outside_of_the_package(
     user = os.geteuid()
     monkeypatch.setattr(os, "geteuid", lambda: user + 1)
     (note,) = heal(root)
-    assert note.endswith("ignored: remove it")
+    assert note.endswith("ignored; remove it")
     monkeypatch.undo()
     (note,) = heal(root)
     assert note.endswith("undone")
@@ -242,7 +242,7 @@ def test_edits_after_a_crash_are_kept(tmp_path: Path) -> None:
         notes = heal(root)
         assert (root / "b" / "c").read_text() == "mine\n", at
         if notes:
-            assert notes[0].endswith("edited since, left alone: b/c"), at
+            assert notes[0].endswith("edited since, not restored: b/c"), at
         others = {path: text for path, text in tree(root).items() if path != "b/c"}
         assert others in [
             {path: text for path, text in state.items() if path != "b/c"}
@@ -271,7 +271,7 @@ def test_a_journal_from_elsewhere_is_not_believed(tmp_path: Path) -> None:
     shutil.copytree(root, copy)
     before = {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()}
     (note,) = heal(copy)
-    assert note.endswith("ignored: remove it")
+    assert note.endswith("ignored; remove it")
     assert {path: path.read_bytes() for path in copy.rglob("*") if path.is_file()} == before
 
 
@@ -332,7 +332,9 @@ def test_a_file_that_changes_after_the_plan_stops_it_before_the_first_write(
         write(tmp_path, {path: "mine\n"})
     before = tree(tmp_path)
     times = {file: file.stat().st_ctime_ns for file in tmp_path.rglob("*") if file.is_file()}
-    with pytest.raises(ConflictError, match=f"^{path} in .*nothing was written: run this again"):
+    with pytest.raises(
+        ConflictError, match=f"^{path} in .*nothing was written; run the command again"
+    ):
         plan.write(force=True)
     assert tree(tmp_path) == before
     assert {file: file.stat().st_ctime_ns for file in times} == times
@@ -484,7 +486,7 @@ def test_check_notes_what_was_cut_off_and_changes_nothing(
         assert "a run was interrupted while it changed this package" in err
     assert tree(package) == before
     main(["check", "--fix", str(package)])
-    assert "an earlier run was cut off; its changes were " in capfd.readouterr().err
+    assert "an earlier run was interrupted; its changes were " in capfd.readouterr().err
     main(["check", str(package)])
     assert "cut off" not in capfd.readouterr().err
 

@@ -144,7 +144,7 @@ def _by_name(question: str, choices: Sequence[Choice], default: str | None) -> s
 def _by_names(question: str, choices: Sequence[Choice], default: Sequence[str]) -> list[str]:
     _list(choices)
     names = [choice.name for choice in choices]
-    hint = "names separated by spaces, or nothing"
+    hint = "names separated by spaces; may be empty"
     start = " ".join(default)
     answer = line(question, start, lambda words: _not_among(words.split(), names), hint=hint)
     return [name for name in names if name in answer.split()]

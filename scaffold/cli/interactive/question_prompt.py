@@ -56,7 +56,7 @@ def ask(question: Question, usual: Usual, judge: Callable[[object], str | None])
         return prompts.choose(text, choices, str(usual.before or preset))
     shown = answer_text.shown(question, preset)
     if question.type == "qos":
-        by_default = shown or made.removeprefix("default: ") or "as the template has it"
+        by_default = shown or made.removeprefix("default: ") or "default of the template"
         return _quality(text.partition(":")[0], by_default, usual.before, judge)
 
     def wrong(answer: str) -> str | None:

@@ -148,7 +148,7 @@ class _Interview:
             try:
                 show(self._trial.preview(self._together()))
             except ScaffoldError as error:
-                self._say(f"{str(error).removeprefix(f'{ORIGIN}: ')}; answer again")
+                self._say(f"{str(error).removeprefix(f'{ORIGIN}: ')}; try again")
                 raise BackError from None
         choices = [
             Choice(_WRITE, "write these files"),
@@ -198,7 +198,7 @@ class _Interview:
             if fault is None:
                 entries.append(entry)
             else:
-                say(f"{fault}; answer again")
+                say(f"{fault}; try again")
                 self._history.forget(position)
         self._answers[parts.ADD] = entries
 

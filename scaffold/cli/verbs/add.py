@@ -100,7 +100,7 @@ def _targets(options: argparse.Namespace, directory: str, settings: Config) -> l
         command = f"ros2-scaffold update {distro.FLAG} {','.join(flag)} {directory}"
         raise InputError(
             f"{distro.FLAG}: the package is for {distributions.titles(recorded)}; "
-            f"`{command}` makes it one for others; nothing was changed"
+            f"`{command}` changes that; nothing was changed"
         )
     return recorded
 
@@ -228,7 +228,9 @@ def _directory(given: str | None) -> str:
         return os.path.normpath(given)
     directory = colcon.package_around(Disk(), os.getcwd())
     if directory is None:
-        raise InputError(f"no {MANIFEST} here or above: go to a package or use --package-directory")
+        raise InputError(
+            f"no {MANIFEST} here or above: change to a package or use --package-directory"
+        )
     return os.path.relpath(directory)
 
 
@@ -242,8 +244,8 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
             force
         ):
             raise InputError(
-                f"{_line(package, diagnostic)}; fix it first, or add without it with --force; "
-                "nothing was changed"
+                f"{_line(package, diagnostic)}; fix it first, or ignore it with --force; nothing "
+                "was changed"
             )
 
 
@@ -272,7 +274,7 @@ def _refuse_elsewhere(
         for diagnostic in add.new_diagnostics(before, after):
             if diagnostic.severity is Severity.ERROR and not added.is_expected(diagnostic):
                 raise InputError(
-                    f"{distributions.titles([other])}, which the package is for as well: "
+                    f"{distributions.titles([other])}, which the package is also for: "
                     f"{_line(package, diagnostic)}; nothing was changed"
                 )
 
@@ -343,9 +345,8 @@ def _report(package: Package, diagnostics: list[Diagnostic]) -> None:
     for diagnostic in diagnostics:
         terminal.say(_line(package, diagnostic))
     terminal.say(
-        "ros2-scaffold: internal error: the checker finds errors in what was to be added; "
-        "nothing was changed; "
-        "please open an issue in the repository of this tool"
+        "ros2-scaffold: internal error: the checker finds errors in the added files; nothing was "
+        "changed; please open an issue in the repository of this tool"
     )
 
 
@@ -409,7 +410,7 @@ def _summary(
     if not plan.changes and not (above is not None and above.changes):
         if added.by_hand:
             return "\n".join([*lines, "Nothing was changed."])
-        return "\n".join([*lines, "", "Everything is already there: nothing was changed."])
+        return "\n".join([*lines, "", "Everything is already there; nothing was changed."])
     ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), *HIDDEN}
     if all(path in ours for _, _, path in rows) and added.start is None:
         return "\n".join(lines)

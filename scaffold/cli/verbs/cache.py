@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
 
     place = home.cache()
     if place is None:
-        raise ConfigError("no home directory to keep a cache in; set HOME")
+        raise ConfigError("no home directory for the cache; set HOME")
     if options.action == "show":
         terminal.show(f"{place}: {_amount(*cache.size(place))}")
     else:

@@ -202,7 +202,7 @@ def _validate_noqa(options: argparse.Namespace) -> None:
 
     for flag in ("fix", "reference", "stdin_filename", "since", "baseline", "write_baseline"):
         if options.add_noqa and getattr(options, flag):
-            raise InputError(f"--add-noqa only adds comments: leave out --{flag.replace('_', '-')}")
+            raise InputError(f"--add-noqa only adds comments: omit --{flag.replace('_', '-')}")
 
 
 def _validate_cluster(options: argparse.Namespace) -> None:
@@ -225,7 +225,7 @@ def _give_settings(
     if config.content:
         raise InputError(
             f"{config.directories[0].origin}: 'content' cannot be combined with --cluster: "
-            "workers only have the rules of the tool"
+            "workers only have the built-in rules"
         )
     if isinstance(session, ClusterSession):
         session.address = options.cluster
@@ -296,8 +296,8 @@ def _report_fixes(
     unsettled = sorted({code for item in fixed for code in item.unsettled})
     if unsettled:
         terminal.note(
-            f"gave up on {', '.join(unsettled)}: their fixes lead to others without end, or undo "
-            "each other; fix these by hand"
+            f"gave up on {', '.join(unsettled)}: their fixes undo each other or never end; fix "
+            "these by hand"
         )
     if options.diff:
         left = [(result.package, item) for result in results for item in result.diagnostics]

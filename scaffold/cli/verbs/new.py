@@ -98,7 +98,9 @@ def _run(
         above = _plan_above(made, around, left, force=options.force)
     except ScaffoldError:
         if command is not None:
-            terminal.say_lines(f"Your answers as a command, to correct:\n    {command}")
+            terminal.say_lines(
+                f"Your answers as a command, to correct and run again:\n    {command}"
+            )
         raise
     defects = [defect for defect in check.end() if not dependency_names.is_about(defect, named)]
     if defects:
@@ -114,7 +116,7 @@ def _run(
         files = f"{plan.root}: written" if has_preview else _files(made, plan, above)
         terminal.show(_summary(options, files, made, plan, above))
         if command is not None:
-            terminal.show(f"\nThe same without questions:\n    {command}")
+            terminal.show(f"\nThe same as a command:\n    {command}")
     return FINDINGS if _tell_by_hand(options, made, left) else CLEAN
 
 

@@ -271,7 +271,7 @@ def _wanted(options: argparse.Namespace, packages: Sequence[Package]) -> Sequenc
             f"{name} is for {distributions.titles(named)}" for name, named in for_each.items()
         )
         raise InputError(
-            f"no distribution serves all packages: {each}; --packages-select names those to run"
+            f"no distribution works for all packages: {each}; select some with --packages-select"
         )
     return common
 
@@ -313,11 +313,12 @@ def _validate(options: argparse.Namespace) -> None:
     if options.cluster is not None and (options.workspace or options.keep):
         flag = "--workspace" if options.workspace else "--keep"
         raise InputError(
-            f"{flag}: not with --cluster, whose workers build in directories of theirs"
+            f"{flag}: cannot be combined with --cluster, whose workers build in temporary "
+            "directories"
         )
     directory = options.report
     if directory is not None and os.path.exists(directory) and not os.path.isdir(directory):
-        raise InputError(f"--report {directory}: is a file; name a directory")
+        raise InputError(f"--report {directory}: is a file, not a directory")
 
 
 def _report(options: argparse.Namespace, result: Smoke) -> None:
@@ -375,11 +376,11 @@ def _seconds(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above 0")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number of seconds")
     return value
 
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive integer")
     return int(text)

@@ -62,8 +62,8 @@ def _add(directory: str) -> None:
         terminal.show(f"    rules and templates from {place}")
     if not has_file:
         terminal.note(
-            f"there is no {config.PROJECT_FILE} in {real}; trust is for the directory that has "
-            "one, not for those below it"
+            f"there is no {config.PROJECT_FILE} in {real}; trust applies to the directory that "
+            "contains it, not to those below"
         )
 
 
@@ -77,7 +77,7 @@ def _list() -> None:
         if not disk.is_directory(directory):
             note = "  (gone)"
         elif disk.owner(directory) != owner:
-            note = "  (no longer: its owner has changed)"
+            note = "  (no longer trusted: its owner has changed)"
         terminal.show(f"{directory}{note}")
     for url in trust.trusted_urls():
         terminal.show(url)

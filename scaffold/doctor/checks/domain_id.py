@@ -22,12 +22,12 @@ def check(machine: Machine) -> Iterator[Finding]:
     if not 0 <= number <= LAST:
         yield Finding(
             Severity.ERROR,
-            f"ROS_DOMAIN_ID is {text!r}: no node starts; it has to be a number from 0 to {LAST}",
+            f"ROS_DOMAIN_ID is {text!r}: no node starts; use a number from 0 to {LAST}",
             "export ROS_DOMAIN_ID=0",
         )
     elif number > LAST_SAFE:
         yield Finding(
             Severity.WARNING,
-            f"ROS_DOMAIN_ID is {number}: its ports may be taken by other programs now and then",
+            f"ROS_DOMAIN_ID is {number}: its ports may be in use by other programs",
             f"export ROS_DOMAIN_ID={number % (LAST_SAFE + 1)}  # a number from 0 to {LAST_SAFE}",
         )

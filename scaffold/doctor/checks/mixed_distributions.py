@@ -29,8 +29,8 @@ def check(machine: Machine) -> Iterator[Finding]:
         where = "; ".join(f"{name} in {', '.join(places[name])}" for name in sorted(places))
         yield Finding(
             Severity.ERROR,
-            f"two distributions are sourced in one shell: {where}; libraries of one crash the "
-            "other",
+            f"two distributions are sourced in one shell: {where}; their libraries are "
+            "incompatible",
             _keep_one(machine),
         )
     named = machine.variables.get("ROS_DISTRO")
@@ -49,8 +49,8 @@ def _keep_one(machine: Machine) -> str:
     shell = os.path.basename(machine.variables.get("SHELL", ""))
     start = START_FILES.get(shell, START_FILES["bash"])
     return (
-        f"grep -n {machine.installed}/ {start}  # keep the lines of one distribution there, and "
-        "open a new terminal"
+        f"grep -n {machine.installed}/ {start}  # keep the lines of one distribution, and open a "
+        "new terminal"
     )
 
 
@@ -65,6 +65,6 @@ def _of_workspace(machine: Machine, sourced: set[str]) -> Iterator[Finding]:
         yield Finding(
             Severity.ERROR,
             f"{workspace.install} was built with {', '.join(sorted(strange))}, which its setup "
-            "files source again",
+            "files source",
             f"cd {quote(workspace.top)} && rm -r build install && colcon build",
         )

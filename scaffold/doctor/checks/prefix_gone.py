@@ -23,7 +23,7 @@ def check(machine: Machine) -> Iterator[Finding]:
     yield Finding(
         Severity.ERROR if nothing else Severity.WARNING,
         f"AMENT_PREFIX_PATH names {', '.join(gone)}, which {'is' if len(gone) == 1 else 'are'} not "
-        f"there: {'no package' if nothing else 'nothing of it'} is found",
-        f"grep -n {quote(os.path.commonpath(gone))} {start}  # what sources it, and open a new "
-        "terminal",
+        f"there: {'no package' if nothing else 'nothing in it'} is found",
+        f"grep -n {quote(os.path.commonpath(gone))} {start}  # remove the lines that source it, "
+        "and open a new terminal",
     )

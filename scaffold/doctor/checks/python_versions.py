@@ -22,7 +22,7 @@ def check(machine: Machine) -> Iterator[Finding]:
     for _, path in sorted(others.items()):
         yield Finding(
             Severity.ERROR,
-            f"PYTHONPATH names {path}, but python3 is {running} ({machine.python}): modules that "
-            "are compiled, such as those of rclpy, are not found",
+            f"PYTHONPATH names {path}, but python3 is {running} ({machine.python}): compiled "
+            "modules, such as those of rclpy, are not found",
             f"unset PYTHONPATH  # then source a ROS 2 for Python {running}",
         )

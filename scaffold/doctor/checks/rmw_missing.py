@@ -31,8 +31,8 @@ def check(machine: Machine) -> Iterator[Finding]:
     package = f"ros-{machine.distribution}-{wanted.replace('_', '-')}"
     yield Finding(
         Severity.ERROR,
-        f"RMW_IMPLEMENTATION is {wanted!r}, which is not installed: `import rclpy` fails; there is "
-        f"{', '.join(there) or 'none'}",
+        f"RMW_IMPLEMENTATION is {wanted!r}, which is not installed: `import rclpy` fails; "
+        f"installed: {', '.join(there) or 'none'}",
         f"sudo apt install {package}  # or: unset RMW_IMPLEMENTATION"
         if wanted in KNOWN and any(map(machine.distribution_of, machine.prefixes))
         else "unset RMW_IMPLEMENTATION",

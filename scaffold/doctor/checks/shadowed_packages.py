@@ -31,5 +31,5 @@ def _removal(name: str, prefix: str) -> str:
     top = os.path.dirname(os.path.dirname(prefix))
     build = os.path.join(top, "build", name)
     if os.path.basename(prefix) == name and os.path.isdir(build):
-        return f"rm -r {quote(prefix)} {quote(build)}  # unless it is intended"
-    return f"ros2 pkg prefix {name}  # says which one is used; is that intended?"
+        return f"rm -r {quote(prefix)} {quote(build)}  # unless intended"
+    return f"ros2 pkg prefix {name}  # shows which one is used"

@@ -23,7 +23,8 @@ def check(machine: Machine) -> Iterator[Finding]:
             newest = max(directories, key=os.path.getctime)
             yield Finding(
                 Severity.ERROR,
-                f"two packages are called {name!r}: {', '.join(directories)}; colcon builds none",
+                f"two packages are called {name!r}: {', '.join(directories)}; colcon builds "
+                "neither",
                 f"touch {quote(os.path.join(newest, 'COLCON_IGNORE'))}  # or rename one",
             )
         elif name in workspace.installed:
@@ -52,7 +53,7 @@ def _gone(workspace: Workspace) -> Iterator[Finding]:
                 places = [os.path.join(workspace.top, "build"), workspace.install]
             yield Finding(
                 Severity.WARNING,
-                f"{name!r} is installed in {workspace.install}, but not in src any more: `ros2 "
-                "run` still finds it",
+                f"{name!r} is installed in {workspace.install}, but no longer in src: `ros2 run` "
+                "still finds it",
                 f"rm -r {' '.join(map(quote, places))}",
             )

@@ -17,8 +17,8 @@ def check(machine: Machine) -> Iterator[Finding]:
     if conda and machine.prefixes and not any(path.startswith(conda) for path in machine.prefixes):
         yield Finding(
             Severity.WARNING,
-            f"the conda environment {conda} is active: its Python and libraries are not those that "
-            "ROS 2 was built with",
+            f"the conda environment {conda} is active: its Python and libraries differ from "
+            "those that ROS 2 was built with",
             "conda deactivate",
         )
     active = machine.variables.get("VIRTUAL_ENV")
@@ -34,8 +34,8 @@ def check(machine: Machine) -> Iterator[Finding]:
     if stated.get("include-system-site-packages") != "true":
         yield Finding(
             Severity.WARNING,
-            f"the virtual environment {active} does not see the system's packages: rclpy and "
-            "colcon need numpy, yaml and others of them",
+            f"the virtual environment {active} has no access to system packages such as numpy "
+            "and yaml, which rclpy and colcon need",
             f"python3 -m venv --system-site-packages {active} && touch "
             f"{os.path.join(active, 'COLCON_IGNORE')}",
         )

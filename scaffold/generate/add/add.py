@@ -158,8 +158,8 @@ def _refuse_ros_1(package: Package) -> None:
     is_ours = any(name.startswith("ament_") for name in tools)
     if "catkin" in tools and not (is_ours or package.manifest.build_type):
         raise InputError(
-            f"{package.directory}: a package of ROS 1, built by catkin; "
-            "what add writes is for ROS 2; nothing was changed"
+            f"{package.directory}: a package of ROS 1, built with catkin, and `add` writes ROS 2 "
+            "code; nothing was changed"
         )
 
 
@@ -237,8 +237,8 @@ def _launched(package: Package, addition: Addition, done: Container[str]) -> dic
     outcome = add_to_launch(source, addition)
     for item in outcome.by_hand:
         raise InputError(
-            f"--launch: {path} cannot be edited: {item.reason}; write `{item.line}` there and "
-            "leave --launch out; nothing was changed"
+            f"--launch: {path} cannot be edited: {item.reason}; add `{item.line}` there yourself "
+            "and omit --launch; nothing was changed"
         )
     text = outcome.source.text
     return {path: text.encode(source.encoding)} if text != source.text else {}
@@ -301,7 +301,7 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
         yield f"the new files have no license header: {_why_no_header(package, made)}"
     if made.others:
         launch = next(path for path in made.rendered.files if path.startswith(LAUNCH))
-        yield f"{launch} leaves out {', '.join(made.others)}: not known to be nodes"
+        yield f"{launch} does not start {', '.join(made.others)}: not known to be nodes"
     if made.addition.program is not None:
         yield from neighbours.remarks(package, made.addition.program.path)
         yield from _not_launched(package, made.addition)
@@ -335,10 +335,10 @@ def _starts_others(text: str, package: str, program: str) -> bool:
 def _why_no_header(package: Package, made: Piece) -> str:
     if not made.composed.context["has_license"]:
         declared = ", ".join(element.text for element in package.manifest.all("license"))
-        return f"the license of {package.name} is {declared or 'none'!r}; --license gives them one"
+        return f"the license of {package.name} is {declared or 'none'!r}; --license adds one"
     return (
         f"neither the maintainer nor the sources of {package.name} name a copyright holder; "
-        "--copyright-holder gives them one"
+        "--copyright-holder adds one"
     )
 
 
@@ -363,7 +363,7 @@ def _refuse_taken(package: Package, made: Piece) -> None:
     if program.name in sources and sources[program.name] != program.path:
         where = f", {sources[program.name]}" if sources[program.name] else ""
         raise ConflictError(
-            f"{package.name} has a program {program.name!r} already{where}: choose another name"
+            f"{package.name} already has a program {program.name!r}{where}; choose another name"
         )
 
 

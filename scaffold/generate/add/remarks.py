@@ -44,8 +44,8 @@ def _namesakes(package: Package, path: str) -> Iterator[str]:
             if isinstance(node.node_name, str) and node.node_name in names:
                 at = node.node_name_location
                 yield (
-                    f"{at.path}:{at.line} makes a node with the name {node.node_name!r}, too: "
-                    "nodes that run together need names of their own"
+                    f"{at.path}:{at.line} also creates a node named {node.node_name!r}: nodes "
+                    "that run together need different names"
                 )
 
 

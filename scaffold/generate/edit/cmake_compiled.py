@@ -72,8 +72,8 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
             return
         at = command.location
         raise ConflictError(
-            f"{at.path}:{at.line}:{at.column}: {command.name}() makes a target "
-            f"{program.name!r} already: choose another name"
+            f"{at.path}:{at.line}:{at.column}: {command.name}() already defines a target "
+            f"{program.name!r}; choose another name"
         )
     lines = [
         f"add_executable({program.name} {program.source})",
@@ -99,7 +99,7 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
     _run_in_tests(editor, program.name)
     if not any(_makers(editor.lists, program.name)):
         editor.lists = before
-        editor.refuse(f"{lines[0]} and {install}", "there is no safe place for it")
+        editor.refuse(f"{lines[0]} and {install}", "no safe place to insert it")
 
 
 def _makers(lists: CMakeLists, name: str | None) -> Iterator[Command]:

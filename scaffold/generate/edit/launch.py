@@ -21,7 +21,7 @@ _MARKUP = {
     ".yml": "- node: {{pkg: {}, exec: {}}}",
 }
 
-_NOT_CLEAR = "it is not clear where its LaunchDescription gets its nodes"
+_NOT_CLEAR = "it is not clear where its LaunchDescription is filled"
 _NO_NODE = "it starts no node of {} that shows how"
 
 
@@ -59,7 +59,7 @@ def _markup(source: Source, form: str, package: str, program: Program) -> Outcom
     if starts and re.search(rf"\b{re.escape(program.name)}\b", source.text):
         return Outcome(source)
     line = form.format(package, program.name)
-    reason = "only launch files in Python are edited"
+    reason = "only Python launch files can be edited"
     return Outcome(source, (ByHand(source.path, line, reason, is_needed=False),))
 
 

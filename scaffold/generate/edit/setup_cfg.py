@@ -65,10 +65,10 @@ def add_directories(source: Source, addition: Addition, *, has_others: bool) -> 
         if addition.program is None or (value or "").strip().rstrip("/") == directory:
             continue
         if value is not None:
-            reason = f"it is {value}, where ros2 run does not look"
+            reason = f"it is {value}, where `ros2 run` does not find executables"
             by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
         elif has_others:
-            reason = "ros2 run looks nowhere else, but it moves the other executables out of bin/"
+            reason = "`ros2 run` requires it, but it also moves the other executables out of bin/"
             by_hand.append(ByHand(source.path, f"[{section}] {key}={directory}", reason))
         else:
             source = spliced(source, [file.set(section, key, directory)])

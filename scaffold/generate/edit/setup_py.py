@@ -95,7 +95,7 @@ class _Editor:
             return
         line = f"packages=['{name}'],"
         if installed is None:
-            self._refuse(line, f"cannot tell whether packages= includes {name!r}")
+            self._refuse(line, f"it is not clear whether packages= includes {name!r}")
             return
         self._edit(lambda setup: _package_edit(setup, self._expression(name)))
         if not installs_package(self.setup, name):

@@ -146,7 +146,9 @@ def _full_name(text: str, kind: str, definitions: Definitions) -> str:
     if not matches and package and definitions.find(f"{package}{kind}/{wanted.name}"):
         matches = [f"{package}{kind}/{wanted.name}"]  # of a package that may have more
     if len(matches) > 1:
-        raise InputError(f"{text!r} may be {', '.join(matches[:-1])} or {matches[-1]}; write which")
+        raise InputError(
+            f"{text!r} may be {', '.join(matches[:-1])} or {matches[-1]}; use the full name"
+        )
     if matches:
         return matches[0]
     closest = _nearest(text, kind, definitions)

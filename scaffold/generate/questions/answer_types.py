@@ -55,7 +55,7 @@ def text(given: object) -> str:
             raise InputError(f"contains the character U+{ord(character):04X}, which XML forbids")
     refuse_turning(folded)
     if is_placeholder(folded):
-        raise InputError(f"{_short(folded)!r} is a placeholder; give the real text, or omit it")
+        raise InputError(f"{_short(folded)!r} is a placeholder; replace or omit it")
     return folded
 
 
@@ -71,7 +71,7 @@ def person(given: object) -> str:
     if set(name) & set('"\\'):
         raise InputError(f"{name!r} contains a double quote or a backslash")
     if re.search(_ENCODING, name):
-        raise InputError(f"{name!r} would tell Python the encoding of the files")
+        raise InputError(f"{name!r} would be read as an encoding declaration by Python")
     return name
 
 
@@ -85,7 +85,7 @@ def address(given: object) -> str:
     if len(result) > MAX_PERSON:
         raise InputError(f"{_short(result)!r} has more than {MAX_PERSON} characters")
     if not re.fullmatch(_ADDRESS, result, re.ASCII):
-        raise InputError(f"{result!r} is not a mail address such as ada@example.com")
+        raise InputError(f"{result!r} is not an email address such as ada@example.com")
     if is_placeholder_address(result):
         raise InputError(f"{result!r} is a placeholder")
     return result
@@ -100,7 +100,7 @@ def rate(given: object) -> float:
     try:
         number = float(_string(given))
     except ValueError:
-        raise InputError(f"{given!r} is not a number of messages per second") from None
+        raise InputError(f"{given!r} is not a rate in hertz") from None
     if not MIN_RATE <= number <= MAX_RATE:
         raise InputError(f"{given} Hz is not between {MIN_RATE:g} and {MAX_RATE:g} Hz")
     return number
@@ -117,7 +117,7 @@ def flag(given: object) -> bool:
         return True
     if word in {"false", "no", "off", "0"}:
         return False
-    raise InputError(f"{given!r} is neither yes nor no")
+    raise InputError(f"{given!r} is not yes or no")
 
 
 def dependencies(given: object) -> tuple[str, ...]:
@@ -187,7 +187,7 @@ def nothing(given: object) -> tuple[str, ...]:
         InputError: one is wanted.
     """
     if given:
-        raise InputError(f"{given!r}: there is nothing to choose from")
+        raise InputError(f"{given!r}: there are no choices")
     return ()
 
 

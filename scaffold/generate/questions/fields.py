@@ -50,7 +50,7 @@ def fields(given: object, where: str = ".") -> Fields:
     for problem in definition.problems:
         line = lines[problem.location.line - 1]
         several = re.search(r"\w\s*[,;]\s*[\w/]+ +\w", line.partition("#")[0])
-        hint = "; write each field as a string of its own" if several else ""
+        hint = "; quote each field separately" if several else ""
         raise InputError(f"{line!r}: {problem.message}{hint}")
     for section in definition.sections:
         for field in section.fields:
@@ -88,11 +88,13 @@ def _refuse_garbled(lines: Iterable[str]) -> None:
         code = line.partition("#")[0]
         value = re.sub(r"^\s*\S+\s+\w+[\s=]*", "", code).strip()
         if "\\" in line:
-            raise InputError(f"{line!r}: rosidl takes a backslash for the start of an escape")
+            raise InputError(
+                f"{line!r}: rosidl reads a backslash as the start of an escape sequence"
+            )
         if value[:1] in {'"', "'"} and (len(value) == 1 or value[-1] != value[0]):
-            raise InputError(f"{line!r}: the string is not closed; a '#' in it starts a comment")
+            raise InputError(f"{line!r}: the string is not closed; a '#' inside starts a comment")
         if trigraph := re.search(r"\?\?[=/'()!<>-]", line):
-            raise InputError(f"{line!r}: {trigraph[0]!r} is another character in C")
+            raise InputError(f"{line!r}: {trigraph[0]!r} is a trigraph in C")
 
 
 def _refuse_large(type_: FieldType, line: str) -> None:
@@ -118,7 +120,7 @@ def refuse_missing(wanted: Fields, messages: Iterable[str]) -> None:
         if name not in defined:
             others = [item for item in payload.definitions().matches(name) if "/msg/" in item]
             hint = f"; did you mean {' or '.join(others[:3])}?" if others else ""
-            raise InputError(f"the package has no message {name!r} to use as a type{hint}")
+            raise InputError(f"the package has no message {name!r}{hint}")
 
 
 def _texts(given: object) -> list[str]:

@@ -107,7 +107,7 @@ def node_name(text: str) -> str:
     if iskeyword(text):
         raise InputError(f"the node name {text!r} is a keyword of Python; choose another one")
     if text in sys.stdlib_module_names or _is_python_package(text):
-        raise InputError(f"the node name {text!r} would hide the Python module {text}")
+        raise InputError(f"the node name {text!r} would shadow the Python module {text}")
     if text in _TEST_MODULES or text.startswith("test_") or text.endswith("_test"):
         raise InputError(f"the node name {text!r} is the name of a test file for pytest")
     return text
@@ -154,8 +154,8 @@ def interface_name(text: str) -> str:
     better = "".join(word[:1].upper() + word[1:] for word in re.findall("[A-Za-z0-9]+", text))
     hint = f", such as {better}" if re.fullmatch(r"[A-Z][A-Za-z0-9]{0,47}", better) else ""
     raise InputError(
-        f"the interface name {_shortened(text)!r} must be words of letters and digits, each with a "
-        f"capital and nothing between them, {MAX_LENGTH} characters at most{hint}"
+        f"the interface name {_shortened(text)!r} must be CamelCase, with letters and digits "
+        f"only, {MAX_LENGTH} characters at most{hint}"
     )
 
 
@@ -196,7 +196,7 @@ def topic(text: str, what: str = "topic") -> str:
             "none starting with a digit, such as battery/voltage"
         )
     if "__" in text:
-        raise InputError(f"the {what} {text!r} has two underscores in a row, which ROS reserves")
+        raise InputError(f"the {what} {text!r} has a double underscore, which ROS reserves")
     if resolve(text, "node") in _RESERVED_TOPICS:
         raise InputError(f"the {what} {text!r} is used by ROS itself")
     return text
@@ -213,7 +213,7 @@ def frame(text: str) -> str:
             f"the frame {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_FRAME}"
         )
     if text.startswith("/"):
-        raise InputError(f"the frame {text!r} starts with '/', which tf2 refuses")
+        raise InputError(f"the frame {text!r} starts with '/', which tf2 rejects")
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*", text):
         raise InputError(
             f"the frame {text!r} must be words of letters, digits and underscores joined by '/', "
@@ -261,4 +261,4 @@ def _refuse_index_name(text: str) -> None:
 
     module = module_of_key(text)
     if module is not None:
-        raise InputError(f"rosdep has no rule for {text!r}; its key is {keys_of_module(module)[0]}")
+        raise InputError(f"rosdep has no key {text!r}; its key is {keys_of_module(module)[0]}")

@@ -156,7 +156,7 @@ def _settings(words: Sequence[str], text: str) -> dict[str, str]:
             raise InputError(_unknown(text, word))
         if key in result:
             raise InputError(
-                f"the quality of service {text!r} gives the {key} twice: {result[key]} and {value}"
+                f"the quality of service {text!r} sets {key} twice: {result[key]} and {value}"
             )
         result[key] = _checked(key, value, text)
     return result
@@ -199,7 +199,7 @@ def _unknown(text: str, word: str) -> str:
     hint = f"; did you mean {' or '.join(closest)}?" if closest else ""
     if "," in text or "=" in text:
         return (
-            f"the quality of service {text!r} has the unknown setting {word!r}; the settings are "
+            f"the quality of service {text!r} has an unknown setting {word!r}; the settings are "
             f"{', '.join(_KEYS)}{hint}"
         )
     return (

@@ -176,7 +176,7 @@ def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
     """
     entries = yaml_file.read(path)
     if not isinstance(entries, dict):
-        raise InputError(f"{path}: must map questions to answers, such as 'rate: 2.0'")
+        raise InputError(f"{path}: must be a mapping of questions to answers, such as 'rate: 2.0'")
     return from_table({key: Given(value, path) for key, value in entries.items()}, questions)
 
 

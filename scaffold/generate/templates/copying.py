@@ -34,7 +34,7 @@ def copy(templates: Mapping[str, Template], what: str, content: str, name: str =
     template = templates[original]
     source = os.path.join(template.directory, path)
     if path and not os.path.isfile(source):
-        raise InputError(f"the template {original!r} has no file {path!r} of its own")
+        raise InputError(f"the template {original!r} has no file {path!r}")
     folders = [folder for folder, role in FOLDERS.items() if role is template.role]
     names = [BASE] if original == BASE else [*folders, name or original]
     place = os.path.join(content, "templates", *names, *([path] if path else []))

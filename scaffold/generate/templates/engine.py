@@ -30,7 +30,7 @@ _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILIN
 """A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
 
 
-TOO_MUCH_MEMORY = "takes too much memory to render"
+TOO_MUCH_MEMORY = "uses too much memory"
 
 
 class Engine(Protocol):

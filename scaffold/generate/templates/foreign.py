@@ -151,10 +151,10 @@ def _exchange(process: subprocess.Popen[bytes], request: object) -> bytes | None
 def _cause_of_death(process: subprocess.Popen[bytes]) -> str:
     code = process.wait()
     if code == -signal.SIGXCPU:
-        return f"takes more than {MAX_CPU} s of processor time to render"
+        return f"takes more than {MAX_CPU} s of CPU time to render"
     if code == -signal.SIGKILL:
         return f"takes more than {MAX_WALL:g} s, or more memory than there is, to render"
-    return f"ends the process that renders it ({_name_of(code)})"
+    return f"crashes the process that renders it ({_name_of(code)})"
 
 
 def _name_of(code: int) -> str:

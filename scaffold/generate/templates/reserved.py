@@ -62,4 +62,4 @@ def refuse_shadowing(templates: Mapping[str, Template], base: str, manifest: str
 
 def _refuse(template: Template, manifest: str, name: str, what: str) -> None:
     path = os.path.join(template.directory, manifest)
-    raise ContentError(f"{path}: the question {name!r} shadows {what}; give it another name")
+    raise ContentError(f"{path}: the question {name!r} shadows {what}; rename it")

@@ -32,7 +32,7 @@ class Sandbox(ImmutableSandboxedEnvironment):
         result = range(*arguments)
         self._rounds += len(result)
         if self._rounds > _MOST_ROUNDS:
-            raise SecurityError(f"more than {_MOST_ROUNDS} rounds of loops")
+            raise SecurityError(f"more than {_MOST_ROUNDS} iterations of loops")
         return result
 
     def call_binop(
@@ -48,7 +48,7 @@ class Sandbox(ImmutableSandboxedEnvironment):
         if operator == "*":
             for some, times in ((left, right), (right, left)):
                 if hasattr(some, "__len__") and len(some) * times > _MOST_REPEATED:
-                    raise SecurityError("too much is repeated")
+                    raise SecurityError("a repetition is too large")
         return super().call_binop(context, operator, left, right)
 
 
@@ -64,7 +64,7 @@ def refuse_outside(path: str, places: Iterable[str]) -> None:
     """
     real = os.path.realpath(path)
     if not any(real.startswith(os.path.realpath(place) + os.sep) for place in places):
-        raise ContentError(f"{path}: a link to {real}, which is not in the directory of templates")
+        raise ContentError(f"{path}: a link to {real}, outside of the templates")
 
 
 def refuse_leaving(path: str, where: str) -> None:
@@ -75,4 +75,4 @@ def refuse_leaving(path: str, where: str) -> None:
     """
     parts = path.split("/")
     if "\0" in path or not all(parts) or {".", ".."} & set(parts):
-        raise ContentError(f"{where}: {path!r} is not a path in the package")
+        raise ContentError(f"{where}: {path!r} is not a path inside the package")

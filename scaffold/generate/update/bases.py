@@ -20,10 +20,7 @@ from scaffold.writing.transaction import BASES, RECORD
 MOST = 20_000_000
 """Bytes of the files in a record; larger ones are not of a generated package."""
 
-_ABOUT = (
-    "# What the templates gave for each file, for `ros2-scaffold update`. "
-    "Commit it, do not edit it.\n"
-)
+_ABOUT = "# Rendered templates, for `ros2-scaffold update`. Commit this file; do not edit it.\n"
 _SAFE = "/:+@ ,{}()[]="
 """What paths contain as it is; everything that could end a field or a line is escaped."""
 _MARKS = ("<<<<<<<", "|||||||", "=======", ">>>>>>>")
@@ -86,9 +83,9 @@ def _unpacked(packed: str, recorded: str, most: int) -> bytes:
     decoder = zlib.decompressobj()
     content = decoder.decompress(base64.b85decode(packed), most + 1)
     if len(content) > most:
-        raise ValueError("the files have more bytes than those of a package")
+        raise ValueError("the files are larger than a package can be")
     if not decoder.eof or hash_of(content) != recorded:
-        raise ValueError("the text does not have the hash next to it")
+        raise ValueError("the content does not match the hash")
     return content
 
 

@@ -50,9 +50,9 @@ def merge(yours: bytes, before: bytes, now: bytes) -> Merged:
             words = ("merge-file", "--stdout", "--diff3", *labels, *names)
             done = git.run(*words, directory=directory)
         except FileNotFoundError:
-            raise InputError("git is needed to merge files; install it") from None
+            raise InputError("git is required to merge files; install it") from None
         except subprocess.TimeoutExpired:
-            raise InputError(f"git did not merge within {git.SECONDS} s") from None
+            raise InputError(f"the merge with git took more than {git.SECONDS} s") from None
     if done.returncode >= _FAILED or done.returncode < 0:
         reason = " ".join(done.stderr.decode(errors="replace").split())
         raise InputError(f"git cannot merge: {reason}")

@@ -34,16 +34,16 @@ HIDDEN = (BASES, NAME)
 """What no diff shows."""
 PURPOSES = {
     ATTRIBUTES: f"how git merges the two {RECORD.rpartition('.')[0]} files",
-    BASES: "what the templates gave, for `ros2-scaffold update`",
-    NAME: "how it was made, for `ros2-scaffold update`",
+    BASES: "the rendered templates, for `ros2-scaffold update`",
+    NAME: "answers and hashes, for `ros2-scaffold update`",
 }
 """What each file is for."""
 
 _ABOUT = (
-    "How ros2-scaffold made this package, for `ros2-scaffold update`. Commit it, do not edit it."
+    "Answers and hashes of the files, for `ros2-scaffold update`. Commit this file; do not edit it."
 )
 _ATTRIBUTES = f"""\
-# What two branches add is kept; `ros2-scaffold update` makes one record of it.
+# Keep the additions of both branches; `ros2-scaffold update` combines them.
 {RECORD} merge=union
 {BASES} merge=union linguist-generated
 """
@@ -296,8 +296,8 @@ def _refuse_newer(version: str, path: str) -> None:
     """Raise if a later release wrote a record: this one would take back what that one changed."""
     if _release(version) > _release(__version__):
         raise InputError(
-            f"{path}: written by ros2-scaffold {version}, and this is {__version__}: install "
-            f"{version} or later: bring its source up to date, then `{installation.command()}`"
+            f"{path}: written by ros2-scaffold {version}, but this is {__version__}; install "
+            f"{version} or later: update its source, then run `{installation.command()}`"
         )
 
 

@@ -126,8 +126,8 @@ def recorded_content(tree: Tree, where: str, given: Sequence[str]) -> list[str]:
             continue
         if sources.setdefault(source.url, source.revision) != source.revision:
             raise InputError(
-                f"{where}/{NAME}: two branches used different revisions of {source.url}; name "
-                f"the one that counts: --content {source.url}@{source.revision}"
+                f"{where}/{NAME}: two branches used different revisions of {source.url}; choose "
+                f"one with --content {source.url}@{source.revision}"
             )
     return [f"{url}@{revision}" for url, revision in sources.items()]
 
@@ -141,7 +141,7 @@ def read(tree: Tree, where: str) -> Provenance:
     path = f"{where}/{NAME}"
     if NAME not in tree.files:
         raise InputError(
-            f"{path} is missing: created without ros2-scaffold, or before it kept records"
+            f"{path} is missing: `update` only works on packages created by `ros2-scaffold new`"
         )
     try:
         record = tree.read(NAME).decode()
@@ -157,8 +157,8 @@ def refuse_lost(provenance: Provenance, where: str, needed: Collection[str]) -> 
     lost = sorted(provenance.lost.keys() & set(needed))
     if lost:
         raise InputError(
-            f"{where}/{BASES}: lacks what the templates gave for {', '.join(lost)}, which cannot "
-            "be merged without it; restore the file from git; nothing was changed"
+            f"{where}/{BASES}: lacks the rendered templates of {', '.join(lost)}, which are "
+            "needed for the merge; restore the file from git; nothing was changed"
         )
 
 
@@ -217,13 +217,13 @@ def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> 
     for path in sorted(present.keys() & set(made.rendered.files)):
         if all(mark.encode() in present[path] for mark in MARKS):
             raise InputError(
-                f"{where}/{path}: has conflict markers of an earlier update; "
-                "resolve them first; nothing was changed"
+                f"{where}/{path}: has conflict markers from an earlier update; resolve them "
+                "first; nothing was changed"
             )
         line = first_conflict(present[path].decode(errors="replace").split("\n"))
         if line:
             raise InputError(
-                f"{where}/{path}: has merge conflict marks at line {line}; resolve the conflict "
+                f"{where}/{path}: has conflict markers on line {line}; resolve the conflict "
                 "first; nothing was changed"
             )
 
@@ -241,7 +241,7 @@ def _merged(
             if before is None and path not in provenance.lost:
                 files[path] = now
             else:
-                remarks.append(f"{path} changed in the templates; you have removed it")
+                remarks.append(f"{path} changed in the templates, but you removed it")
             continue
         yours = present[path]
         merged = merge(yours, (before or "").encode(), now) if yours != now else None
@@ -250,7 +250,7 @@ def _merged(
             if merged.conflicts:
                 conflicts[path] = merged.conflicts
     remarks += [
-        f"{path} is no longer in the templates; remove it if you do not need it"
+        f"{path} is no longer in the templates; remove it unless you need it"
         for path in [*provenance.rendered, *provenance.lost]
         if path in present and path not in made.rendered.files
     ]

@@ -89,7 +89,7 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
 
 
 def _evaluated(expression: Text) -> Text:
-    """Return what an expression of Python gives; nothing of it is run."""
+    """Return what an expression of Python gives; nothing in it is run."""
     if len(expression.value) > _LONGEST:
         return UNKNOWN
     try:

@@ -260,7 +260,7 @@ def _never_is(launch: LaunchFile, name: str, default: object, text: str) -> tupl
         return f"{name!r} is {default!r} by default, which does not equal {text!r}", True
     if {default, text} in ({"true", "False"}, {"True", "false"}):
         usual = text.lower() if default.islower() else text.capitalize()
-        why = f"{name!r} is {default!r} by default: who sets it to {usual!r} does not get {text!r}"
+        why = f"{name!r} is {default!r} by default: setting it to {usual!r} does not give {text!r}"
         return why, False
     return "", False
 

@@ -185,7 +185,7 @@ def _made_of_seconds(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.expr
         case _:
             return
     name = file.module.text(call.func).rpartition(".")[2]
-    message = f"the fraction in 'nanosec' is left out: use {name}.from_msg()"
+    message = f"the fraction in 'nanosec' is ignored: use {name}.from_msg()"
     yield call, message
 
 

@@ -56,8 +56,8 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
         holder = _holder(path)
         if time.monotonic() >= deadline:
             raise InputError(
-                f"'{path.parent}' is in use by another smoke ({holder}): "
-                "wait for it to finish, or choose another --workspace"
+                f"'{path.parent}' is in use by another smoke ({holder}): wait for it, or choose "
+                "another --workspace"
             )
         if not has_told:
             tell(f"waiting for another smoke ({holder}) in '{path.parent}'")

@@ -75,7 +75,7 @@ async def provide(
     if reason:
         announce(f"{', '.join(new)}: not among the ROS wheels, and not built: {reason}")
         return ready
-    tell(f"building {', '.join(new)}, which the ROS wheels lack; they are remembered")
+    tell(f"building {', '.join(new)}, which the ROS wheels lack; the result is cached")
     layout = Layout.below(scratch / PLACE)
     sources = []
     for name in new:
@@ -134,7 +134,7 @@ def _place(environment: Environment, bundle: Bundle, *, complete: bool) -> Path 
 def _obstacle(environment: Environment) -> str:
     if not os.path.exists(os.path.join(environment.prefix, _GENERATOR)):
         command = wheels.command(distributions.target())
-        return f"the generators are missing; run: {command}"
+        return f"the interface generators are missing; run: {command}"
     path = environment.variables.get("PATH")
     has_compiler = environment.variables.get("CXX") or any(
         shutil.which(name, path=path) for name in _COMPILERS

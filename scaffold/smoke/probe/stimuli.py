@@ -123,7 +123,7 @@ class _Call:
             self._future = result.get_result_async()
             return None
         if result.status != _GOAL_SUCCEEDED:
-            raise RuntimeError(f"the goal ends with the status {result.status}, not with success")
+            raise RuntimeError(f"the goal ended with status {result.status} instead of success")
         return as_data(result.result)
 
     def _answer(self, value: dict[str, object] | None, error: str) -> dict[str, object]:

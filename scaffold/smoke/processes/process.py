@@ -319,7 +319,7 @@ def capture(
             ours.close()
             out, err = supervisor.communicate()
             events = []
-            err += f"\nit did not end within {timeout:g} s\n".encode()
+            err += f"\nit did not exit within {timeout:g} s\n".encode()
         finally:
             ours.close()  # in any case: the supervisor takes care of the rest
     reported = {name: value for event in events for name, value in event.items()}
@@ -378,7 +378,7 @@ class Ending:
     def of_ignored(self) -> str:
         """Say what ended it instead of the first signal."""
         last = "a second one" if self.was_missed else self.sent[-1]
-        return f"ignored {self.asked}: it was still running after {self.grace:g} s, {last} ended it"
+        return f"ignored {self.asked}: still running after {self.grace:g} s, {last} ended it"
 
 
 async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:

@@ -1,4 +1,4 @@
-"""Runs one command so that nothing of it outlives the run, whatever the command or we do.
+"""Runs one command so that nothing in it outlives the run, whatever the command or we do.
 
 This is a process of its own, between ``smoke`` and the command. It is the subreaper of all that the
 command starts: what detaches itself comes back here. Its life hangs on a socket. When that closes,
@@ -98,7 +98,7 @@ class Supervisor:
         self._second_look: float | None = None
 
     def run(self) -> None:
-        """Serve until the command has ended and nothing of it is left."""
+        """Serve until the command has ended and nothing in it is left."""
         become_subreaper()
         wakeup, wakeup_writer = socket.socketpair()
         wakeup_writer.setblocking(False)  # noqa: FBT003  takes no keyword

@@ -75,11 +75,11 @@ def of_topic(topic: Topic) -> Iterator[str]:
         rate = "" if topic.bandwidth is None else f", {size(topic.bandwidth)}/s"
         yield f"size {size(topic.size.mean)}{rate}"
     if topic.lost:
-        yield f"{count(topic.lost, 'message')} lost on the way to the observer"
+        yield f"{count(topic.lost, 'message')} lost between node and observer"
     if topic.delay is not None:
-        yield f"age when sent, by the header: {milliseconds(topic.delay)}"
+        yield f"age when sent, from the header: {milliseconds(topic.delay)}"
     if topic.transport is not None:
-        yield f"on the way {milliseconds(topic.transport)}"
+        yield f"transport {milliseconds(topic.transport)}"
     for endpoint in topic.endpoints:
         yield f"{endpoint.kind} of {endpoint.node}: {quality(endpoint)}"
 
@@ -119,7 +119,7 @@ def own_parameters(values: Mapping[str, Any]) -> list[tuple[str, Any]]:
 
 def usage(used: Usage) -> str:
     """Return what an executable has used."""
-    percent = "" if used.cpu_percent is None else f", {used.cpu_percent:.0f} % of a processor"
+    percent = "" if used.cpu_percent is None else f", {used.cpu_percent:.0f} % of a core"
     return f"memory {size(used.memory)}, at most {size(used.memory_peak)}{percent}"
 
 

@@ -36,7 +36,7 @@ def _build(package: PackageResult) -> ET.Element:
     outcome = "" if build.ok else "failure"
     errors = build.errors
     if build.interrupted:
-        outcome, errors = "error", ("interrupted before it was built",)
+        outcome, errors = "error", ("interrupted before the build",)
     case = junit.case_of(package.name, _BUILD, errors, outcome, package.manifest)
     case.set("time", f"{build.seconds:.3f}")
     if build.warnings:

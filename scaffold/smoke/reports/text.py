@@ -88,7 +88,7 @@ def _package(package: PackageResult, paint: Paint, *, verbose: bool) -> Iterator
     if build.interrupted:
         yield f"{name}: not built yet"
     elif build.ok:
-        why = ", as others need it" if package.is_dependency else ""
+        why = ", as a dependency" if package.is_dependency else ""
         where = f" on {package.worker}" if package.worker else ""
         yield f"{name}: built in {build.seconds:.1f} s{where}{why}"
         yield from _indented(_captioned("info: warnings of the build", build.warnings), 2)

@@ -52,7 +52,7 @@ def scenarios(package: Package, executables: Collection[str]) -> dict[str, Scena
     except ViewError as error:
         raise InputError(f"{reader.path}: {error}") from error
     if len(roots) > 1:
-        reader.refuse(roots[1].location.line, "a second document; write only one")
+        reader.refuse(roots[1].location.line, "a second document; only one is allowed")
     return reader.file(roots[0], executables) if roots else {}
 
 
@@ -163,7 +163,7 @@ class _Reader:
     def _name(self, key: Scalar) -> str:
         """Return a name with its leading slash."""
         if not key.text.strip("/") or any(letter.isspace() for letter in key.text):
-            self.refuse(key.location.line, f"{key.text!r} is not a name of the graph")
+            self.refuse(key.location.line, f"{key.text!r} is not a valid ROS name")
         return key.text if key.text.startswith("/") else f"/{key.text}"
 
     def _type(self, node: YamlNode, kind: str) -> str:
@@ -255,7 +255,7 @@ class _Reader:
     def _value(self, node: YamlNode) -> Any:  # noqa: ANN401  what the file holds
         """Return a value as YAML knows it; nothing is multiplied or built."""
         if isinstance(node, Alias):
-            self.refuse(node.location.line, f"the alias *{node.name}: write out its value")
+            self.refuse(node.location.line, f"the alias *{node.name}: write its value instead")
         if isinstance(node, Scalar):
             return self._plain(node)
         if isinstance(node, Sequence):

@@ -55,7 +55,7 @@ def _publication(derived: Publication, topic: TopicExpectation) -> Publication:
 def problems(scenario: Scenario, seen: Observation) -> Iterator[Problem]:
     """Yield what is not as the author expects: values of fields, and answers."""
     for name, error in seen.refused:
-        yield Problem(f"{FILE} publishes {name}, which is not possible: {error}")
+        yield Problem(f"{FILE} publishes {name}, which fails: {error}")
     for topic in scenario.topics:
         figures = seen.fields.get(topic.name, {})
         for item in topic.fields:
@@ -98,7 +98,7 @@ def _out_of_range(what: str, expected: FieldExpectation, seen: FieldFigures) -> 
 
 def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
     if answer is None:
-        yield Problem(f"{call.kind} {call.name} was not called: nothing was up by then")
+        yield Problem(f"{call.kind} {call.name} was not called: no node was up by then")
     elif answer.error:
         yield Problem(f"{call.kind} {call.name}: {answer.error}")
     else:
@@ -106,7 +106,7 @@ def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
             value = (answer.value or {}).get(name)
             if not _fits(expected, value):
                 yield Problem(
-                    f"{call.kind} {call.name} answers {name}: {_shown(value)}: "
+                    f"{call.kind} {call.name} returned {name}: {_shown(value)}: "
                     f"{FILE} expects {_shown(expected)}"
                 )
 

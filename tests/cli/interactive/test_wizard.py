@@ -159,7 +159,7 @@ def test_interfaces_and_programs_are_asked_for(
 
 def command_in(said: str) -> str:
     """Return the command that is shown at the end."""
-    return said.rpartition("The same without questions:\n")[2].strip()
+    return said.rpartition("The same as a command:\n")[2].strip()
 
 
 def assert_same(command: str, made: Path) -> None:

@@ -595,7 +595,7 @@ def test_without_a_holder_there_is_no_header(
     assert notice(demo) == []
     assert (
         "note: the new files have no license header: neither the maintainer nor the sources of "
-        "demo name a copyright holder; --copyright-holder gives them one\n"
+        "demo name a copyright holder; --copyright-holder adds one\n"
     ) in capsys.readouterr().err
     assert add(demo, "publisher", "talker", "--copyright-holder", "Ada", "--force") == 0
     assert notice(demo) == ["Ada"]
@@ -623,7 +623,7 @@ def test_without_any_licence_there_is_no_header(
     assert add(demo, "publisher", "talker") == 0
     assert (demo / "scripts" / "talker.py").read_text().startswith('#!/usr/bin/env python3\n"""\n')
     said = capsys.readouterr().err
-    assert "the license of demo is 'TODO'; --license gives them one" in said
+    assert "the license of demo is 'TODO'; --license adds one" in said
     assert add(demo, "publisher", "other", "--license", "MIT") == 0
     assert "governed by an MIT-style" in (demo / "scripts" / "other.py").read_text()
 
@@ -766,10 +766,7 @@ def test_an_edit_that_makes_another_line_wrong_is_refused(
     there = read(demo)
     monkeypatch.setattr("scaffold.generate.add.add.edit", spoilt)
     assert add(demo, "publisher", "talker") == 3
-    assert (
-        "internal error: the checker finds errors in what was to be added"
-        in capsys.readouterr().err
-    )
+    assert "internal error: the checker finds errors in the added files" in capsys.readouterr().err
     assert read(demo) == there
 
 
@@ -796,8 +793,8 @@ def test_a_node_name_that_is_taken_is_said(
     capsys.readouterr()
     assert add(demo, "publisher", "beat") == 0
     assert capsys.readouterr().err == (
-        f"note: demo/hello.py:{line} makes a node with the name 'beat', too: "
-        "nodes that run together need names of their own\n"
+        f"note: demo/hello.py:{line} also creates a node named 'beat': "
+        "nodes that run together need different names\n"
     )
 
 
@@ -813,11 +810,11 @@ def test_nodes_that_do_not_connect_are_named(
     words = ["--topic", "/chatter", "--message-type", "std_msgs/msg/Int32"]
     message = refused(demo, capsys, "subscriber", "listener", *words)
     assert message.startswith("the topic /chatter is std_msgs/msg/Int32 in listener, scripts/")
-    assert message.endswith("give both the same type, or another name to one; nothing was changed")
+    assert message.endswith("use the same type for both, or different names; nothing was changed")
     words = ["--topic", "chatter", "--qos", "latched"]
     message = refused(demo, capsys, "subscriber", "listener", *words)
     assert message.startswith("the topic /chatter is published volatile by ")
-    assert message.endswith("give both the same quality of service; nothing was changed")
+    assert message.endswith("use the same quality of service for both; nothing was changed")
     assert read(demo) == before
     words = ["--action", "count", "--action-type", "tf2_msgs/action/LookupTransform"]
     assert add(demo, "action_client", "asker", *words) == 0
@@ -857,8 +854,8 @@ def test_a_package_of_ours_refuses_services_of_two_types(
     words = ["--service", "add_two_ints", "--service-type", "std_srvs/srv/Trigger"]
     assert refused(tmp_path / "demo", capsys, "service_client", "asker", *words) == (
         "the service /add_two_ints is example_interfaces/srv/AddTwoInts in server, but "
-        "std_srvs/srv/Trigger in asker: they do not connect; give both the same type, or another "
-        "name to one"
+        "std_srvs/srv/Trigger in asker: they do not connect; use the same type for both, or "
+        "different names"
     )
 
 
@@ -992,13 +989,13 @@ def generate_launch_description():
         (
             "some.launch.py",
             COMPUTED,
-            "it is not clear where its LaunchDescription gets its nodes",
+            "it is not clear where its LaunchDescription is filled",
             "Node(package='demo', executable='talker.py'),",
         ),
         (
             "some.launch.xml",
             "<launch/>\n",
-            "only launch files in Python are edited",
+            "only Python launch files can be edited",
             '<node pkg="demo" exec="talker.py"/>',
         ),
     ],
@@ -1024,8 +1021,8 @@ def test_a_named_launch_file_that_cannot_be_edited_is_refused(
     before = read(demo)
     capsys.readouterr()
     assert refused(demo, capsys, "publisher", "talker", "--launch", f"launch/{name}") == (
-        f"--launch: launch/{name} cannot be edited: {reason}; write `{line}` there and leave "
-        "--launch out; nothing was changed"
+        f"--launch: launch/{name} cannot be edited: {reason}; add `{line}` there yourself and "
+        "omit --launch; nothing was changed"
     )
     assert read(demo) == before
 
@@ -1320,7 +1317,7 @@ def test_a_package_of_ros_1_is_refused(tmp_path: Path, capsys: pytest.CaptureFix
     text = text.replace("<build_type>ament_cmake</build_type>", "")
     demo = write(tmp_path / "demo", {**CMAKE, "package.xml": text})
     assert refused(demo, capsys, "publisher", "talker") == (
-        f"{demo}: a package of ROS 1, built by catkin; what add writes is for ROS 2; "
+        f"{demo}: a package of ROS 1, built with catkin, and `add` writes ROS 2 code; "
         "nothing was changed"
     )
 

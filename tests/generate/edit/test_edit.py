@@ -634,7 +634,9 @@ def test_packages_that_cannot_be_seen_are_left_to_the_user() -> None:
     text = "from setuptools import setup\nfrom x import y\nsetup(packages=y())\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert outcome.by_hand == (
-        ByHand("setup.py", "packages=['demo'],", "cannot tell whether packages= includes 'demo'"),
+        ByHand(
+            "setup.py", "packages=['demo'],", "it is not clear whether packages= includes 'demo'"
+        ),
     )
 
 
@@ -743,7 +745,7 @@ def test_a_wrong_directory_is_left_to_the_user() -> None:
         ByHand(
             "setup.cfg",
             "[install] install_scripts=$base/lib/demo",
-            "it is $base/lib/old, where ros2 run does not look",
+            "it is $base/lib/old, where `ros2 run` does not find executables",
         ),
     )
 

@@ -563,7 +563,7 @@ def test_spellings(text: str, type_: str) -> None:
             "KeyValue",
             (
                 "'KeyValue' may be diagnostic_msgs/msg/KeyValue, geographic_msgs/msg/KeyValue or "
-                "type_description_interfaces/msg/KeyValue; write which"
+                "type_description_interfaces/msg/KeyValue; use the full name"
             ),
         ),
         ("std_srvs/srv/Trigger", "'std_srvs/srv/Trigger' is a type of services, not of messages"),

@@ -75,7 +75,7 @@ def test_a_template_without_mistakes(beacon: Path) -> None:
         (
             "template.yaml",
             MANIFEST.replace("1.0", "often"),
-            "error: the default of 'period': 'often' is not a number of messages per second",
+            "error: the default of 'period': 'often' is not a rate in hertz",
         ),
     ],
 )

@@ -264,8 +264,8 @@ def test_an_edited_file_is_not_merged_without_its_base(
     for words in (["update", "talker"], ["add", "timer", "tick", "--package-directory", "talker"]):
         assert main([*words, "--content", str(team)]) == 2
         assert capsys.readouterr().err == (
-            f"ros2-scaffold: error: talker/{BASES}: lacks what the templates gave for {NODE}, "
-            "which cannot be merged without it; restore the file from git; nothing was changed\n"
+            f"ros2-scaffold: error: talker/{BASES}: lacks the rendered templates of {NODE}, "
+            "which are needed for the merge; restore the file from git; nothing was changed\n"
         )
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 

@@ -65,7 +65,7 @@ def node_of(team: Path) -> str:
 def test_new_records_answers_and_files(package: Path) -> None:
     text = (package / provenance.NAME).read_text()
     found = update.read(DiskTree(str(package)), "here")
-    assert "How ros2-scaffold made this package" in text.split("\n")[1]
+    assert "Answers and hashes of the files" in text.split("\n")[1]
     assert found.answers["maintainer_name"] == "Ada"
     assert found.answers["add"][0]["rate"] == 2.0
     assert found.date.isoformat() == "2023-11-14"
@@ -122,7 +122,7 @@ def test_a_conflict_is_marked_and_told(
     ]
     marked = node.read_text()
     assert main(["update", "talker", "--content", str(team)]) == 2
-    assert "has conflict markers of an earlier update" in capsys.readouterr().err
+    assert "has conflict markers from an earlier update" in capsys.readouterr().err
     assert node.read_text() == marked
 
 
@@ -159,7 +159,7 @@ def test_what_the_owner_removed_stays_away(
     change(team, "README.md.jinja", "## Prerequisites", "## What it needs")
     assert main(["update", "talker", "--content", str(team)]) == 0
     assert not (package / "README.md").exists()
-    note = "note: README.md changed in the templates; you have removed it\n"
+    note = "note: README.md changed in the templates, but you removed it\n"
     assert capsys.readouterr().err == note
 
 
@@ -257,8 +257,8 @@ def test_records_of_a_newer_release_are_not_touched(
         assert main(verb) == 2
         assert capsys.readouterr().err == (
             "ros2-scaffold: error: talker/.ros2-scaffold.json: written by ros2-scaffold "
-            f"{version}, and this is {__version__}: install {version} or later: bring its source "
-            f"up to date, then `{installation.command()}`\n"
+            f"{version}, but this is {__version__}; install {version} or later: update its "
+            f"source, then run `{installation.command()}`\n"
         )
     assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
 
