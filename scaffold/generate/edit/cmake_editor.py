@@ -75,7 +75,7 @@ class Editor:
         if not installs_program(self.lists, path, self.package):
             self.edit(cmake_edit.insert_install(self.lists, "PROGRAMS", path, "lib"))
         if not installs_program(self.lists, path, self.package):
-            self.refuse(line, "there is no safe place for it")
+            self.refuse(line, "no safe place to insert it")
 
     def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
         """Install a directory, its name included, to ``share/<package>``.
@@ -100,7 +100,7 @@ class Editor:
             self.edit(make(self.lists, path))
             if _installs_directory(self.lists, path):
                 return
-        self.refuse(line, "there is no safe place for it")
+        self.refuse(line, "no safe place to insert it")
 
     def add_test(self, path: str) -> None:
         """Run a pytest file when tests are built."""
