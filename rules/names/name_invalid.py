@@ -129,7 +129,7 @@ class NameInvalid(RclpyRule):
             },
             Report(
                 "talker/test_talker.py:8:39",
-                "ROS 2 refuses the name 'front-scan': '-' is not allowed",
+                "ROS 2 rejects the name 'front-scan': '-' is not allowed",
             ),
         ),
         Example(
