@@ -21,6 +21,8 @@ from ._debian import key_of_debian
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
+_BUILD = "python3-setuptools"
+"""Whoever has colcon has it."""
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
@@ -42,8 +44,8 @@ class ImportUndeclared(Rule):
     name = "import-undeclared"
     other_severities = {
         Severity.WARNING: "it comes with `ros2 launch` and launch files alone import it, only "
-        "scripts in the share directory import it, requirements.txt names it, or it is torch, "
-        "which many install with pip",
+        "scripts in the share directory import it, requirements.txt or pyproject.toml names it, "
+        "or it is torch, which many install with pip",
     }
     examples = (
         Example(
@@ -507,7 +509,9 @@ def _why(package: Package, need: requirements.Requirement) -> str:
 
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
-    return key in _LAUNCH or (need.for_launch and key in transitive_dependencies({"launch_ros"}))
+    return key in {_BUILD, *_LAUNCH} or (
+        need.for_launch and key in transitive_dependencies({"launch_ros"})
+    )
 
 
 def _is_required(package: Package, module: str) -> bool:

@@ -1,4 +1,4 @@
-"""What files of requirements ask pip for: those of a package, and of the repository around it."""
+"""What pip is asked for: by pyproject.toml, and by files of requirements around a package."""
 
 from __future__ import annotations
 
@@ -15,21 +15,35 @@ if TYPE_CHECKING:
 
 _PLACES = ("", "docker", ".devcontainer")
 """Directories of a repository that have files of requirements."""
-_FILE = re.compile(r"(?:^|/)requirements[^/]*\.txt$")
 _NAME = re.compile(r"^[ \t]*([A-Za-z0-9][\w.-]*)", re.MULTILINE)
+# linear: few lines of a file begin with the key
+_PROJECT = re.compile(r"^dependencies\s*=\s*\[(.*?)\][ \t]*$", re.MULTILINE | re.DOTALL)
+_QUOTED = re.compile(r"""["']([A-Za-z0-9][\w.-]*)""")
 _MAX_BYTES = 100_000
 
 
 def is_in_requirements(package: Package, module: str) -> bool:
-    """Tell whether a file of requirements names the package that a module comes from."""
+    """Tell whether pip is asked for the package that a module comes from."""
     names = package.remember("names for pip", lambda: frozenset(_names(package)))
     return any(name == module.lower() or module_of_key(name) == module for name in names)
 
 
 def _names(package: Package) -> Iterator[str]:
-    texts = [package.data(path) for path in package.files if _FILE.search(path)]
+    yield from _of_project(package)
+    texts = [package.data(path) for path in package.files if _is_of_requirements(path)]
     for data in (*texts, *_of_repository(package)):
         for name in _NAME.findall(data.decode(errors="replace")):
+            yield name.lower()
+
+
+def _is_of_requirements(path: str) -> bool:
+    return path.endswith(".txt") and "requirements" in path.rpartition("/")[2]
+
+
+def _of_project(package: Package) -> Iterator[str]:
+    text = package.source("pyproject.toml").text if package.has("pyproject.toml") else ""
+    for listed in _PROJECT.findall(text):
+        for name in _QUOTED.findall(listed):
             yield name.lower()
 
 

@@ -13,6 +13,8 @@ MANIFEST = (
     "<package format='3'><name>talker</name>"
     "<export><build_type>ament_python</build_type></export></package>\n"
 )
+NAME = "opencv-python-headless==4.8.0"
+PROJECT = f'[project]\nname = "talker"\ndependencies = [\n    "numpy[extra]",\n    "{NAME}",\n]'
 
 
 @pytest.mark.parametrize(
@@ -20,6 +22,8 @@ MANIFEST = (
     [
         ("requirements.txt", "warning"),
         (".devcontainer/requirements-dev.txt", "warning"),
+        ("src/talker/python_requirements.txt", "warning"),
+        ("src/talker/pyproject.toml", "warning"),
         ("docs/requirements.txt", "error"),
     ],
 )
@@ -29,7 +33,7 @@ def test_requirements_of_the_repository(
     package = tmp_path / "src" / "talker"
     files = {
         ".git/HEAD": "",
-        requirements: "opencv-python-headless==4.8.0\n",
+        requirements: f"{PROJECT if requirements.endswith('.toml') else NAME}\n",
         "src/talker/package.xml": MANIFEST,
         "src/talker/setup.py": "",
         "src/talker/talker/__init__.py": "",
