@@ -69,11 +69,9 @@ def _taken_twice(types: MessageTypes, parts: _Parts, letters: str) -> Iterator[F
         return
     wrong = [letter for letter, (_, other) in sources.items() if letter != other]
     if len(wrong) == 1 or (letters == "xyzw" and len(set(taken)) == 1):
-        vector, other = sources[wrong[0]]
-        yield (
-            parts[wrong[0]],
-            f"{wrong[0]} gets the {other} of {vector}, which {other} gets as well",
-        )
+        _, other = sources[wrong[0]]
+        text = types.module.text(parts[wrong[0]])
+        yield parts[wrong[0]], f"{wrong[0]} is copied from {text}, which is for {other}"
 
 
 def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:

@@ -244,7 +244,7 @@ class ValueImplausible(MessageRule):
                 "    q.w = math.cos(yaw / 2)\n"
                 "    return Quaternion(z=0.0)\n",
             },
-            Report("copy_pose.py:8:27", "z gets the y of pose.position, which y gets as well"),
+            Report("copy_pose.py:8:27", "z is copied from pose.position.y, which is for y"),
             Report(
                 "grow.py:12:25",
                 "w of this quaternion stays 1.0: it is another rotation; set it as well",

@@ -11,7 +11,7 @@ from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, has
 
 def too_early(file: RclpyFile, node: NodeClass) -> Iterator[tuple[ast.Call, str]]:
     """Yield the calls of methods of the class for which something is missing yet, and what."""
-    if node.constructor is None or not _is_known(file, node):
+    if node.constructor is None or not _is_known(file, node) or file.module.mentions("setattr("):
         return
     for call in file.calls_in(node.constructor):
         if not isinstance(file.module.parent(call), ast.Expr | ast.Assign):

@@ -16,7 +16,16 @@ from scaffold.api import (
 )
 from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
-from scaffold.api.launch import UNSAID, CommandLine, command_lines, processes
+from scaffold.api.launch import (
+    UNSAID,
+    CommandLine,
+    LaunchFile,
+    StartedNode,
+    Word,
+    command_lines,
+    processes,
+    started_nodes,
+)
 from scaffold.api.parameters import (
     Entry,
     ParameterFile,
@@ -73,8 +82,11 @@ _FILE = (
 _DRIVE = "diff_drive_controller/DiffDriveController"
 _LAUNCH = (
     "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
-    "from launch_ros.actions import Node\n\n\n"
-    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "from launch.substitutions import PathJoinSubstitution\n"
+    "from launch_ros.actions import Node\nfrom launch_ros.substitutions import FindPackageShare\n"
+    "\n\ndef generate_launch_description():\n    return LaunchDescription([\n"
+    "        Node(package='controller_manager', executable='ros2_control_node', parameters=[\n"
+    "            PathJoinSubstitution([FindPackageShare('base'), 'config', '{}'])]),\n"
     "        Node(package='controller_manager', executable='spawner',\n"
     "             arguments=[{}]),\n"
     "        ExecuteProcess(cmd=['ros2', 'control', 'load_controller', '--set-state', 'active',\n"
@@ -96,10 +108,12 @@ def _files(
     joint: str = "right_joint",
     words: str = "'base_controller', '-c', '/controller_manager'",
     loaded: str = "base_controller",
+    file: str = "controllers.yaml",
 ) -> dict[str, str]:
     return {
         "config/controllers.yaml": _FILE.format(rate, type_, joint),
-        "launch/robot.launch.py": _LAUNCH.format(words, loaded),
+        "launch/robot.launch.py": _LAUNCH.format(file, words, loaded),
+        "package.xml": "<package><name>base</name></package>\n",
         "urdf/base.urdf": _ROBOT,
     }
 
@@ -149,13 +163,28 @@ class ControllerUnfit(Rule):
             "spawned under other names",
             _files(words="'joint_broadcaster', 'base_controller'", loaded="diff_controller"),
             Report(
-                "launch/robot.launch.py:9:25",
+                "launch/robot.launch.py:13:25",
                 "no file gives the controller manager a type of "
                 "'joint_broadcaster': it is not loaded; known: base_controller",
             ),
             Report(
-                "launch/robot.launch.py:11:29",
+                "launch/robot.launch.py:15:29",
                 "no file gives the controller manager a type of 'diff_controller': "
+                "it is not loaded; known: base_controller",
+            ),
+        ),
+        Example(
+            "a manager with a file of another package",
+            {
+                "launch/robot.launch.py": _LAUNCH.format(
+                    "arm.yaml", "'arm_controller', 'joint_broadcaster'", "base_controler"
+                ).replace("FindPackageShare('base')", "FindPackageShare('arm')"),
+                "config/controllers.yaml": _FILE.format("50", _DRIVE, "right_joint"),
+                "package.xml": "<package><name>base</name></package>\n",
+            },
+            Report(
+                "launch/robot.launch.py:15:29",
+                "no file gives the controller manager a type of 'base_controler': "
                 "it is not loaded; known: base_controller",
             ),
         ),
@@ -163,7 +192,9 @@ class ControllerUnfit(Rule):
             "types that are given otherwise, names that are not known",
             {
                 **_files(words="'arm', '-p', '/etc/arm.yaml'"),
-                "launch/other.launch.py": _LAUNCH.format("NAME, '--inactive'", "base_controller"),
+                "launch/other.launch.py": _LAUNCH.format(
+                    "controllers.yaml", "NAME, '--inactive'", "base_controller"
+                ),
             },
         ),
         Example(
@@ -233,20 +264,55 @@ class ControllerUnfit(Rule):
                     yield self.report(item.location, message)
 
     def _check_spawned(self, package: Package, types: Mapping[str, Entry]) -> Iterator[Diagnostic]:
-        if not types:
-            return
-        for line in (*command_lines(package, _SPAWNER), *_loaded(package)):
-            words = [word.text for word in line.words]
-            if not _OTHER_SOURCE.isdisjoint(words):
+        spawned = list(_spawned(package)) if types else []
+        names = {word.text for _, word in spawned}
+        left = [name for name in types if name not in names]
+        for launch, word in spawned:
+            if word.text in types:
                 continue
-            for before, word in zip(["", *words], line.words, strict=False):
-                is_name = not word.text.startswith("-") and before not in _WITH_VALUE
-                if is_name and UNSAID not in word.text and word.text not in types:
-                    message = (
-                        f"no file gives the controller manager a type of {word.text!r}: it is not "
-                        f"loaded; known: {listed_names(types, word.text)}"
-                    )
-                    yield self.report(word.location, message)
+            closest = closest_name(package, word.text, left, 0.9)
+            if closest or _is_manager_here(package, launch):
+                message = (
+                    f"no file gives the controller manager a type of {word.text!r}: it is not "
+                    f"loaded; known: {listed_names(types, word.text)}"
+                )
+                yield self.report(word.location, message)
+
+
+def _spawned(package: Package) -> Iterator[tuple[str, Word]]:
+    """Yield the controllers that launch files load, with the launch file."""
+    for line in (*command_lines(package, _SPAWNER), *_loaded(package)):
+        words = [word.text for word in line.words]
+        if not _OTHER_SOURCE.isdisjoint(words):
+            continue
+        for before, word in zip(["", *words], line.words, strict=False):
+            is_name = not word.text.startswith("-") and before not in _WITH_VALUE
+            if is_name and UNSAID not in word.text:
+                yield line.location.path, word
+
+
+def _is_manager_here(package: Package, launch: str) -> bool:
+    """Tell whether a launch file starts the controller manager, with files of the package alone."""
+    managers = [
+        node
+        for node in started_nodes(package)
+        if node.launch == launch and node.executable == "ros2_control_node"
+    ]
+    return bool(managers) and all(
+        node.parameter_files and not _takes_more(package, node) for node in managers
+    )
+
+
+def _takes_more(package: Package, node: StartedNode) -> bool:
+    """Tell whether a node gets parameters from elsewhere, or several files of which some may."""
+    launch = LaunchFile.of(package, node.launch)
+    for call in launch.find("Node"):
+        if call.location == node.location:
+            given = call.given.get("parameters")
+            elements = launch.evaluator.elements(given) if given is not None else None
+            count = len(elements.items) if elements is not None and elements.complete else 0
+            return count != len(node.parameter_files)
+    return True
 
 
 def _texts(entry: Entry) -> Iterator[Scalar]:
@@ -263,6 +329,8 @@ def _joints(package: Package) -> set[str]:
     except ViewError:
         return names
     for robot in robots(package).whole:
+        if not robot.is_complete:
+            return set()
         for joint in robot.root.all("joint"):
             name = joint.get("name") or ""
             if not is_known(name):
