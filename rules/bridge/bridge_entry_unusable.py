@@ -45,7 +45,11 @@ _LAUNCH = (
     "        Node(package='ros_gz_bridge', executable='parameter_bridge',\n"
     "             arguments=['{}']),\n    ])\n"
 )
-_ARGUMENT = re.compile(r"(?<=[\w/~{}-])@([A-Za-z]\w*(?:/\w+)+)[@\[\]]((?:gz|ignition)\.msgs\.\w+)")
+_OF_ROS = r"[A-Za-z]\w*(?:/\w+)+"
+_OF_GAZEBO = r"(?:gz|ignition)\.msgs\.\w+"
+_ARGUMENT = re.compile(  # linear: one sign begins it
+    rf"(?<=[\w/~{{}}-])@(?:({_OF_ROS})[@\[\]]({_OF_GAZEBO})|({_OF_GAZEBO})[@\[\]]({_OF_ROS}))"
+)
 _OLD_TYPES = "ignition.msgs."
 _NEW = "gz.msgs."
 
@@ -183,6 +187,9 @@ class BridgeEntryUnusable(Rule):
                 "launch/a.launch.py": _LAUNCH.format(
                     "/scan@sensor_msgs/msg/LaserScan[gz.msgs.Image"
                 ),
+                "launch/c.launch.py": _LAUNCH.format(
+                    "/scan@gz.msgs.LaserScan[sensor_msgs/msg/LaserScan"
+                ),
                 "launch/b.launch.xml": '<launch>\n  <node pkg="ros_gz_bridge" '
                 'exec="parameter_bridge" args="/a@std_msgs/msg/Bool@gz.msgs.Image"/>\n</launch>\n',
             },
@@ -196,6 +203,11 @@ class BridgeEntryUnusable(Rule):
                 "launch/b.launch.xml:2:59",
                 "no conversion between 'std_msgs/msg/Bool' and 'gz.msgs.Image': "
                 "nothing is bridged; 'std_msgs/msg/Bool' goes with gz.msgs.Boolean",
+            ),
+            Report(
+                "launch/c.launch.py:8:25",
+                "the type of ROS comes first: write @sensor_msgs/msg/LaserScan, "
+                "then gz.msgs.LaserScan; nothing is bridged",
             ),
         ),
     )
@@ -258,11 +270,15 @@ class BridgeEntryUnusable(Rule):
             for attribute in file.attributes:
                 for match in _ARGUMENT.finditer(attribute.value):
                     at = attribute.location
-                    yield from self._check_pair(package, match[1], match[2], at, at)
+                    yield from self._check_pair(package, *_types(match), at, at)
 
     def _check_pair(
         self, package: Package, ros: str, gz: str, ros_at: Location, gz_at: Location
     ) -> Iterator[Diagnostic]:
+        if ros.startswith((_NEW, _OLD_TYPES)):
+            message = f"the type of ROS comes first: write @{gz}, then {ros}; nothing is bridged"
+            yield self.report(ros_at, message)
+            return
         new = gz.replace(_OLD_TYPES, _NEW, 1)
         of_ros = sorted(item for name, item in BRIDGED_TYPES if name == ros)
         of_gz = sorted(name for name, item in BRIDGED_TYPES if item == new)
@@ -280,12 +296,17 @@ class BridgeEntryUnusable(Rule):
             yield self.report(ros_at, message)
 
 
+def _types(match: re.Match[str]) -> tuple[str, str]:
+    """Return the two types of an argument, in their order."""
+    return match[1] or match[3], match[2] or match[4]
+
+
 @fact
 def _arguments(package: Package, path: str) -> tuple[tuple[str, str, Location], ...]:
     """Return the pairs of types in the arguments of a bridge, each with its place."""
     module = package.module(path)
     return tuple(
-        (match[1], match[2], module.location(node))
+        (*_types(match), module.location(node))
         for node in module.walk(ast.Constant)
         if isinstance(node.value, str) and "@" in node.value
         for match in _ARGUMENT.finditer(node.value)
