@@ -62,6 +62,23 @@ class IncludeDoesNotFit(LaunchRule):
             ),
         ),
         Example(
+            "misspelled in a dictionary with a name, and one that is changed",
+            {
+                **_files("b.launch.py", "given"),
+                "launch/a.launch.py": _LAUNCH.format("b.launch.py", "given").replace(
+                    "    return", "    given = {'robot_nam': 'a'}\n    return"
+                ),
+                "launch/c.launch.py": _LAUNCH.format("b.launch.py", "given").replace(
+                    "    return",
+                    "    given = {'robot_nam': 'a'}\n    given['robot_name'] = 'a'\n    return",
+                ),
+            },
+            Report(
+                "launch/a.launch.py:10:14",
+                "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
+            ),
+        ),
+        Example(
             "misspelled",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
             Report(

@@ -71,8 +71,9 @@ class ComparisonNeverTrue(MessageRule):
                     "100 and cell != cell",
                     "DiagnosticStatus.OK",
                     "True",
-                    "(float('nan'), 2) or msg.data == float('nan')",
+                    "(float('nan'), 2) or msg.data == NAN",
                 )
+                + "\n\nNAN = float('nan')\n"
             },
             Report("16:38", "msg.header is a std_msgs/msg/Header, which never equals 'map'"),
             Report("25:49", "NaN equals nothing, itself included: use math.isnan(msg.data)"),
@@ -104,7 +105,7 @@ def _nan_problem(types: MessageTypes, node: ast.Compare) -> str:
         return ""
     for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
         is_named = types.module.qualified_name(side) in _NAN
-        match side:
+        match types.facts.evaluator.single_value(side):
             case ast.Call(func=ast.Name(id="float"), args=[ast.Constant(value=str(text))]):
                 is_named = text.strip().lstrip("+-").lower() == "nan"
         if is_named:

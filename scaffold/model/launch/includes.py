@@ -36,7 +36,10 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
         return None if call.is_open else []
     pairs: list[tuple[ast.expr | None, ast.expr]] = []
     match node:
-        case ast.Call(func=ast.Attribute(value=ast.Dict() as literal, attr="items")):
+        case ast.Call(func=ast.Attribute(value=holder, attr="items")):
+            literal = _dictionary(launch, holder)
+            if literal is None:
+                return None
             pairs = list(zip(literal.keys, literal.values, strict=True))
         case ast.List() | ast.Tuple():
             for item in node.elts:
@@ -52,6 +55,18 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
             return None
         givens.append((name, key, value))
     return givens
+
+
+def _dictionary(launch: LaunchFile, node: ast.expr) -> ast.Dict | None:
+    """Return the dictionary that an expression is, or that a name holds which is read once."""
+    if isinstance(node, ast.Name):
+        lookup = launch.module.index.lookup(node.id, node)
+        uses = [use for use in launch.module.index.names(node.id) if isinstance(use.ctx, ast.Load)]
+        values = [binding.value for binding in lookup[1]] if lookup else []
+        if len(uses) != 1 or len(values) != 1 or values[0] is None:
+            return None  # something may be added
+        node = values[0]
+    return node if isinstance(node, ast.Dict) else None
 
 
 def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:
