@@ -27,6 +27,7 @@ def problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     yield from _fields_in_arithmetic(types)
     yield from _arrays_given(types)
     yield from _columns_of_clouds(types)
+    yield from _elements_indexed(types)
 
 
 def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -110,6 +111,19 @@ def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
                     message = "read_points() returns an array with one dimension, whose fields have"
                     hint = "write ['x'], or use read_points_numpy()"
                     yield index, f"{message} names: IndexError; {hint}"
+
+
+def _elements_indexed(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
+    """Yield elements of arrays of numbers that are taken for rows: ``grid.data[y][x]``."""
+    for index in types.module.walk(ast.Subscript):
+        match index.value:
+            case ast.Subscript(value=array, slice=row) if not isinstance(row, ast.Slice):
+                type_ = types.field_type_of(array)
+                if type_ is None or kind(types.field_type_of(index.value)) not in {"int", "float"}:
+                    continue
+                text = types.module.text(array)
+                message = f"{text} is one array, row by row, whose elements are numbers: TypeError"
+                yield index, f"{message}; write {text}[row * width + column]"
 
 
 def _is_flat_cloud(types: MessageTypes, made: ast.Call) -> bool:

@@ -43,6 +43,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             yield from _taken_twice(types, parts, _PARTS[key[2]])
         if key[2] == _QUATERNION:
             yield from _without_w(types, parts)
+            yield from _of_zeros(types, parts)
 
 
 def _source(types: MessageTypes, value: ast.expr, letters: str) -> tuple[str, str]:
@@ -89,3 +90,11 @@ def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
         if is_sine or is_copied:
             yield value, "w of this quaternion stays 1.0: it is another rotation; set it as well"
             return
+
+
+def _of_zeros(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
+    """Find ``q.w = 0.0`` where the other parts are zero as well; an IMU may have no orientation."""
+    values = [types.facts.evaluator.evaluate(value) for value in parts.values()]
+    is_zero = all(value == 0 and isinstance(value, int | float) for value in values)
+    if "w" in parts and is_zero and not types.module.mentions("orientation_covariance"):
+        yield parts["w"], "a quaternion of zeros is no rotation: write w=1.0 for none"

@@ -129,6 +129,26 @@ class HeaderIncomplete(MessageRule):
             ),
         ),
         Example(
+            "points of a trajectory without a time",
+            {
+                "arm.py": "from rclpy.node import Node\n"
+                "from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint\n\n\n"
+                "class Arm(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('arm')\n"
+                "        self.publisher = self.create_publisher(JointTrajectory, 'move', 10)\n\n"
+                "    def move(self):\n"
+                "        point = JointTrajectoryPoint(positions=[0.1])\n"
+                "        moved = JointTrajectory(joint_names=['a'], points=[point])\n"
+                "        self.publisher.publish(moved)\n"
+            },
+            Report(
+                "11:17",
+                "nothing sets time_from_start of the points: the trajectory has no "
+                "duration, and controllers refuse it",
+            ),
+        ),
+        Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}
         ),
     )
@@ -161,6 +181,27 @@ class HeaderIncomplete(MessageRule):
                     f"{unset.missing} is left at its default, zero or empty: set it"
                 )
                 yield self.report(types.module.location(unset.made), message)
+        for made in _points_without_time(types):
+            message = "nothing sets time_from_start of the points: the trajectory has no duration"
+            yield self.report(types.module.location(made), f"{message}, and controllers refuse it")
+
+
+_POINT = "trajectory_msgs/msg/JointTrajectoryPoint"
+
+
+def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
+    """Yield the points of trajectories that a file makes and sends, without any time."""
+    module = types.module
+    if module.mentions("time_from_start") or not module.mentions(
+        "create_publisher", "ActionClient"
+    ):
+        return
+    for call in module.walk(ast.Call):
+        class_ = types.class_of(call.func)
+        if class_ is not None and class_.name == _POINT and not call.args:
+            words = {word.arg for word in call.keywords}
+            if None not in words and ("positions" in words or module.mentions(".positions")):
+                yield call
 
 
 def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:

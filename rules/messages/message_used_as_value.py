@@ -201,6 +201,29 @@ class MessageUsedAsValue(MessageRule):
             ),
         ),
         Example(
+            "a map as a table, and columns of a matrix of numpy",
+            {
+                "look.py": "import numpy as np\nfrom nav_msgs.msg import OccupancyGrid\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Look(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('look')\n"
+                "        self.grid = None\n"
+                "        self.create_subscription(OccupancyGrid, 'map', self.on_map, 10)\n\n"
+                "    def on_map(self, msg):\n"
+                "        self.grid = msg\n"
+                "        self.table = np.array(msg.data).reshape(10, 10)\n\n"
+                "    def cell(self, x, y):\n"
+                "        row = self.grid.data[y * 10:][x]\n"
+                "        return self.grid.data[y][x], self.table[y][x], row\n"
+            },
+            Report(
+                "18:16",
+                "self.grid.data is one array, row by row, whose elements are "
+                "numbers: TypeError; write self.grid.data[row * width + column]",
+            ),
+        ),
+        Example(
             "arrays for functions of numpy and OpenCV, columns of points",
             {
                 "look.py": "import cv2\nimport numpy as np\nfrom rclpy.node import Node\n"

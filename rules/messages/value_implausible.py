@@ -243,12 +243,25 @@ class ValueImplausible(MessageRule):
                 "    q = pose.orientation\n"
                 "    q.w = math.cos(yaw / 2)\n"
                 "    return Quaternion(z=0.0)\n",
+                "zero.py": "from geometry_msgs.msg import PoseStamped, Quaternion\n\n\n"
+                "def goal(w):\n"
+                "    pose = PoseStamped()\n"
+                "    pose.pose.orientation.z = 0.0\n"
+                "    pose.pose.orientation.w = 0.0\n"
+                "    return pose, Quaternion(x=1.0, w=0.0), Quaternion(w=w)\n",
+                "imu.py": "from sensor_msgs.msg import Imu\n\n\n"
+                "def reading():\n"
+                "    imu = Imu()\n"
+                "    imu.orientation.w = 0.0\n"
+                "    imu.orientation_covariance[0] = -1.0\n"
+                "    return imu\n",
             },
             Report("copy_pose.py:8:27", "z is copied from pose.position.y, which is for y"),
             Report(
                 "grow.py:12:25",
                 "w of this quaternion stays 1.0: it is another rotation; set it as well",
             ),
+            Report("zero.py:7:31", "a quaternion of zeros is no rotation: write w=1.0 for none"),
         ),
         Example(
             "one stamp for an image and its camera info, and two",
