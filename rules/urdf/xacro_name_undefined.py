@@ -3,8 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name, listed_names
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+    closest_name,
+    listed_names,
+)
 from scaffold.api.robot import Misfit, Undefined, is_argument_given, is_launched, robots
 
 _ROBOT = (
@@ -25,6 +36,10 @@ _GOOD = (
     "xacro:",
 )
 _FIRST = 0.6
+_PLAIN = (
+    '<robot name="robot">\n  <link name="base">\n    <visual>\n      <geometry>'
+    '<mesh filename="$(find robot)/base.stl"/></geometry>\n    </visual>\n  </link>\n</robot>\n'
+)
 
 
 def _robot(place: int, text: str) -> str:
@@ -57,6 +72,7 @@ class XacroNameUndefined(Rule):
 
     code = "UR030"
     name = "xacro-name-undefined"
+    other_severities = {Severity.WARNING: "another package may give the file to xacro"}
     examples = (
         Example("all defined", {"robot.xacro": _robot(1, "${radius}")}),
         Example(
@@ -179,11 +195,30 @@ class XacroNameUndefined(Rule):
             },
             Report("3:20", "'yes' is no condition: xacro stops; write true, false, 0, 1 or ${...}"),
         ),
+        Example(
+            "a file of URDF that nobody gives to xacro",
+            {"robot.urdf": _PLAIN},
+            Report(
+                "4:33",
+                "only xacro reads $(find ...), and this file is no xacro: write "
+                "package:// and the package",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a file of URDF that a launch file gives to xacro",
+            {
+                "robot.urdf": _PLAIN,
+                "launch/a.launch.py": "import xacro\n\n\n"
+                "def generate_launch_description():\n    xacro.process_file('robot.urdf')\n",
+            },
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         yield from self._check_names(package)
         yield from self._check_calls(package)
+        yield from self._check_plain(package)
 
     def _check_names(self, package: Package) -> Iterator[Diagnostic]:
         for robot in robots(package).whole:
@@ -199,6 +234,27 @@ class XacroNameUndefined(Rule):
             for misfit in robot.problems.misfits:
                 cause = f"calls of {misfit.macro}" if misfit.kind != "condition" else ""
                 yield self.report(misfit, _message_calls(package, misfit), cause=cause)
+
+    def _check_plain(self, package: Package) -> Iterator[Diagnostic]:
+        """Check files of URDF in a package that does not use xacro."""
+        for robot in robots(package).whole:
+            for element in (robot.file.root, *robot.file.root.descendants()):
+                for attribute in element.attributes.values():
+                    is_plain = not robot.file.is_xacro and attribute.value.startswith("$(find ")
+                    if is_plain and not _uses_xacro(package):
+                        message = "only xacro reads $(find ...), and this file is no xacro: write "
+                        message += "package:// and the package"
+                        yield self.report(attribute, message, severity=Severity.WARNING)
+
+
+def _uses_xacro(package: Package) -> bool:
+    """Tell whether any other file of a package mentions xacro."""
+    for path in package.files:
+        if path.endswith((".py", ".xml", ".yaml", ".yml", ".txt", ".sh", ".xacro")):
+            with suppress(ViewError, OSError):
+                if "xacro" in path or "xacro" in package.source(path).text:
+                    return True
+    return False
 
 
 def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> str:
