@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
-from scaffold.api.python import FunctionNode, PythonModule, is_guarded_by
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api.python import FunctionNode, PythonModule, is_guarded_by, is_handled
 from scaffold.api.rclpy import RclpyFile
 
 CALLS = frozenset({"call_async", "send_goal_async", "get_result_async", "cancel_goal_async"})
@@ -23,7 +23,7 @@ _NODE = (
 
 
 class FutureReadTooEarly(RclpyRule):
-    """The result of an asynchronous call is read right after the call.
+    """The result of an asynchronous call is read right after the call, or after a timeout.
 
     **Why.** No response has arrived yet: ``result()`` returns None, and ``AttributeError:
     'NoneType' object has no attribute ...`` follows.
@@ -35,6 +35,7 @@ class FutureReadTooEarly(RclpyRule):
 
     code = "ND021"
     name = "future-read-too-early"
+    other_severities = {Severity.WARNING: "a wait with a timeout comes first"}
     examples = (
         Example(
             "when the future is done",
@@ -59,6 +60,26 @@ class FutureReadTooEarly(RclpyRule):
             ),
         ),
         Example(
+            "after a wait with a timeout, asked and not asked",
+            {
+                f"{name}.py": "import rclpy\n"
+                + _NODE.format(
+                    "rclpy.spin_until_future_complete(self, future, timeout_sec=1.0)\n"
+                    f"        answer = future.result()\n{test}"
+                    "        return answer.success"
+                )
+                for name, test in {
+                    "asked": "        if answer is None:\n            return False\n",
+                    "not_asked": "",
+                }.items()
+            },
+            Report(
+                "not_asked.py:10:16",
+                "answer may be None here: the wait has a timeout; ask whether the future is done()",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "in the callback, called directly",
             {"caller.py": _NODE.format("self.answer(future)")},
             Report(
@@ -69,6 +90,12 @@ class FutureReadTooEarly(RclpyRule):
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for function in file.module.function_nodes:
+            for read, text in _unasked(file, function):
+                message = (
+                    f"{text} may be None here: the wait has a timeout; ask whether the future is "
+                    "done()"
+                )
+                yield self.report(file.module.location(read), message, severity=Severity.WARNING)
             for name, line in _futures(file.module, function).items():
                 if _waits(file.module, function):
                     continue
@@ -99,6 +126,60 @@ class FutureReadTooEarly(RclpyRule):
             and inner.func.value.id == parameter
             for inner in file.calls_in(function)
         )
+
+
+def _unasked(file: RclpyFile, function: FunctionNode) -> Iterator[tuple[ast.expr, str]]:
+    """Yield fields of results that are read after a wait with a timeout, without a question."""
+    for call in file.calls_in(function):
+        match call.func:
+            case ast.Attribute(attr="spin_until_future_complete"):
+                futures = [arg.id for arg in call.args if isinstance(arg, ast.Name)][-1:]
+            case _:
+                continue
+        is_limited = any(
+            word.arg == "timeout_sec"
+            and not (isinstance(word.value, ast.Constant) and word.value.value is None)
+            for word in call.keywords
+        )
+        for future in futures if is_limited else ():
+            yield from _first_read(file, function, call, future)
+
+
+def _first_read(
+    file: RclpyFile, function: FunctionNode, wait: ast.Call, future: str
+) -> Iterator[tuple[ast.expr, str]]:
+    """Yield the first field of the result of a future that is read below a wait."""
+    names = {future}
+    for statement in file.module.below(function, ast.Assign):
+        match statement:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value) if _is_result(value, future):
+                names.add(name)
+    tests = file.module.below(function, ast.If, ast.IfExp, ast.While, ast.Assert)
+    asked = (
+        node.id
+        for holder in tests
+        if isinstance(holder, ast.If | ast.IfExp | ast.While | ast.Assert)
+        for node in ast.walk(holder.test)
+        if isinstance(node, ast.Name)
+    )
+    if not names.isdisjoint(asked):
+        return
+    for read in file.module.below(function, ast.Attribute):
+        value = read.value
+        is_field = _is_result(value, future) or (
+            isinstance(value, ast.Name) and value.id in names - {future}
+        )
+        if is_field and read.lineno > wait.lineno and file.function_of(read) is function:
+            if not is_handled(file.module, read, "AttributeError"):
+                yield read, file.module.text(value)
+            return
+
+
+def _is_result(node: ast.expr, future: str) -> bool:
+    match node:
+        case ast.Call(func=ast.Attribute(attr="result", value=ast.Name(id=name))):
+            return name == future
+    return False
 
 
 def _is_asked(file: RclpyFile, call: ast.Call, name: str) -> bool:
