@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
-from scaffold.api.python import Unknown
+from scaffold.api.python import Unknown, paths_importing
 from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
 
 _NAMES = r"^on_[a-z]|^callback_|_callback$|_cb$"
@@ -43,13 +43,25 @@ _NODE_GROUPS = (
 )
 
 
+_WINDOW = (
+    "import cv2\nfrom rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
+    "class Show(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('show')\n"
+    "        self.create_subscription(Image, 'image', self.draw, 10)\n\n"
+    "    def draw(self, msg):\n"
+    "        cv2.imshow('image', self.convert(msg))\n{}"
+)
+
+
 class MadeAndUnused(RclpyRule):
-    """A node has a publisher, a callback or a callback group that nothing uses.
+    """A node has a publisher, a callback, a callback group or a window that nothing uses.
 
     **Why.** ``ros2 topic list`` shows the topic, but nothing is ever published on it. A callback
     that is not passed to anything never runs: often two subscriptions got the same one, or it has
     not the name that the base class subscribes with. Without its group, all callbacks stay in the
     default one, which runs one at a time: callbacks that should run in parallel wait, or deadlock.
+    OpenCV draws its windows in ``cv2.waitKey``.
 
     **Fix.** Publish, pass the callback to ``create_subscription``, the group as
     ``callback_group=``, or remove what is not used.
@@ -61,6 +73,7 @@ class MadeAndUnused(RclpyRule):
     code = "ND071"
     name = "made-and-unused"
     severity = Severity.WARNING
+    other_severities = {Severity.ERROR: "it is a window that nothing draws"}
     examples = (
         Example(
             "one callback for two topics",
@@ -130,9 +143,25 @@ class MadeAndUnused(RclpyRule):
                 "callback_group=",
             ),
         ),
+        Example(
+            "a window that is drawn",
+            {"draw.py": _WINDOW.format("        cv2.waitKey(1)\n")},
+        ),
+        Example(
+            "a window that stays empty",
+            {"draw.py": _WINDOW.format("")},
+            Report(
+                "12:9",
+                "OpenCV draws no window without cv2.waitKey(1) after it: it stays empty",
+                severity=Severity.ERROR,
+            ),
+        ),
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
+        for window in _undrawn(package, file):
+            message = "OpenCV draws no window without cv2.waitKey(1) after it: it stays empty"
+            yield self.report(file.module.location(window), message, severity=Severity.ERROR)
         yield from self._check_entities(package, file)
         yield from self._check_groups(package, file)
 
@@ -182,6 +211,20 @@ class MadeAndUnused(RclpyRule):
                 "at a time; pass callback_group="
             )
             yield self.report(file.module.location(call), message)
+
+
+def _undrawn(package: Package, file: RclpyFile) -> Iterator[ast.Call]:
+    """Yield the first window of a package that shows images and handles no events of windows."""
+    if not file.module.mentions("imshow("):
+        return
+    words = ("waitKey", "pollKey", "startWindowThread")
+    modules = package.modules(paths_importing(package, "cv2"))
+    if any(module.mentions(*words) for module in modules):
+        return
+    for call in file.module.walk(ast.Call):
+        if file.module.qualified_name(call.func) == "cv2.imshow":
+            yield call
+            return
 
 
 def _callbacks(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
