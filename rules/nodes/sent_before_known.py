@@ -5,14 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import in_constructors
+from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import RclpyFile, class_of
 
 _SENDING = {
     "send_goal_async": ("rclpy.action.client.ActionClient", "goal", "wait_for_server()"),
     "call_async": ("rclpy.client.Client", "request", "wait_for_service()"),
 }
+_WAITING = ("get_subscription_count", "sleep(", "wait_for", "spin_once", "spin_until")
 _ASKING = ("wait_for_server", "server_is_ready", "wait_for_service", "service_is_ready")
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -26,7 +28,7 @@ _NODE = (
 
 
 class SentBeforeKnown(RclpyRule):
-    """The constructor of a node sends a goal or a request with a client that it has just made.
+    """The constructor of a node sends something with a client or publisher that it has just made.
 
     **Why.** The client does not know the server yet, so the message is lost: the future is never
     done, without any error.
@@ -39,6 +41,7 @@ class SentBeforeKnown(RclpyRule):
 
     code = "ND116"
     name = "sent-before-known"
+    other_severities = {Severity.WARNING: "it is a message, which may come again"}
     examples = (
         Example(
             "waits", {"caller.py": _NODE.format("        self.client.wait_for_service(5.0)\n")}
@@ -54,6 +57,31 @@ class SentBeforeKnown(RclpyRule):
             },
         ),
         Example(
+            "a message at once, kept for those who come later, and lost",
+            {
+                f"{name}.py": "from rclpy.node import Node\n"
+                "from rclpy.qos import DurabilityPolicy, QoSProfile\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Hello(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('hello')\n"
+                f"        self.publisher = self.create_publisher(String, 'hello', {qos})\n"
+                "        self.greet()\n\n"
+                "    def greet(self):\n"
+                "        self.publisher.publish(String(data='hello'))\n"
+                for name, qos in {
+                    "kept": "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
+                    "lost": "10",
+                }.items()
+            },
+            Report(
+                "lost.py:13:9",
+                "no subscription knows the publisher yet: this message is lost; "
+                "publish it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "at once",
             {"caller.py": _NODE.format("")},
             Report(
@@ -65,6 +93,7 @@ class SentBeforeKnown(RclpyRule):
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        yield from self._check_publishers(file)
         if not file.module.mentions(*_SENDING) or file.module.mentions(*_ASKING):
             return
         for executed in in_constructors(file):
@@ -79,6 +108,35 @@ class SentBeforeKnown(RclpyRule):
                         f"future is never done; call {wait} first"
                     )
                     yield self.report(file.module.location(call), message)
+
+    def _check_publishers(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        """Check what constructors publish with publishers that they have just made."""
+        if file.module.mentions(*_WAITING):
+            return
+        lost = {
+            publisher.call: publisher
+            for publisher in file.publishers
+            if publisher.qos is not None and publisher.qos.durability == "VOLATILE"
+        }
+        for executed in in_constructors(file):
+            for call in file.calls_in(executed.function):
+                func = call.func
+                if not isinstance(func, ast.Attribute) or func.attr != "publish":
+                    continue
+                made = file.evaluator.single_value(func.value)
+                if made in lost and not _is_repeated(file, call) and _is_made_here(file, made):
+                    message = (
+                        "no subscription knows the publisher yet: this message is lost; publish "
+                        "it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL"
+                    )
+                    at = file.module.location(call)
+                    yield self.report(at, message, severity=Severity.WARNING)
+
+
+def _is_made_here(file: RclpyFile, made: ast.AST) -> bool:
+    """Tell whether a constructor makes a publisher, no matter what is so."""
+    function = file.function_of(made)
+    return getattr(function, "name", "") == "__init__" and not conditions_on(file.module, made)
 
 
 def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
