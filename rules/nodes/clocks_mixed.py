@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.python import conditions_on, is_handled
 from scaffold.api.rclpy import NUMBER, RclpyFile, clocks_of
 
@@ -30,7 +30,7 @@ _NODE = (
 
 
 class ClocksMixed(RclpyRule):
-    """Times of different clocks are subtracted or compared.
+    """Times of different clocks are subtracted or compared, or stamps are of the system clock.
 
     **Why.** ``TypeError: Can't subtract times with different clock types``. ``Time()`` is of the
     system clock, the clock of a node is a ROS clock, also while it shows the system's time. A
@@ -44,11 +44,36 @@ class ClocksMixed(RclpyRule):
 
     code = "ND105"
     name = "clocks-mixed"
+    other_severities = {Severity.WARNING: "it is a stamp: only in a simulation it is wrong"}
     examples = (
         Example("the same clock", {"driver.py": _NODE.format("self.get_clock().now()", "")}),
         Example(
             "a time of that clock",
             {"driver.py": _NODE.format("Time(clock_type=ClockType.ROS_TIME)", "")},
+        ),
+        Example(
+            "a stamp of the clock of the node, and of one of its own",
+            {
+                f"{name}.py": "from rclpy.clock import Clock, ClockType\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Driver(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('driver')\n"
+                f"        self.clock = {clock}\n\n"
+                "    def tick(self, msg):\n"
+                "        msg.header.stamp = self.clock.now().to_msg()\n"
+                for name, clock in {
+                    "node": "self.get_clock()",
+                    "ros": "Clock(clock_type=ClockType.ROS_TIME)",
+                    "system": "Clock()",
+                }.items()
+            },
+            Report(
+                "system.py:11:28",
+                "a stamp of the system clock, which does not follow the time of a "
+                "simulation: use self.get_clock()",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "begins with another clock",
@@ -100,6 +125,12 @@ class ClocksMixed(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         if not file.module.mentions("Time(", "Clock(", "get_clock("):
             return
+        for stamp in _system_stamps(file):
+            message = (
+                "a stamp of the system clock, which does not follow the time of a simulation: use "
+                "self.get_clock()"
+            )
+            yield self.report(file.module.location(stamp), message, severity=Severity.WARNING)
         for node in (*file.module.walk(ast.BinOp), *file.module.walk(ast.Compare)):
             match node:
                 case ast.BinOp(left=left, op=ast.Sub() as operator, right=right):
@@ -117,6 +148,21 @@ class ClocksMixed(RclpyRule):
                     message = f"an rclpy Time and a number cannot be {verb}: TypeError; "
                     message += "begin with the clock of the node: self.get_clock().now()"
                     yield self.report(file.module.location(node), message)
+
+
+def _system_stamps(file: RclpyFile) -> Iterator[ast.expr]:
+    """Yield ``Clock().now().to_msg()`` that a node puts into headers."""
+    nodes = {node.node for node in file.classes}
+    for store in file.evaluator.stores("stamp"):
+        match store.value:
+            case ast.Call(
+                func=ast.Attribute(
+                    attr="to_msg", value=ast.Call(func=ast.Attribute(attr="now")) as time
+                )
+            ):
+                is_of_node = any(parent in nodes for parent in file.module.parents(time))
+                if is_of_node and {*clocks_of(file, time).values()} == {"SYSTEM_TIME"}:
+                    yield store.value
 
 
 def _of_two_clocks(pair: tuple[str, str], verb: str) -> str:
