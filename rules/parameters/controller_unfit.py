@@ -160,6 +160,20 @@ class ControllerUnfit(Rule):
             ),
         ),
         Example(
+            "parameters of a controller among those of the manager",
+            {
+                "config/controllers.yaml": "controller_manager:\n  ros__parameters:\n"
+                f"    base_controller:\n      type: {_DRIVE}\n      left_wheel_names: [left]\n"
+                "      right_wheel_names: [right]\n"
+            },
+            Report(
+                "5:7",
+                "'base_controller' does not read 'left_wheel_names' here: it is a "
+                "node of its own; write base_controller: and ros__parameters: on "
+                "the first level",
+            ),
+        ),
+        Example(
             "spawned under other names",
             _files(words="'joint_broadcaster', 'base_controller'", loaded="diff_controller"),
             Report(
@@ -226,6 +240,7 @@ class ControllerUnfit(Rule):
         }
         for section in managers:
             yield from self._check_manager(section)
+            yield from self._check_nested(known, section, types)
         yield from self._check_joints(package, known, types)
         yield from self._check_spawned(package, types)
 
@@ -239,6 +254,21 @@ class ControllerUnfit(Rule):
                 if instead:
                     message = f"ROS 2 has no controller {entry.value.text!r}: use {instead!r}"
                     yield self.report(entry.value.location, message)
+
+    def _check_nested(
+        self, files: Sequence[ParameterFile], manager: Section, types: Mapping[str, Entry]
+    ) -> Iterator[Diagnostic]:
+        own = {section.name for file in files for section in file.sections}
+        seen: set[str] = set()
+        for entry in manager.entries:
+            controller, _, name = entry.name.partition(".")
+            if controller in types and name in _JOINTS and controller not in own | seen:
+                seen.add(controller)
+                message = (
+                    f"{controller!r} does not read {name!r} here: it is a node of its own; write "
+                    f"{controller}: and ros__parameters: on the first level"
+                )
+                yield self.report(entry.location, message)
 
     def _check_joints(
         self, package: Package, files: Sequence[ParameterFile], types: Mapping[str, Entry]
