@@ -201,6 +201,31 @@ class MessageUsedAsValue(MessageRule):
             ),
         ),
         Example(
+            "messages for functions of numpy and OpenCV",
+            {
+                "look.py": "import cv2\nimport numpy as np\nfrom geometry_msgs.msg import Point\n"
+                "from rclpy.node import Node\nfrom sensor_msgs.msg import Image\n\n\n"
+                "class Look(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('look')\n"
+                "        self.create_subscription(Image, 'image', self.on_image, 10)\n"
+                "        self.create_subscription(Point, 'point', self.on_point, 10)\n\n"
+                "    def on_image(self, msg):\n"
+                "        cv2.imwrite('/tmp/a.png', msg)\n"
+                "        cv2.line(np.zeros((msg.height, msg.width)), (0, 0), (9, 9), 255)\n\n"
+                "    def on_point(self, msg):\n"
+                "        return np.linalg.norm(msg), np.linalg.norm([msg.x, msg.y, msg.z])\n"
+            },
+            Report(
+                "15:9",
+                "sensor_msgs/msg/Image is not an image of OpenCV: cv2.error; "
+                "convert it with CvBridge",
+            ),
+            Report(
+                "19:16", "geometry_msgs/msg/Point is not a number: TypeError; use one of its fields"
+            ),
+        ),
+        Example(
             "a map as a table, and columns of a matrix of numpy",
             {
                 "look.py": "import numpy as np\nfrom nav_msgs.msg import OccupancyGrid\n"
@@ -275,7 +300,7 @@ def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     for node, value, problem in (*_uses_as_list(types), *_uses_as_value(types)):
         owner = _message(types, value)
         if owner is not None:
-            yield node, f"{owner.name} {problem}: TypeError; use one of its fields"
+            yield node, f"{owner.name} {problem}: {_HINTS.get(problem, _HINT)}"
     yield from _arrays.problems(types)
     for node in module.walk(ast.Compare):
         yield from _compared(types, node)
@@ -319,6 +344,8 @@ def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, st
                 problem = _problem_in_call(types, func)
                 if problem:
                     yield call, value, problem
+                if (types.module.qualified_name(func) or "").startswith("cv2."):
+                    yield from ((call, image, _NO_IMAGE) for image in call.args)
     for assignment in module.walk(ast.Assign):
         if isinstance(assignment.targets[0], ast.Tuple | ast.List):
             yield assignment.value, assignment.value, "cannot be unpacked"
@@ -332,6 +359,8 @@ def _problem_in_call(types: MessageTypes, func: ast.expr) -> str:
     if isinstance(func, ast.Name) and types.module.index.lookup(func.id, func) is None:
         return _REFUSED_BY.get(func.id, "")
     name = types.module.qualified_name(func) or ""
+    if name in _OF_NUMBERS:
+        return "is not a number"
     return _REFUSED_BY.get(name) or ("is not a number" if name.startswith("math.") else "")
 
 
@@ -394,6 +423,14 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
         yield part.iter, part.iter, "is not iterable"
 
 
+_NO_IMAGE = "is not an image of OpenCV"
+_HINT = "TypeError; use one of its fields"
+_HINTS = {_NO_IMAGE: "cv2.error; convert it with CvBridge"}
+_OF_NUMBERS = frozenset(
+    {f"numpy.{name}" for name in ("sqrt", "sin", "cos", "tan", "arctan2", "hypot", "isnan", "exp")}
+    | {"numpy.linalg.norm", "numpy.cross", "numpy.deg2rad", "numpy.rad2deg"}
+)
+"""Functions of numpy that take numbers, or arrays of them."""
 _PARAMETER_VALUE = "rcl_interfaces/msg/ParameterValue"
 _REFUSED_BY: Mapping[str, str] = {
     **dict.fromkeys(("float", "int", "abs", "round"), "is not a number"),
