@@ -35,6 +35,8 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
     if node is None:
         return None if call.is_open else []
     pairs: list[tuple[ast.expr | None, ast.expr]] = []
+    if isinstance(node, ast.Name):
+        node = _read_once(launch, node) or node
     match node:
         case ast.Call(func=ast.Attribute(value=holder, attr="items")):
             literal = _dictionary(launch, holder)
@@ -59,14 +61,16 @@ def given_arguments(launch: LaunchFile, call: LaunchCall) -> list[Given] | None:
 
 def _dictionary(launch: LaunchFile, node: ast.expr) -> ast.Dict | None:
     """Return the dictionary that an expression is, or that a name holds which is read once."""
-    if isinstance(node, ast.Name):
-        lookup = launch.module.index.lookup(node.id, node)
-        uses = [use for use in launch.module.index.names(node.id) if isinstance(use.ctx, ast.Load)]
-        values = [binding.value for binding in lookup[1]] if lookup else []
-        if len(uses) != 1 or len(values) != 1 or values[0] is None:
-            return None  # something may be added
-        node = values[0]
-    return node if isinstance(node, ast.Dict) else None
+    literal = _read_once(launch, node) if isinstance(node, ast.Name) else node
+    return literal if isinstance(literal, ast.Dict) else None
+
+
+def _read_once(launch: LaunchFile, name: ast.Name) -> ast.expr | None:
+    """Return what a name holds, to which nothing is added: it is read in one place alone."""
+    lookup = launch.module.index.lookup(name.id, name)
+    uses = [use for use in launch.module.index.names(name.id) if isinstance(use.ctx, ast.Load)]
+    values = [binding.value for binding in lookup[1]] if lookup else []
+    return values[0] if len(uses) == len(values) == 1 else None
 
 
 def included(package: Package, launch: LaunchFile, call: LaunchCall) -> Included | None:
