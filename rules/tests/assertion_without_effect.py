@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Report, Severity, TestRule
+from scaffold.api import Diagnostic, Example, Package, Report, Severity, TestRule, ViewError
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import test_functions
 
@@ -99,12 +99,30 @@ class AssertionWithoutEffect(TestRule):
             ),
             Report("test/test_d.py:6:5", "a non-empty string is always true: nothing is asserted"),
         ),
+        Example(
+            "a method of a class of the package, called and named",
+            {
+                "talker/__init__.py": "",
+                "talker/node.py": "class Talker:\n"
+                "    def is_done(self):\n        return False\n\n"
+                "    @property\n    def is_new(self):\n        return True\n",
+                "test/test_talker.py": "from talker.node import Talker\n\n\n"
+                "def test_done():\n"
+                "    talker = Talker()\n"
+                "    assert talker.is_new\n"
+                "    assert not talker.is_done()\n"
+                "    assert talker.is_done\n",
+            },
+            Report("test/test_talker.py:8:5", "is_done is a method, which is always true: call it"),
+        ),
     )
 
-    def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         for test in test_functions(module):
             for node in ast.walk(test.node):
                 at, problem = _problem(module, node)
+                if isinstance(node, ast.Assert) and not problem:
+                    problem = _uncalled(package, module, node.test)
                 if problem:
                     yield self.report(module.location(at), problem)
 
@@ -125,6 +143,34 @@ def _problem(module: PythonModule, node: ast.AST) -> tuple[ast.AST, str]:
                 if _drops(module, handler):
                     return handler, "this discards the AssertionError: the test always passes"
     return node, problem
+
+
+def _uncalled(package: Package, module: PythonModule, condition: ast.expr) -> str:
+    """Return what is wrong about a method of an object that is only named; empty if nothing."""
+    match condition:
+        case ast.Attribute(attr=name, value=ast.Name(id=variable) as owner):
+            lookup = module.index.lookup(variable, owner)
+            values = [binding.value for binding in lookup[1]] if lookup else []
+            made = values[0] if len(values) == 1 else None
+            full = module.qualified_name(made.func) if isinstance(made, ast.Call) else ""
+            path, _, class_name = (full or "").rpartition(".")
+            methods = _methods_of(package, f"{path.replace('.', '/')}.py", class_name)
+            return f"{name} is a method, which is always true: call it" if name in methods else ""
+    return ""
+
+
+def _methods_of(package: Package, path: str, class_name: str) -> set[str]:
+    """Return the plain methods of a class of a package; none if it is not there."""
+    if not package.has(path):
+        return set()
+    try:
+        class_ = package.module(path).classes.get(class_name)
+    except ViewError:
+        return set()
+    body = class_.node.body if class_ is not None else []
+    return {
+        item.name for item in body if isinstance(item, ast.FunctionDef) and not item.decorator_list
+    }
 
 
 def _is_value(node: ast.expr) -> bool:
