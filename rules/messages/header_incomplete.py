@@ -140,10 +140,18 @@ class HeaderIncomplete(MessageRule):
                 "    def move(self):\n"
                 "        point = JointTrajectoryPoint(positions=[0.1])\n"
                 "        moved = JointTrajectory(joint_names=['a'], points=[point])\n"
-                "        self.publisher.publish(moved)\n"
+                "        self.publisher.publish(moved)\n",
+                "feedback.py": "from rclpy.node import Node\n"
+                "from sensor_msgs.msg import JointState\n"
+                "from trajectory_msgs.msg import JointTrajectoryPoint\n\n\n"
+                "class Arm(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('arm')\n"
+                "        self.publisher = self.create_publisher(JointState, 'state', 10)\n"
+                "        self.now = JointTrajectoryPoint(positions=[0.0])\n",
             },
             Report(
-                "11:17",
+                "arm.py:11:17",
                 "nothing sets time_from_start of the points: the trajectory has no "
                 "duration, and controllers refuse it",
             ),
@@ -187,6 +195,7 @@ class HeaderIncomplete(MessageRule):
 
 
 _POINT = "trajectory_msgs/msg/JointTrajectoryPoint"
+_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 
 
 def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
@@ -196,12 +205,15 @@ def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
         "create_publisher", "ActionClient"
     ):
         return
+    made: dict[str, list[ast.Call]] = {}
     for call in module.walk(ast.Call):
         class_ = types.class_of(call.func)
-        if class_ is not None and class_.name == _POINT and not call.args:
-            words = {word.arg for word in call.keywords}
-            if None not in words and ("positions" in words or module.mentions(".positions")):
-                yield call
+        if class_ is not None and class_.name in {_POINT, _TRAJECTORY} and not call.args:
+            made.setdefault(class_.name, []).append(call)
+    for call in made.get(_POINT, []) if _TRAJECTORY in made else ():
+        words = {word.arg for word in call.keywords}
+        if None not in words and ("positions" in words or module.mentions(".positions")):
+            yield call
 
 
 def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
