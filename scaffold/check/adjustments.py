@@ -18,7 +18,7 @@ from scaffold.model.install.unused import (
     is_out_of_reach,
 )
 from scaffold.model.package import Package
-from scaffold.model.python.guards import is_unevaluated
+from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.record import NamedTuple
@@ -28,6 +28,8 @@ _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "MS", "ND", "TY")
 """Areas of rules about what happens when code runs."""
 _UNDEFINED = "F821"
+_PLATFORMS = ("os.name", "sys.platform", "platform.system")
+"""What conditions ask that tell platforms apart."""
 
 
 class Adjustments(NamedTuple):
@@ -133,7 +135,19 @@ def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
             return True
     except ViewError:
         return False
-    return any(only_while_stopping(*name) for name in _names_at(package, undefined))
+    return any(
+        only_while_stopping(module, name) or _is_of_platform(module, name)
+        for module, name in _names_at(package, undefined)
+    )
+
+
+def _is_of_platform(module: PythonModule, name: ast.expr) -> bool:
+    """Tell whether code is for one platform: ``if os.name == 'nt'``."""
+    return module.mentions(*_PLATFORMS) and any(
+        word in module.text(condition.test)
+        for condition in all_conditions(module, name)
+        for word in _PLATFORMS
+    )
 
 
 def _is_harmless(package: Package, undefined: Diagnostic) -> bool:

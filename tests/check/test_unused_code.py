@@ -147,6 +147,13 @@ def test_what_comes_after_the_spin(package: Path, capsys: pytest.CaptureFixture[
     assert severities(capsys, "F821") == {"talker/late.py": "warning", "talker/early.py": "error"}
 
 
+def test_what_is_for_another_platform(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keys = "import os\n\n\ndef key():\n    if {}:\n        return msvcrt.getch()\n\n\nkey()\n"
+    write(package / "talker" / "keys.py", keys.format("os.name == 'nt'"))
+    write(package / "talker" / "codes.py", keys.format("os.sep == '/'"))
+    assert severities(capsys, "F821") == {"talker/codes.py": "error", "talker/keys.py": "warning"}
+
+
 def test_an_example_in_the_documentation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in ("doc/talk.py", "talker/talk.py"):
         write(package / path, MISTAKE)
