@@ -60,7 +60,8 @@ class Source:
             raise ParseError(Location.start_of(path), message) from error
 
     @cached_property
-    def _starts(self) -> list[int]:
+    def line_starts(self) -> list[int]:
+        """The offsets of the lines."""
         starts = [0]
         find = self.text.find
         at = find("\n")
@@ -87,15 +88,15 @@ class Source:
 
     def offset(self, line: int, column: int = 1) -> int:
         """Return the offset of a line and column, both from 1, held inside the text."""
-        starts = self._starts
+        starts = self.line_starts
         if line > len(starts):
             return len(self.text)
         return min(starts[line - 1] + column - 1, len(self.text))
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return line and column, both from 1, of an offset."""
-        line = bisect_right(self._starts, offset)
-        return line, offset - self._starts[line - 1] + 1
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
 
     def location(self, start: int, end: int | None = None) -> Location:
         """Return the place of the text from offset ``start`` to before ``end``."""

@@ -165,8 +165,8 @@ class EventLoopMissing(PythonRule):
             return
         if module.mentions(*_MAKERS) or _sets_loop(module):
             return
-        for call in module.walk(ast.Call):
-            if module.qualified_name(call.func) != _NAME or not _is_at_start(module, call):
+        for call in module.calls_of(_NAME):
+            if not _is_at_start(module, call):
                 continue
             if is_handled(module, call, "RuntimeError") or is_asked_for(module, call, _NAME):
                 continue
@@ -181,8 +181,7 @@ def _sets_loop(module: PythonModule) -> bool:
     """Tell whether a file sets a loop, or a policy that may: those of asyncio do not."""
     policies = [
         policy
-        for call in module.walk(ast.Call)
-        if module.qualified_name(call.func) == "asyncio.set_event_loop_policy"
+        for call in module.calls_of("asyncio.set_event_loop_policy")
         for policy in call.args
         if isinstance(policy, ast.Call)
         and (module.qualified_name(policy.func) or "").startswith("asyncio.")

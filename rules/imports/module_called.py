@@ -42,8 +42,7 @@ class ModuleCalled(PythonRule):
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         if not any(item in module.imports_by_root for item in _MODULES):
             return
-        for call in module.walk(ast.Call):
-            name = module.qualified_name(call.func) if isinstance(call.func, ast.Name) else None
-            if name in _MODULES:
+        for name in _MODULES:
+            for call in module.calls_of(name):
                 message = f"{name!r} is a module here: TypeError; use {_MODULES[name]}()"
                 yield self.report(module.location(call.func), message)

@@ -166,14 +166,11 @@ class NameGone(PythonRule):
                 )
                 severity = None if _has_numpy_of_system(package) else Severity.WARNING
                 yield self.report(module.location(node), message, severity=severity)
-        for call in module.walk(ast.Call):
-            if module.qualified_name(call.func) in {"yaml.load", "yaml.load_all"}:
-                loads = len(call.args) == 1 and not call.keywords
-                if loads and not is_handled(module, call, "TypeError"):
-                    message = (
-                        "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"
-                    )
-                    yield self.report(module.location(call), message)
+        for call in module.calls_of("yaml.load", "yaml.load_all"):
+            loads = len(call.args) == 1 and not call.keywords
+            if loads and not is_handled(module, call, "TypeError"):
+                message = "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"
+                yield self.report(module.location(call), message)
 
 
 def _numpy() -> tuple[int, ...]:

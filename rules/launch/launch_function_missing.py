@@ -167,8 +167,7 @@ def _loaded_files(package: Package) -> frozenset[str]:
         text.value.rpartition("/")[2]
         for path in paths_importing(package, "runpy", "importlib")
         if "launch" in path
-        for call in package.module(path).walk(ast.Call)
-        if package.module(path).qualified_name(call.func) in _LOADERS
+        for call in package.module(path).calls_of(*_LOADERS)
         for text in ast.walk(call)
         if isinstance(text, ast.Constant) and isinstance(text.value, str)
     )

@@ -57,8 +57,8 @@ class PathJoinedWrongly(LaunchRule):
     )
 
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
-        for call in launch.module.walk(ast.Call):
-            if launch.module.qualified_name(call.func) != "os.path.join" or not call.args:
+        for call in launch.module.calls_of("os.path.join"):
+            if not call.args:
                 continue
             first = _text(launch, call.args[0])
             for part in call.args[1:]:

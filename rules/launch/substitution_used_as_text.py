@@ -168,8 +168,8 @@ def _compared_with(comparison: ast.Compare) -> str:
 
 
 def _made_bool(launch: LaunchFile) -> Iterator[ast.expr]:
-    for call in launch.module.walk(ast.Call):
-        if launch.module.qualified_name(call.func) == "bool" and len(call.args) == 1:
+    for call in launch.module.calls_of("bool"):
+        if len(call.args) == 1:
             yield call.args[0]
 
 

@@ -47,12 +47,12 @@ def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
                     yield call, f"{text} is a {kind(type_)}, not an integer: TypeError"
     for node in module.walk(ast.Compare):
         type_ = types.field_type_of(node.left)
-        is_number = isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float)
         is_order = isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
         is_array = type_ is not None and type_.is_array and type_.array_size is None
-        if is_array and is_number and is_order and len(node.ops) == 1:
+        if is_array and is_order and len(node.ops) == 1:
             text = module.text(node.left)
-            yield node, f"{text} is an array, not a number: TypeError; compare its elements"
+            if isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float):
+                yield node, f"{text} is an array, not a number: TypeError; compare its elements"
 
 
 def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
@@ -61,6 +61,8 @@ def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]
     for node in module.walk(ast.BinOp):
         for field, other in ((node.left, node.right), (node.right, node.left)):
             type_ = types.field_type_of(field)
+            if type_ is None:
+                continue
             value = evaluate(other)
             is_text = isinstance(value, str) or isinstance(other, ast.JoinedStr)
             if isinstance(node.op, ast.Add) and is_text and kind(type_) in {"float", "int"}:
@@ -94,9 +96,9 @@ def _is_plain_array(type_: FieldType | None) -> bool:
 
 def _arrays_given(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     """Yield arrays that are given to functions of others, which take their own kind."""
-    for call in types.module.walk(ast.Call):
-        advice = _TAKING_OTHERS.get(types.module.qualified_name(call.func) or "")
-        if advice and call.args and _is_plain_array(types.field_type_of(call.args[0])):
+    for call in types.module.calls_of(*_TAKING_OTHERS):
+        advice = _TAKING_OTHERS[types.module.qualified_name(call.func) or ""]
+        if call.args and _is_plain_array(types.field_type_of(call.args[0])):
             text, name = types.module.text(call.args[0]), types.module.text(call.func)
             yield call, f"{name}() does not take {text}, an array.array: {advice.format(text)}"
 

@@ -351,7 +351,7 @@ def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, st
             yield assignment.value, assignment.value, "cannot be unpacked"
     for node in module.walk(ast.BinOp):
         for value, other in ((node.left, node.right), (node.right, node.left)):
-            if _is_plain(types, other) and not _is_format(node):
+            if _message(types, value) and _is_plain(types, other) and not _is_format(node):
                 yield node, value, "cannot be used in arithmetic"
 
 
@@ -376,8 +376,8 @@ def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr
             yield node, f"{owner.name} is not iterable: TypeError; use one of its fields"
         return
     for value, other in ((node.left, right), (right, node.left)):
-        owner = _message(types, value) if _is_plain(types, other) else None
-        if owner is None:
+        owner = _message(types, value)
+        if owner is None or not _is_plain(types, other):
             continue
         if isinstance(operator, ast.Eq | ast.NotEq):
             text = types.module.text(other)

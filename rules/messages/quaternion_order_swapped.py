@@ -106,11 +106,10 @@ class QuaternionOrderSwapped(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         if not types.module.mentions("quat"):
             return
-        for call in types.module.walk(ast.Call):
-            name = types.module.qualified_name(call.func) or ""
-            if name in _TAKES:
+        for name, order in _TAKES.items():
+            for call in types.module.calls_of(name):
                 for given in call.args:
-                    yield from self._compare(types, given, _given(types, given), _TAKES[name], name)
+                    yield from self._compare(types, given, _given(types, given), order, name)
         for assigned in types.module.walk(ast.Assign):
             name = _giver(types, assigned.value)
             for target in assigned.targets if name else ():

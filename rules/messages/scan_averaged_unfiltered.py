@@ -93,7 +93,7 @@ class ScanAveragedUnfiltered(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        for call in types.module.walk(ast.Call):
+        for call in types.module.walk(ast.Call) if types.module.mentions("ranges") else ():
             summed = _summed(types, call)
             if (
                 summed is not None

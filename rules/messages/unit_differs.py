@@ -233,10 +233,11 @@ class UnitDiffers(MessageRule):
                 if item.field.name in _AXES:
                     shown = f"{_vector(types, item.holder)[1]}.{shown}"
                 yield from self._check(types, item.value, wanted, shown)
-        for call in types.module.walk(ast.Call):
-            name = types.module.qualified_name(call.func) or ""
-            if name in _OF_RADIANS and len(call.args) == 1:
-                yield from self._check(types, call.args[0], "radians", f"the argument of {name}()")
+        for name in _OF_RADIANS:
+            for call in types.module.calls_of(name):
+                if len(call.args) == 1:
+                    shown = f"the argument of {name}()"
+                    yield from self._check(types, call.args[0], "radians", shown)
 
     def _check(
         self, types: MessageTypes, value: ast.expr, wanted: str, shown: str

@@ -99,13 +99,14 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
         for name, binding in node.facts.module.index.bindings(node.node).items()
         if binding and name in PROPERTIES
     }
+    names = (PROPERTIES | _PRIVATE) - own
     for method in node.methods.values():
         for inner in node.facts.module.below(method, ast.Attribute):
             if (
-                isinstance(inner.ctx, ast.Store)
+                inner.attr in names
+                and isinstance(inner.ctx, ast.Store)
                 and isinstance(inner.value, ast.Name)
                 and inner.value.id == "self"
-                and inner.attr in (PROPERTIES | _PRIVATE) - own
                 and not _is_usable(node, inner)
             ):
                 yield inner

@@ -66,9 +66,8 @@ class FileOfAuthor(RclpyRule):
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         module = file.module
-        for call in module.walk(ast.Call):
-            name = module.qualified_name(call.func)
-            if name not in _READERS or not call.args:
+        for call in module.calls_of(*_READERS):
+            if not call.args:
                 continue
             value = file.evaluator.evaluate(call.args[0])
             text = value.text if isinstance(value, PathValue) else value
@@ -77,7 +76,7 @@ class FileOfAuthor(RclpyRule):
             if re.fullmatch(_HOME, text):
                 message = f"{text!r} exists only on the author's machine"
                 yield self.report(module.location(call.args[0]), message)
-            elif name == "open" and _reads(call) and _is_in(package, text):
+            elif module.qualified_name(call.func) == "open" and _reads(call) and _is_in(package, text):
                 message = (
                     f"{text!r} is relative to the directory of the shell, not the package; "
                     "use get_package_share_directory()"

@@ -212,8 +212,8 @@ def _levels(file: RclpyFile) -> Iterator[tuple[ast.Call, ast.expr]]:
             continue
         if _is_logger(file, file.evaluator.single_value(attribute.value)):
             yield call, call.args[0]
-    for call in file.module.walk(ast.Call):
-        if file.module.qualified_name(call.func) == _SET and len(call.args) > 1:
+    for call in file.module.calls_of(_SET):
+        if len(call.args) > 1:
             yield call, call.args[1]
 
 

@@ -154,12 +154,16 @@ def _left_out(
 def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
     """Tell whether a node may see to it that it is spun, or a base class that is not here."""
     names = (node.attr for node in file.module.below(class_.node, ast.Attribute))
-    # Most code of a class takes long to write out, and its attributes tell most of the time.
-    if any(map(_may_spin, names)) or _may_spin(ast.unparse(class_.node)):
+    if any(map(_may_spin, names)) or _is_spun_by_code(file, class_.node):
         return True
     if class_.base is None:
         return False
     return class_.base.facts is not file or _spins_itself(file, class_.base)
+
+
+def _is_spun_by_code(file: RclpyFile, class_: ast.ClassDef) -> bool:
+    # To write it out, without comments, takes long: few texts have the words.
+    return _may_spin(file.module.text(class_)) and _may_spin(ast.unparse(class_))
 
 
 def _may_spin(words: str) -> bool:

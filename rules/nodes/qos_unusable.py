@@ -140,12 +140,11 @@ class QosUnusable(RclpyRule):
             problem = _problem(file, given.node, given.value) if given else ""
             if given and problem:
                 yield self.report(given, problem)
-        for call in file.module.walk(ast.Call):
-            if file.module.qualified_name(call.func) == "rclpy.qos.QoSProfile":
-                for word in call.keywords:
-                    problem = _problem_of_word(file, word)
-                    if problem:
-                        yield self.report(file.module.location(word.value), problem)
+        for call in file.module.calls_of("rclpy.qos.QoSProfile"):
+            for word in call.keywords:
+                problem = _problem_of_word(file, word)
+                if problem:
+                    yield self.report(file.module.location(word.value), problem)
 
     def _check_missing(self, file: RclpyFile) -> Iterator[Diagnostic]:
         entities: list[Publisher | Subscription] = [*file.publishers, *file.subscriptions]

@@ -58,8 +58,8 @@ class ShareOfMisspelledPackage(RclpyRule):
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
-        for call in file.module.walk(ast.Call):
-            if file.module.qualified_name(call.func) not in _FUNCTIONS or not call.args:
+        for call in file.module.calls_of(*_FUNCTIONS):
+            if not call.args:
                 continue
             name = file.evaluator.evaluate(call.args[0])
             if not isinstance(name, str) or name == name_used_elsewhere(package):

@@ -226,9 +226,7 @@ def _problem(file: RclpyFile, call: RclpyCall, shutdowns: Shutdowns) -> str:
 
 def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
     """Yield the threads that spin a node, with what the node is called."""
-    for call in file.module.walk(ast.Call) if file.module.mentions("Thread(") else ():
-        if file.module.qualified_name(call.func) != "threading.Thread":
-            continue
+    for call in file.module.calls_of("threading.Thread"):
         words = {word.arg: word.value for word in call.keywords}
         target, args = words.get("target"), words.get("args")
         if target is None or file.module.qualified_name(target) != "rclpy.spin":
@@ -275,11 +273,14 @@ def _added_class(file: RclpyFile, call: ast.Call) -> str:
 
 
 def _has_many_threads(call: ast.Call) -> bool:
-    return ast.unparse(call.func).endswith("MultiThreadedExecutor")
+    match call.func:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name.endswith("MultiThreadedExecutor")
+    return False
 
 
 def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
-    if not _has_many_threads(call) or file.module.in_tests:
+    if file.module.in_tests or not _has_many_threads(call):
         return False
     given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "num_threads")]
     return bool(given) and file.evaluator.evaluate(given[0]) == 1

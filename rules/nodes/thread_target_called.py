@@ -123,12 +123,14 @@ class ThreadTargetCalled(RclpyRule):
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
-        for call in file.module.walk(ast.Call):
-            if _is_never_started(package, file, call):
+        for call in file.module.calls_of("threading.Thread"):
+            if _is_left(package, file, call, _IDLE):
                 message = "nothing starts this thread: its target never runs; call start()"
                 yield self.report(file.module.location(call), message)
-            for node, problem in _problems(package, file, call):
+            for node, problem in _problems(file, call):
                 yield self.report(file.module.location(node), problem)
+        for node, problem in _unawaited(package, file):
+            yield self.report(file.module.location(node), problem)
         for timer in file.timers:
             argument = timer.argument("timer_period_sec")
             value, notes = file.evaluator.trace(argument.node if argument else None)
@@ -155,13 +157,6 @@ def _is_single(file: RclpyFile, node: ast.expr) -> bool:
     if isinstance(node, ast.Constant):
         return not isinstance(node.value, str) or len(node.value) != 1
     return isinstance(node, ast.Name | ast.Attribute) and file.owner_of(node) is not None
-
-
-def _is_never_started(package: Package, file: RclpyFile, call: ast.Call) -> bool:
-    """Tell whether all that is done with a thread is to make, configure and join it."""
-    if file.module.qualified_name(call.func) != "threading.Thread":
-        return False
-    return _is_left(package, file, call, _IDLE)
 
 
 def _is_left(package: Package, file: RclpyFile, call: ast.Call, idle: frozenset[str]) -> bool:
@@ -193,39 +188,34 @@ _IDLE = frozenset({"daemon", "name", "join", "is_alive"})
 """What does not start a thread."""
 
 
-def _problems(package: Package, file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
-    if file.module.qualified_name(call.func) == "threading.Thread":
-        for word in call.keywords:
-            if word.arg == "target" and isinstance(word.value, ast.Call):
-                callback = file.callback(word.value)
-                if callback.is_called and not callback.is_partial:
-                    yield (
-                        word.value,
-                        f"{callback.name}() is called here, not in the thread; pass it without ()",
-                    )
-                elif file.module.qualified_name(word.value.func) in _SPINS:
-                    message = "spins here, not in the thread; write target=rclpy.spin, args=(node,)"
-                    yield word.value, message
-            elif word.arg == "args" and _is_single(file, word.value):
-                text = file.module.text(word.value)
-                yield (
-                    word.value,
-                    f"({text}) is not a tuple: TypeError in the thread; write ({text},)",
-                )
-    yield from _unawaited(package, file, call)
+def _problems(file: RclpyFile, thread: ast.Call) -> Iterator[tuple[ast.AST, str]]:
+    for word in thread.keywords:
+        if word.arg == "target" and isinstance(word.value, ast.Call):
+            callback = file.callback(word.value)
+            if callback.is_called and not callback.is_partial:
+                message = f"{callback.name}() is called here, not in the thread; pass it without ()"
+                yield word.value, message
+            elif file.module.qualified_name(word.value.func) in _SPINS:
+                message = "spins here, not in the thread; write target=rclpy.spin, args=(node,)"
+                yield word.value, message
+        elif word.arg == "args" and _is_single(file, word.value):
+            text = file.module.text(word.value)
+            message = f"({text}) is not a tuple: TypeError in the thread; write ({text},)"
+            yield word.value, message
 
 
-def _unawaited(package: Package, file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
-    """Yield a coroutine that is made and never run."""
-    effect = _effect_unawaited(file, call)
-    is_kept = isinstance(file.module.parent(call), ast.Assign)
-    function = file.callback(call.func).function if effect or is_kept else None
-    if not isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
-        return
-    if is_kept and not any(file.module.below(function, ast.Yield)):
-        effect = "it never runs" if _is_left(package, file, call, frozenset()) else ""
-    if effect:
-        yield call, f"coroutine {function.name}() is not awaited: {effect}"
+def _unawaited(package: Package, file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
+    """Yield the coroutines that are made and never run."""
+    for call in file.module.walk(ast.Call):
+        effect = _effect_unawaited(file, call)
+        is_kept = isinstance(file.module.parent(call), ast.Assign)
+        function = file.callback(call.func).function if effect or is_kept else None
+        if not isinstance(function, ast.AsyncFunctionDef) or function.decorator_list:
+            continue
+        if is_kept and not any(file.module.below(function, ast.Yield)):
+            effect = "it never runs" if _is_left(package, file, call, frozenset()) else ""
+        if effect:
+            yield call, f"coroutine {function.name}() is not awaited: {effect}"
 
 
 def _effect_unawaited(file: RclpyFile, call: ast.Call) -> str:

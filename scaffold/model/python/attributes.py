@@ -123,6 +123,8 @@ class AttributeEvaluator(Evaluator):
 
     def _is_only_default(self, target: ast.Attribute) -> bool:
         """Tell whether others may set an attribute: ``if not hasattr(self, 'rate'):``."""
+        if not self.module.mentions("hasattr"):
+            return False
         for parent in self.module.parents(target):
             if isinstance(parent, ast.If):
                 for call in self.module.below(parent.test, ast.Call):

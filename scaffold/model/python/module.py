@@ -69,8 +69,6 @@ class PythonModule:
         self._positions = Positions(source)
         self._names: dict[ast.AST, frozenset[str]] = {}
         """The full names of expressions that were asked about."""
-        self._name: dict[ast.AST, str | None] = {}
-        """The only full name of expressions that were asked about."""
         self._roots: dict[tuple[str, ast.AST], frozenset[str]] = {}
         """What a name is imported as, by the scope that it is seen from."""
         self._words: dict[ast.expr, frozenset[str]] = {}
@@ -155,14 +153,33 @@ class PythonModule:
                 return parent
         return None
 
+    def calls_of(self, *functions: str) -> Sequence[ast.Call]:
+        """Return the calls of functions that certainly have these full names; see `qualified_name`.
+
+        They are in the order of the text, or of the names for several.
+        """
+        return [call for function in functions for call in self._calls.get(function, ())]
+
+    @cached_property
+    def _calls(self) -> Mapping[str, Sequence[ast.Call]]:
+        """The calls by the full name of the function."""
+        result: dict[str, list[ast.Call]] = {}
+        for call in self.walk(ast.Call):
+            name = self.qualified_name(call.func)
+            if name is not None:
+                result.setdefault(name, []).append(call)
+        return result
+
     def span(self, node: ast.AST) -> tuple[int, int]:
         """Return the offsets of a node's first character and of what follows it.
 
         Inside an f-string it is the whole string: before Python 3.12 no one knew better.
         """
-        for parent in (node, *self.parents(node)):
-            if isinstance(parent, ast.JoinedStr):
-                node = parent
+        around: ast.AST | None = node
+        while around is not None and not isinstance(around, ast.stmt):
+            if isinstance(around, ast.JoinedStr):
+                node = around
+            around = self.parent(around)
         while not hasattr(node, "lineno"):
             above = self.parent(node)
             if above is None:
@@ -356,10 +373,11 @@ class PythonModule:
         as it is; relative imports keep their dots. ``None`` for what the module makes itself
         and for what is unknown.
         """
-        if node not in self._name:
-            names = self.qualified_names(node)
-            self._name[node] = next(iter(names)) if len(names) == 1 else None
-        return self._name[node]
+        names = self.qualified_names(node)
+        if len(names) != 1:
+            return None
+        (name,) = names
+        return name
 
     def qualified_names(self, node: ast.AST) -> frozenset[str]:
         """Return all full names that an expression may have: imports in ``try`` give several.

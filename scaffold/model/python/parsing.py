@@ -61,16 +61,20 @@ class Positions:
         """Offsets of the lines as Python counts them: a lone carriage return ends one too."""
         if "\r" in self._text:
             return [0, *(at.end() for at in re.finditer(r"\r\n|\r|\n", self._text))]
-        return [0, *(at.end() for at in re.finditer("\n", self._text))]
+        return self._source.line_starts
 
     def line_span(self, line: int) -> tuple[int, int]:
         """Return the offsets of a line's first character and of its ending."""
         starts = self._starts
-        if line > len(starts):
-            return len(self._text), len(self._text)
-        start = starts[line - 1] + (self._shift if line == 1 else 0)
+        start = self._start(line)
         end = starts[line] if line < len(starts) else len(self._text)
         return start, start + len(self._text[start:end].rstrip("\r\n"))
+
+    def _start(self, line: int) -> int:
+        starts = self._starts
+        if line > len(starts):
+            return len(self._text)
+        return starts[line - 1] + (self._shift if line == 1 else 0)
 
     def line_of(self, offset: int) -> int:
         """Return the number of the line, from 1, that holds an offset."""
@@ -78,11 +82,11 @@ class Positions:
 
     def offset(self, line: int, column: int) -> int:
         """Return the offset of a line from 1 and a column in bytes from 0."""
-        start, end = self.line_span(line)
-        if not self._is_ascii:
+        start = self._start(line)
+        if not self._is_ascii and not self._text[start : start + column].isascii():
+            start, end = self.line_span(line)
             text = self._text[start:end]
-            if not text.isascii():
-                column = len(text.encode("utf-8", "replace")[:column].decode("utf-8", "ignore"))
+            column = len(text.encode("utf-8", "replace")[:column].decode("utf-8", "ignore"))
         return min(start + column, len(self._text))
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
-from bisect import bisect_left, bisect_right
+from array import array
+from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from operator import attrgetter
 from typing import TypeVar, cast
 
 from scaffold.record import NamedTuple
@@ -27,6 +28,8 @@ _NOT_NODES = frozenset(
 """Fields without nodes, or whose nodes (operators, contexts) are shared and have no place."""
 
 Node = TypeVar("Node", bound=ast.AST)
+
+_PLACE = attrgetter("lineno", "col_offset")
 
 MOST_BINDINGS = 200
 """Of one name in one scope; each lookup reads them all; with more its value is unknown."""
@@ -54,7 +57,9 @@ class ScopeIndex:
         self._parents: dict[ast.AST, ast.AST] = {}
         self._nodes: list[ast.AST] = []
         """All nodes, each before what is below it."""
-        self._numbers_of: dict[type[ast.AST], list[int]] = {}
+        self._spans: dict[ast.AST, tuple[int, int]] = {}
+        """Of nodes that hold others: their numbers, and that of the first node after them."""
+        self._numbers_of: dict[type[ast.AST], Sequence[int]] = {}
         self._by_type: defaultdict[type[ast.AST], list[ast.AST]] = defaultdict(list)
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
@@ -66,10 +71,11 @@ class ScopeIndex:
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
-        parents, by_type, nodes = self._parents, self._by_type, self._nodes
+        parents, by_type, nodes, spans = self._parents, self._by_type, self._nodes, self._spans
 
         def visit(node: ast.AST, levels: int) -> bool:
             kind = type(node)
+            first = len(nodes)
             nodes.append(node)
             by_type[kind].append(node)
             for field in _FIELDS[kind]:
@@ -86,6 +92,7 @@ class ScopeIndex:
                         by_type[inner].append(item)
                     elif not visit(item, levels - 1):
                         return False
+            spans[node] = first, len(nodes)
             return True
 
         return visit(self.tree, deepest - 1)
@@ -95,43 +102,26 @@ class ScopeIndex:
         """All nodes, each before what is below it."""
         return self._nodes
 
-    @cached_property
-    def _numbers(self) -> Mapping[ast.AST, int]:
-        return {node: number for number, node in enumerate(self._nodes)}
-
     def below(self, node: ast.AST, *kinds: type[Node]) -> Iterator[Node]:
         """Yield a node and those below it that are of some types, one type after the other.
 
         The node may be of another module, as the method of a base class is.
         """
-        first = self._numbers.get(node)
-        if first is None:
+        span = self._spans.get(node)
+        if span is None:
             yield from (inner for inner in ast.walk(node) if type(inner) in kinds)  # type: ignore[misc]
             return
-        last = self._last_number(node)
         for kind in kinds:
-            if kind not in self._numbers_of:
-                nodes = self._by_type.get(kind, [])
-                self._numbers_of[kind] = [self._numbers[item] for item in nodes]
-            numbers = self._numbers_of[kind]
-            start, end = bisect_left(numbers, first), bisect_right(numbers, last)
-            yield from cast("list[Node]", self._by_type.get(kind, [])[start:end])
+            nodes, numbers = self._by_type.get(kind, []), self._numbers(kind)
+            start, end = bisect_left(numbers, span[0]), bisect_left(numbers, span[1])
+            yield from cast("list[Node]", nodes[start:end])
 
-    def _last_number(self, node: ast.AST) -> int:
-        """Return the number of the last node below another."""
-        while True:
-            last: ast.AST | None = None
-            for field in _FIELDS[type(node)]:
-                value = getattr(node, field, None)
-                if isinstance(value, list):
-                    last = next(
-                        (item for item in reversed(value) if isinstance(item, ast.AST)), last
-                    )
-                elif isinstance(value, ast.AST):
-                    last = value
-            if last is None:
-                return self._numbers[node]
-            node = last
+    def _numbers(self, kind: type[ast.AST]) -> Sequence[int]:
+        """Return the places of the nodes of a type among all nodes."""
+        if kind not in self._numbers_of:
+            places = (number for number, node in enumerate(self._nodes) if type(node) is kind)
+            self._numbers_of[kind] = array("I", places)
+        return self._numbers_of[kind]
 
     def of_types(self, *kinds: type[Node]) -> Iterator[Node]:
         """Yield the nodes of some types, one type after the other, each before what is below it."""
@@ -141,7 +131,8 @@ class ScopeIndex:
     def all_of(self, kind: type[Node]) -> Sequence[Node]:
         """Return the nodes of a type in the order of the text."""
         if kind not in self._sorted:
-            self._sorted[kind] = sorted(self._by_type.get(kind, ()), key=_order)
+            nodes = self._by_type.get(kind, [])
+            self._sorted[kind] = sorted(nodes, key=_PLACE) if kind._attributes else nodes
         return cast("Sequence[Node]", self._sorted[kind])
 
     def names(self, name: str) -> Sequence[ast.Name]:
@@ -354,10 +345,6 @@ def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
         if isinstance(block, list):
             result.update((item, (field, number)) for number, item in enumerate(block))
     return result
-
-
-def _order(node: ast.AST) -> tuple[int, int]:
-    return getattr(node, "lineno", 0), getattr(node, "col_offset", 0)
 
 
 def children(node: ast.AST) -> Iterator[ast.AST]:
