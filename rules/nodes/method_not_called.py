@@ -192,10 +192,11 @@ _OF_THREADS = {
 
 def _is_method_of_thread(file: RclpyFile, node: ast.Attribute) -> bool:
     """Tell whether a statement only names a method of a thread, an event or a lock."""
+    if not isinstance(file.module.parent(node), ast.Expr):
+        return False
     made = file.evaluator.single_value(node.value)
     name = file.module.qualified_name(made.func) if isinstance(made, ast.Call) else None
-    is_statement = isinstance(file.module.parent(node), ast.Expr)
-    return is_statement and node.attr in _OF_THREADS.get(name or "", ())
+    return node.attr in _OF_THREADS.get(name or "", ())
 
 
 def _is_event(file: RclpyFile, node: ast.Attribute) -> bool:
@@ -244,10 +245,11 @@ def _is_condition(file: RclpyFile, node: ast.expr) -> bool:
 
 def _is_own_method(file: RclpyFile, node: ast.Attribute) -> bool:
     """Tell whether a node only names one of its own methods, and nothing replaces that."""
+    if file.evaluator.stores(node.attr) or _is_read_from(file, node):
+        return False
     owner = file.owner_of(node.value)
     function = owner.method(node.attr) if isinstance(owner, NodeClass) else None
-    is_plain = function is not None and not function.decorator_list
-    if not is_plain or file.evaluator.stores(node.attr) or _is_read_from(file, node):
+    if function is None or function.decorator_list:
         return False
     return not isinstance(file.module.parent(node), ast.Expr) or not _is_passed(file, node)
 
@@ -270,5 +272,6 @@ def _is_method_of_rclpy(file: RclpyFile, node: ast.Attribute) -> bool:
     owner = file.owner_of(node.value)
     if owner is None:
         return is_method(class_of(file, node.value) or "", node.attr)
-    is_own = hasattr(owner, "method") and owner.method(node.attr) is not None
-    return is_method(NODE, node.attr) and not is_own and not file.evaluator.stores(node.attr)
+    if not is_method(NODE, node.attr) or file.evaluator.stores(node.attr):
+        return False
+    return not hasattr(owner, "method") or owner.method(node.attr) is None

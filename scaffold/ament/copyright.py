@@ -159,9 +159,11 @@ def _line_comments(text: str, start: int) -> str:
 def _block_comment(text: str, start: int) -> str:
     """Return the lines of the first block comment without their common beginning."""
     mark = "\ufeff" if start == 0 and text[0] == "\ufeff" else ""
-    for opening, closing in ((r"/[*]", r"[*]/"), ("<!--", "-->")):
-        first = re.compile(rf"^{mark}({opening})", re.MULTILINE).search(text, start)
-        last = re.compile(rf"{closing}$", re.MULTILINE).search(text, start)
+    for opening, closing in (("/*", "*/"), ("<!--", "-->")):
+        if text.find(opening, start) < 0:
+            continue  # as in most files: the expressions look at each line
+        first = re.compile(rf"^{mark}({re.escape(opening)})", re.MULTILINE).search(text, start)
+        last = re.compile(rf"{re.escape(closing)}$", re.MULTILINE).search(text, start)
         if first is None or last is None:
             continue
         lines = text[first.start(1) : last.start()].splitlines()

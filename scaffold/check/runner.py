@@ -164,14 +164,19 @@ class Check:
         most = MAX_FINDINGS + 1
         for key, say in self._steps(rule):
             diagnostics = parts.setdefault(key, [])
-            reads = self._reads.setdefault(key, Reads())
             try:
-                with recorded(reads):
+                with recorded(self._reads_of(key)):
                     diagnostics.extend(islice(say(), most))
             except ViewError:
                 continue  # what the rule needs is not there
             most -= len(diagnostics)
             self._is_whole &= most > 0  # else other files decide what is omitted
+
+    def _reads_of(self, key: str) -> Reads:
+        """Return the record of what a part looks at."""
+        if key not in self._reads:
+            self._reads[key] = Reads()
+        return self._reads[key]
 
     def _steps(self, rule: Rule) -> Iterator[tuple[str, Callable[[], Iterable[Diagnostic]]]]:
         """Yield what is to be run of a rule, each step with the part that it belongs to."""
@@ -182,7 +187,7 @@ class Check:
         for path in rule.paths(package):
             key = f"{rule.code} {path}" if rule.looks_further else path
             if key not in self._kept:
-                self._reads.setdefault(key, Reads()).files.add(package.full_path(path))
+                self._reads_of(key).files.add(package.full_path(path))
                 yield key, lambda path=path: rule.check_path(package, path)  # type: ignore[misc]
 
 

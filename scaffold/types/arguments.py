@@ -16,7 +16,7 @@ from scaffold.types import containers, makers, returns
 from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.callbacks import arguments_of, function_body
 from scaffold.types.passed import Passed, own_names, places
-from scaffold.types.statements import statement_around
+from scaffold.types.statements import class_starts, definitions, statement_around
 
 _GIVEN = "_ros2_given"
 _EITHER = "_ros2_either"
@@ -168,9 +168,9 @@ def _follow(
 
 def _functions(text: str) -> Iterator[_Function]:
     """Yield the functions of a file that have no decorator."""
-    classes = [*_class_starts(text), len(text)]
+    classes = [*class_starts(text), len(text)]
     at = 0
-    for match in _FUNCTION.finditer(text):
+    for match in definitions(_FUNCTION, text):
         while classes[at] <= match.start():
             at += 1
         decorator = _decorator(text, match.start())
@@ -201,15 +201,6 @@ def _is_unique(text: str, function: _Function) -> bool:
     name = function.called.removeprefix("self.")
     class_ = name.removesuffix("(")
     return sum(map(text.count, (f"def {name}", f"class {name}", f"class {class_}:"))) == 1
-
-
-def _class_starts(text: str) -> Iterator[int]:
-    if text.startswith("class "):
-        yield 0
-    at = text.find("\nclass ")
-    while at >= 0:
-        yield at + 1
-        at = text.find("\nclass ", at + 1)
 
 
 def _decorator(text: str, start: int) -> str:

@@ -186,9 +186,12 @@ def function_body(segment: str, start: int, end: int) -> str:
     """Return the lines of a function: those that are indented further than its ``def``."""
     line = segment.rfind("\n", 0, start) + 1
     indent = re.match(r"[ \t]*", segment[line:start])
-    after = re.compile(rf"^(?!{indent[0] if indent else ''}[ \t]|[ \t]*(?:#|$))", re.MULTILINE)
-    last = after.search(segment, segment.find("\n", end) + 1)
-    return segment[end : last.start() if last else len(segment)]
+    after = re.compile(rf"\n(?!{indent[0] if indent else ''}[ \t]|[ \t]*(?:#|$))", re.MULTILINE)
+    first = segment.find("\n", end)
+    last = after.search(segment, first) if first >= 0 else None
+    if last is None:
+        return segment[end:] if first >= 0 else ""
+    return segment[end : last.start() + 1]
 
 
 def _name(parameter: str) -> str:

@@ -13,10 +13,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from scaffold.record import NamedTuple
 from scaffold.types.callbacks import arguments_of, function_body
 from scaffold.types.results import expression_at
-from scaffold.types.statements import statement_around
+from scaffold.types.statements import class_starts, mentions, statement_around
 
 _MADE = re.compile(
-    r"^(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
+    r"\n(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
     r"\{\}|\[\]|dict\(\)|list\(\)|(?:collections\.)?deque\([^()\n]{0,80}\)"
     r"|\{[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
     re.MULTILINE,
@@ -71,7 +71,7 @@ def kept_values(text: str) -> Iterator[Kept]:
     if not found:
         return
     made: dict[tuple[str, int, int], list[re.Match[str]]] = {}
-    starts = [*_segment_starts(text), len(text)]
+    starts = [*class_starts(text), len(text)]
     at = 0
     for match in found:
         while starts[at] <= match.start():
@@ -131,13 +131,14 @@ def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
     There is nothing if that is not sure, or if what is put into it has no name of its own.
     """
     result: list[tuple[int, str]] = []
-    for match in re.compile(rf"(?<![\w.]){re.escape(name)}\b").finditer(text, start, end):
-        found = _addition(text, match)
+    for at in mentions(text, name, start, end):
+        after = at + len(name)
+        found = _addition(text, at, after)
         if found is None:
             return []
         if not found[1]:
             continue
-        place = statement_around(text, match.start(), match.end())
+        place = statement_around(text, at, after)
         if place < 0 or _OTHER_SCOPE.search(found[1]):
             return []
         result.append((place, found[1]))
@@ -146,12 +147,16 @@ def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
     return result
 
 
-def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
+def _addition(text: str, start: int, end: int) -> tuple[int, str] | None:
     """Return where a value ends that is put into a container and the value, empty for a reading.
 
     ``None`` for what may be anything.
+
+    Args:
+        text: The file.
+        start: Where the container is named.
+        end: Where its name ends.
     """
-    end = match.end()
     method = _METHOD.match(text, end)
     if method is not None:
         if method[1] in _ADDING:
@@ -161,15 +166,15 @@ def _addition(text: str, match: re.Match[str]) -> tuple[int, str] | None:
         return (end, "") if method[1] in _READING else None
     after = text[end : end + 1]
     if after == "[":
-        end = _closed(text, end)
+        opened, end = end, _closed(text, end)
         if not end or _CHANGED.match(text, end):
             return None
         set_ = _SET.match(text, end)
         value = expression_at(text, set_.end()) if set_ else ""
-        key = text[match.end() + 1 : end - 1]
-        return None if _are_parameters(text, match.start(), key, value) else (end, value)
-    line = text.rfind("\n", 0, match.start()) + 1
-    before = text[line : match.start()]
+        key = text[opened + 1 : end - 1]
+        return None if _are_parameters(text, start, key, value) else (end, value)
+    line = text.rfind("\n", 0, start) + 1
+    before = text[line:start]
     if not before.strip() and _SET.match(text, end):
         return end, ""
     is_read = after in {"}", "!"} or _READ.search(before) is not None
@@ -202,10 +207,6 @@ def _closed(text: str, start: int) -> int:
         elif character in "\n'\"#" and character in "\n#":
             return 0
     return 0
-
-
-def _segment_starts(text: str) -> Iterator[int]:
-    yield from (match.start() for match in re.finditer(r"^class ", text, re.MULTILINE))
 
 
 def _function_around(text: str, place: int, indent: int) -> tuple[int, int]:

@@ -143,8 +143,8 @@ def write_files(top: str, files: dict[str, str]) -> None:
     for folder in {os.path.dirname(path) for path in files}:
         os.makedirs(os.path.join(top, folder), exist_ok=True)
     for path, text in files.items():
-        with open(os.path.join(top, path), "w", encoding="utf-8", newline="") as file:
-            file.write(text)
+        with open(os.path.join(top, path), "wb") as file:
+            file.write(text.encode())
 
 
 def trim(kept: str) -> None:

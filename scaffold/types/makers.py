@@ -23,6 +23,7 @@ from typing import TypeVar as _Ros2MadeVar
 _PARAMETER = re.compile(r"(?:^\(|,)\s*([^\W\d]\w*)")
 _HEAD = re.compile(r"def \w+(\([^\n]*)")
 _PARAMETERS = re.compile(r"[(,][ ]?(\w+)(?=[,:=) ])")
+_MAKING = re.compile(r"(?:return|=) (\w+)\(")
 _CALLED = r"\breturn[ \t]+{0}\(|=[ \t]*{0}\("
 
 
@@ -46,7 +47,7 @@ def generic_heads(text: str) -> Mapping[int, list[str]]:
 def _has_called_parameter(text: str) -> bool:
     """Tell whether the name of a parameter is called anywhere: in most files none is."""
     names = {name for head in _HEAD.findall(text) for name in _PARAMETERS.findall(head)}
-    return any(f"return {name}(" in text or f"= {name}(" in text for name in names)
+    return not names.isdisjoint(_MAKING.findall(text))
 
 
 def definitions() -> str:

@@ -11,6 +11,7 @@ from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 from scaffold.types.sources import imported_names
+from scaffold.types.statements import mentions
 
 _OPENED = re.compile(r"(\.\w+)?\(")
 _METHOD = re.compile(r"\.(\w+)\(")
@@ -69,7 +70,7 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
     """
     made: dict[str, set[str]] = {}
     for local, name in names.items():
-        for start in _mentions(text, local):
+        for start in mentions(text, local):
             opened = _OPENED.match(text, start + len(local))
             if opened is None:
                 continue
@@ -87,7 +88,7 @@ def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
     """Yield the calls of methods of a variable or attribute, unless it may be another object."""
     found: list[Place] = []
     times_set = 0
-    for start in _mentions(text, name):
+    for start in mentions(text, name):
         end = start + len(name)
         called = _METHOD.match(text, end)
         if called is not None:
@@ -98,16 +99,6 @@ def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
             return
     if times_set == 1:
         yield from found
-
-
-def _mentions(text: str, name: str) -> Iterator[int]:
-    """Yield where a name is, alone and not as a part or an attribute of others."""
-    at = text.find(name)
-    while at >= 0:
-        before, after = text[at - 1 : at] if at else "", text[at + len(name) : at + len(name) + 1]
-        if not (before.isalnum() or before in {"_", "."} or after.isalnum() or after == "_"):
-            yield at
-        at = text.find(name, at + 1)
 
 
 def module_of(package: Package, path: str) -> str:

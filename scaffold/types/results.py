@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from scaffold.types.callbacks import function_body
+from scaffold.types.statements import definitions
 
 _ANY = "_Ros2Any"
 _FUNCTION = re.compile(
@@ -59,7 +60,7 @@ def functions(text: str) -> Iterator[re.Match[str]]:
     They have ``indent``, ``name`` and ``parameters``, these with their brackets.
     """
     count = Counter(_NAMED.findall(text))
-    for match in _FUNCTION.finditer(text):
+    for match in definitions(_FUNCTION, text):
         if _is_decorated(text, match.start()):
             continue
         if match["indent"] and count[match["name"]] > 1:

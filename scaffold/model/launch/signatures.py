@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 
 from scaffold.record import NamedTuple
 
@@ -91,6 +92,7 @@ class Signature(NamedTuple):
     required: tuple[str, ...]
 
 
+@cache
 def signature(kind: str) -> Signature | None:
     """Return the arguments of a class of launch; ``None`` for one that is not known."""
     text = _ACTIONS.get(kind, _OTHERS.get(kind))

@@ -396,6 +396,8 @@ class PythonModule:
             node = node.value
         if not isinstance(node, ast.Name):
             return frozenset()
+        if node.id not in self._imported_names and not hasattr(builtins, node.id):
+            return frozenset()
         key = node.id, self.index.scope_of(node)
         if key not in self._roots:
             self._roots[key] = self._imported_as(node)
@@ -403,6 +405,12 @@ class PythonModule:
         if not parts:
             return roots
         return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)
+
+    @cached_property
+    def _imported_names(self) -> frozenset[str]:
+        """All names that an import binds somewhere."""
+        aliases = self.walk(ast.alias)
+        return frozenset(item.asname or item.name.partition(".")[0] for item in aliases)
 
     def _imported_as(self, node: ast.Name) -> frozenset[str]:
         lookup = self.index.lookup(node.id, node)

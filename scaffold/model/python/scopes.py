@@ -15,7 +15,7 @@ from scaffold.record import NamedTuple
 FunctionNode = ast.FunctionDef | ast.AsyncFunctionDef
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 _COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
-_SCOPES = (ast.Module, ast.ClassDef, ast.Lambda, *_FUNCTIONS, *_COMPREHENSIONS)
+_SCOPES = frozenset({ast.Module, ast.ClassDef, ast.Lambda, *_FUNCTIONS, *_COMPREHENSIONS})
 
 _LEAVES = frozenset(
     {ast.Constant, ast.Name, ast.alias, ast.Pass, ast.Break, ast.Continue, ast.Global}
@@ -183,22 +183,24 @@ class ScopeIndex:
         return self._find_scope(node) if scope is None else scope
 
     def _find_scope(self, node: ast.AST) -> ast.AST:
-        around = self._around
+        around, parents = self._around, self._parents
         inside: list[ast.AST] = []
         while node not in around:
             inside.append(node)
-            parent = self._parents.get(node, self.tree)
-            if isinstance(parent, _SCOPES) and _is_inside(parent, node):
+            parent = parents.get(node, self.tree)
+            if type(parent) in _SCOPES and _is_inside(parent, node):
                 around[node] = parent
+            elif type(parent) is ast.comprehension and self._is_first_iterable(parent, node):
+                node = parents[parent]
             else:
-                node = self._parents[parent] if self._is_first_iterable(parent, node) else parent
+                node = parent
         scope = around[node]
         around.update(dict.fromkeys(inside, scope))
         return scope
 
-    def _is_first_iterable(self, generator: ast.AST, node: ast.AST) -> bool:
+    def _is_first_iterable(self, generator: ast.comprehension, node: ast.AST) -> bool:
         """Tell whether a node is what a comprehension goes over first, evaluated around it."""
-        if not isinstance(generator, ast.comprehension) or node is not generator.iter:
+        if node is not generator.iter:
             return False
         holder = self._parents[generator]
         return isinstance(holder, _COMPREHENSIONS) and holder.generators[0] is generator

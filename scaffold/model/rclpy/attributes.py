@@ -198,7 +198,7 @@ def _given_in(package: Package, path: str) -> frozenset[str]:
     return frozenset(
         node.attr
         for node in package.module(path).walk(ast.Attribute)
-        if isinstance(node.ctx, ast.Store)
+        if type(node.ctx) is ast.Store
         and isinstance(node.value, ast.Name)
         and node.value.id != "self"
     )
