@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, PythonRule, Report
@@ -42,7 +41,7 @@ class ModuleCalled(PythonRule):
     def check_file(self, module: PythonModule) -> Iterator[Diagnostic]:
         if not any(item in module.imports_by_root for item in _MODULES):
             return
-        for name in _MODULES:
+        for name, function in _MODULES.items():
             for call in module.calls_of(name):
-                message = f"{name!r} is a module here: TypeError; use {_MODULES[name]}()"
+                message = f"{name!r} is a module here: TypeError; use {function}()"
                 yield self.report(module.location(call.func), message)

@@ -145,7 +145,7 @@ class NameGone(PythonRule):
         if not module.imports_by_root.keys() & {"numpy", "PIL", "scipy", "cv2", "yaml"}:
             return
         for node in module.walk(ast.Attribute):
-            name = module.qualified_name(node) or ""
+            name = (module.qualified_name(node) if node.attr in _ATTRIBUTES else None) or ""
             if name not in _GONE and not name.startswith("numpy."):
                 continue
             short = name.removeprefix("numpy.")
@@ -171,6 +171,10 @@ class NameGone(PythonRule):
             if loads and not is_handled(module, call, "TypeError"):
                 message = "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"
                 yield self.report(module.location(call), message)
+
+
+_ATTRIBUTES = frozenset(name.rpartition(".")[2] for name in (*_GONE, *_LATER))
+"""The last parts of the names, as few other attributes are called."""
 
 
 def _numpy() -> tuple[int, ...]:

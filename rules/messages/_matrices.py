@@ -105,9 +105,11 @@ def _elements_of(types: MessageTypes, matrix: ast.expr) -> int:
 def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
     """Return the right shape where data of a message is reshaped with its width first."""
     module = types.module
+    if not isinstance(call.func, ast.Attribute) or call.func.attr != "reshape":
+        return ""
     shape = call.args[0].elts if call.args and isinstance(call.args[0], ast.Tuple) else call.args
-    match call.func, [types.facts.evaluator.single_value(item) for item in shape[:2]]:
-        case ast.Attribute(attr="reshape"), [
+    match [types.facts.evaluator.single_value(item) for item in shape[:2]]:
+        case [
             ast.Attribute(attr="width", value=first),
             ast.Attribute(attr="height", value=second),
         ] if module.text(first) == module.text(second) and _has_rows(types, first):

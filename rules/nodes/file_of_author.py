@@ -76,7 +76,11 @@ class FileOfAuthor(RclpyRule):
             if re.fullmatch(_HOME, text):
                 message = f"{text!r} exists only on the author's machine"
                 yield self.report(module.location(call.args[0]), message)
-            elif module.qualified_name(call.func) == "open" and _reads(call) and _is_in(package, text):
+            elif (
+                module.qualified_name(call.func) == "open"
+                and _reads(call)
+                and _is_in(package, text)
+            ):
                 message = (
                     f"{text!r} is relative to the directory of the shell, not the package; "
                     "use get_package_share_directory()"

@@ -73,18 +73,18 @@ class FloatAsIndex(PythonRule):
                     message = "a float cannot bound a slice: TypeError; divide with //"
                     if not is_handled(module, node, "TypeError"):
                         yield self.report(module.location(bound), message)
-        for call in module.walk(ast.Call):
-            if isinstance(call.func, ast.Name) and module.qualified_name(call.func) == "range":
-                for given in call.args:
-                    if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
-                        message = "range() takes no float: TypeError; divide with //"
-                        yield self.report(module.location(given), message)
+        for call in module.calls_of("range"):
+            for given in call.args:
+                if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
+                    message = "range() takes no float: TypeError; divide with //"
+                    yield self.report(module.location(given), message)
 
 
 def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
     """Tell whether a slice is one of pandas, between labels of any kind."""
     subscript = next((x for x in module.parents(node) if isinstance(x, ast.Subscript)), None)
-    return subscript is not None and ast.unparse(subscript.value).endswith(".loc")
+    holder = subscript.value if subscript is not None else None
+    return isinstance(holder, ast.Attribute) and holder.attr == "loc"
 
 
 def _is_quotient(file: RclpyFile, node: ast.expr) -> bool:

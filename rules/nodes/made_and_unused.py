@@ -264,7 +264,9 @@ def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
         made = [
             _MADE.get(call.func.attr, "")
             for call in file.calls_in(method)
-            if isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) == "self"
+            if isinstance(call.func, ast.Attribute)
+            and isinstance(call.func.value, ast.Name)
+            and call.func.value.id == "self"
         ]
         created = [kind for kind in made if kind]
         if created:

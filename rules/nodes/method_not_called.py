@@ -154,7 +154,9 @@ class MethodNotCalled(RclpyRule):
         if package.name == "rclpy":
             return
         for node in file.module.walk(ast.Attribute):
-            if not isinstance(node.ctx, ast.Load) or not _needs_value(file, node):
+            if type(file.module.parent(node)) not in _PLACES or not isinstance(node.ctx, ast.Load):
+                continue
+            if not _needs_value(file, node):
                 continue
             if file.module.qualified_name(node) == "rclpy.ok":
                 message = "rclpy.ok is a function: always true; write rclpy.ok()"
@@ -172,6 +174,12 @@ class MethodNotCalled(RclpyRule):
             elif _is_method_of_rclpy(file, node) or _is_own_method(file, node):
                 message = f"{node.attr!r} is a method that is not called; write {node.attr}()"
                 yield self.report(file.module.location(node), message, severity=_level(file, node))
+
+
+_PLACES = frozenset(
+    {ast.Attribute, ast.BoolOp, ast.Compare, ast.Expr, ast.If, ast.IfExp, ast.UnaryOp, ast.While}
+)
+"""Where a method that is not called may make no sense."""
 
 
 def _level(file: RclpyFile, node: ast.Attribute) -> Severity:

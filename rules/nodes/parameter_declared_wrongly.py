@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from itertools import chain
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report
 from scaffold.api.python import UNKNOWN, is_handled
@@ -130,9 +131,9 @@ class ParameterDeclaredWrongly(RclpyRule):
                     yield self.report(file.module.location(node), problem)
 
     def _check_made(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for call in file.module.walk(ast.Call):
-            for node, problem in _problems_made(file, call):
-                yield self.report(file.module.location(node), problem)
+        made = (_made(file, call) for call in file.module.calls_of(PARAMETER, "rclpy.Parameter"))
+        for node, problem in (*chain.from_iterable(made), *_listed(file)):
+            yield self.report(file.module.location(node), problem)
 
 
 def _problems(file: RclpyFile, parameter: Parameter) -> Iterator[tuple[ast.expr, str]]:
@@ -173,18 +174,18 @@ def _descriptor_problem(file: RclpyFile, parameter: Parameter, node: ast.expr) -
     return ""
 
 
-def _problems_made(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:
-    name = file.module.qualified_name(call.func) or ""
-    if name in {PARAMETER, "rclpy.Parameter"}:
-        yield from _made(file, call)
-    match call.func:
-        case ast.Attribute(attr="declare_parameters", value=owner):
-            listed = call.args[1] if len(call.args) > 1 else None
-            if isinstance(listed, ast.List) and file.owner_of(owner) is not None:
-                for item in listed.elts:
-                    if isinstance(item, ast.Constant):
-                        yield item, "expected a pair ('name', default): TypeError"
-                        break
+def _listed(file: RclpyFile) -> Iterator[tuple[ast.AST, str]]:
+    """Yield the first parameter of each list that has no default."""
+    for called in file.module.index.attributes("declare_parameters"):
+        call = file.module.parent(called)
+        if not isinstance(call, ast.Call) or call.func is not called:
+            continue
+        listed = call.args[1] if len(call.args) > 1 else None
+        if isinstance(listed, ast.List) and file.owner_of(called.value) is not None:
+            for item in listed.elts:
+                if isinstance(item, ast.Constant):
+                    yield item, "expected a pair ('name', default): TypeError"
+                    break
 
 
 def _made(file: RclpyFile, call: ast.Call) -> Iterator[tuple[ast.AST, str]]:

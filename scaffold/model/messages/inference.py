@@ -112,7 +112,8 @@ class MessageTypes:
         self.facts = file
         self.module = file.module
         self.definitions = definitions
-        self._types: dict[ast.AST, FieldType | MessageClass | None] = {}
+        self._types: dict[object, FieldType | MessageClass | None] = {}
+        """By the expression; of a name by itself and its scope."""
         self._classes: dict[ast.expr, MessageClass | None] = {}
         self._depth = 0
 
@@ -179,14 +180,17 @@ class MessageTypes:
 
     def _type(self, node: ast.expr) -> FieldType | MessageClass | None:
         """Return the message an expression is, or the type of the field it reads."""
-        if node not in self._types:
+        key: object = node
+        if isinstance(node, ast.Name):
+            key = node.id, self.module.index.scope_of(node)
+        if key not in self._types:
             if self._depth > _DEPTH:
                 return None
-            self._types[node] = None  # ends the recursion of what is assigned to itself
+            self._types[key] = None  # ends the recursion of what is assigned to itself
             self._depth += 1
-            self._types[node] = self._infer(node)
+            self._types[key] = self._infer(node)
             self._depth -= 1
-        return self._types[node]
+        return self._types[key]
 
     def _infer(self, node: ast.expr) -> FieldType | MessageClass | None:
         match node:

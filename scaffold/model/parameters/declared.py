@@ -191,7 +191,8 @@ def _passed_on(file: RclpyFile) -> frozenset[ast.ClassDef]:
     receivers: set[ast.ClassDef] = set()
     for call in file.module.walk(ast.Call):
         given = [*call.args, *(word.value for word in call.keywords)]
-        classes = {class_ for item in given if (class_ := file.evaluator.self_class(item))}
+        names = [item for item in given if isinstance(item, ast.Name)]
+        classes = {class_ for item in names if (class_ := file.evaluator.self_class(item))}
         if classes:
             name = file.module.qualified_name(call.func) or ""
             is_super = isinstance(call.func, ast.Attribute) and call.func.attr == "__init__"

@@ -50,11 +50,13 @@ class Shutdowns:
 
 def used_of_executor(file: RclpyFile, call: ast.Call) -> dict[str, ast.AST] | None:
     """Return what is used of an executor that never leaves a local variable."""
-    name = file.module.qualified_name(call.func) or ""
     parent = file.module.parent(call)
+    if not isinstance(parent, ast.Assign):
+        return None
+    name = file.module.qualified_name(call.func) or ""
     if not name.startswith("rclpy.executors.") or not name.endswith("Executor"):
         return None
-    if not isinstance(parent, ast.Assign) or not isinstance(parent.targets[0], ast.Name):
+    if not isinstance(parent.targets[0], ast.Name):
         return None
     variable = parent.targets[0]
     scope = file.module.index.lookup(variable.id, variable)

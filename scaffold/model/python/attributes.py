@@ -41,17 +41,20 @@ class AttributeEvaluator(Evaluator):
         super().__init__(module)
         self.related = related
         self._stores: dict[str, list[Store]] | None = None
-        self._classes: dict[ast.Name, ast.ClassDef | None] = {}
+        self._classes: dict[tuple[str, ast.AST], ast.ClassDef | None] = {}
+        """By name and scope."""
         self._values: dict[tuple[ast.ClassDef, str], Sequence[ast.expr] | None] = {}
-        self._single: dict[ast.expr, ast.expr] = {}
+        self._single: dict[ast.expr | tuple[str, ast.AST], ast.expr | None] = {}
+        """By name and scope, or by the attribute; ``None`` for what is nothing else."""
 
     def self_class(self, node: ast.expr) -> ast.ClassDef | None:
         """Return the class whose instance a name such as ``self`` is."""
         if not isinstance(node, ast.Name):
             return None
-        if node not in self._classes:
-            self._classes[node] = self._class_of(node)
-        return self._classes[node]
+        key = node.id, self.module.index.scope_of(node)
+        if key not in self._classes:
+            self._classes[key] = self._class_of(node)
+        return self._classes[key]
 
     def _class_of(self, node: ast.Name) -> ast.ClassDef | None:
         lookup = self.module.index.lookup(node.id, node)
@@ -148,11 +151,15 @@ class AttributeEvaluator(Evaluator):
 
         ``None`` does not count: who uses the object waits for the other assignment.
         """
-        if not isinstance(node, ast.Name | ast.Attribute):
+        key: ast.expr | tuple[str, ast.AST] = node
+        if isinstance(node, ast.Name):
+            key = node.id, self.module.index.scope_of(node)
+        elif not isinstance(node, ast.Attribute):
             return node
-        if node not in self._single:
-            self._single[node] = self._follow(node)
-        return self._single[node]
+        if key not in self._single:
+            value = self._follow(node)
+            self._single[key] = None if value is node else value
+        return self._single[key] or node
 
     def values(self, node: ast.Name | ast.Attribute) -> Sequence[ast.expr]:
         """Return all that a name or an attribute of ``self`` is assigned, ``None`` aside.

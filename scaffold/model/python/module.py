@@ -71,6 +71,8 @@ class PythonModule:
         """The full names of expressions that were asked about."""
         self._roots: dict[tuple[str, ast.AST], frozenset[str]] = {}
         """What a name is imported as, by the scope that it is seen from."""
+        self._attributes: dict[tuple[frozenset[str], str], frozenset[str]] = {}
+        """The full names of attributes, by those of what they begin with and the rest."""
         self._words: dict[ast.expr, frozenset[str]] = {}
         self._mentions: dict[str, bool] = {}
 
@@ -402,9 +404,14 @@ class PythonModule:
         if key not in self._roots:
             self._roots[key] = self._imported_as(node)
         roots = self._roots[key]
-        if not parts:
+        if not parts or not roots:
             return roots
-        return frozenset(root + (parts[1:] if root.endswith(".") else parts) for root in roots)
+        whole = roots, parts
+        if whole not in self._attributes:
+            self._attributes[whole] = frozenset(
+                root + (parts[1:] if root.endswith(".") else parts) for root in roots
+            )
+        return self._attributes[whole]
 
     @cached_property
     def _imported_names(self) -> frozenset[str]:

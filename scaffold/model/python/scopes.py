@@ -7,6 +7,7 @@ from array import array
 from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from operator import attrgetter
 from typing import TypeVar, cast
 
@@ -29,6 +30,7 @@ _NOT_NODES = frozenset(
 
 Node = TypeVar("Node", bound=ast.AST)
 
+_STATEMENTS = frozenset({ast.Module, *ast.stmt.__subclasses__()})
 _PLACE = attrgetter("lineno", "col_offset")
 
 MOST_BINDINGS = 200
@@ -58,9 +60,10 @@ class ScopeIndex:
         self._nodes: list[ast.AST] = []
         """All nodes, each before what is below it."""
         self._spans: dict[ast.AST, tuple[int, int]] = {}
-        """Of nodes that hold others: their numbers, and that of the first node after them."""
-        self._numbers_of: dict[type[ast.AST], Sequence[int]] = {}
-        self._by_type: defaultdict[type[ast.AST], list[ast.AST]] = defaultdict(list)
+        """Of statements: their numbers, and that of the first node after what is in them."""
+        self._numbers: defaultdict[type[ast.AST], array[int]] = defaultdict(partial(array, "I"))
+        """By type."""
+        self._by_type: dict[type[ast.AST], list[ast.AST]] = {}
         self._sorted: dict[type[ast.AST], Sequence[ast.AST]] = {}
         self._scopes: dict[ast.AST, dict[str, list[Binding]]] | None = None
         self._around: dict[ast.AST, ast.AST] = {tree: tree}
@@ -71,13 +74,13 @@ class ScopeIndex:
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
-        parents, by_type, nodes, spans = self._parents, self._by_type, self._nodes, self._spans
+        parents, numbers, nodes, spans = self._parents, self._numbers, self._nodes, self._spans
 
         def visit(node: ast.AST, levels: int) -> bool:
             kind = type(node)
             first = len(nodes)
             nodes.append(node)
-            by_type[kind].append(node)
+            numbers[kind].append(first)
             for field in _FIELDS[kind]:
                 value = getattr(node, field, None)
                 for item in value if type(value) is list else (value,):
@@ -88,11 +91,12 @@ class ScopeIndex:
                         return False
                     inner = type(item)
                     if not _FIELDS[inner]:  # as half of all nodes: spare them a call
+                        numbers[inner].append(len(nodes))
                         nodes.append(item)
-                        by_type[inner].append(item)
                     elif not visit(item, levels - 1):
                         return False
-            spans[node] = first, len(nodes)
+            if kind in _STATEMENTS:
+                spans[node] = first, len(nodes)
             return True
 
         return visit(self.tree, deepest - 1)
@@ -109,30 +113,32 @@ class ScopeIndex:
         """
         span = self._spans.get(node)
         if span is None:
-            yield from (inner for inner in ast.walk(node) if type(inner) in kinds)  # type: ignore[misc]
+            inside = [*_inside(node)]
+            for kind in kinds:
+                yield from (inner for inner in inside if type(inner) is kind)
             return
         for kind in kinds:
-            nodes, numbers = self._by_type.get(kind, []), self._numbers(kind)
+            numbers = self._numbers.get(kind, ())
             start, end = bisect_left(numbers, span[0]), bisect_left(numbers, span[1])
-            yield from cast("list[Node]", nodes[start:end])
+            yield from self._of_type(kind)[start:end]
 
-    def _numbers(self, kind: type[ast.AST]) -> Sequence[int]:
-        """Return the places of the nodes of a type among all nodes."""
-        if kind not in self._numbers_of:
-            places = (number for number, node in enumerate(self._nodes) if type(node) is kind)
-            self._numbers_of[kind] = array("I", places)
-        return self._numbers_of[kind]
+    def _of_type(self, kind: type[Node]) -> list[Node]:
+        """Return the nodes of a type, each before what is below it."""
+        if kind not in self._by_type:
+            self._by_type[kind] = [self._nodes[number] for number in self._numbers.get(kind, ())]
+        return cast("list[Node]", self._by_type[kind])
 
     def of_types(self, *kinds: type[Node]) -> Iterator[Node]:
         """Yield the nodes of some types, one type after the other, each before what is below it."""
         for kind in kinds:
-            yield from cast("list[Node]", self._by_type.get(kind, ()))
+            yield from self._of_type(kind)
 
     def all_of(self, kind: type[Node]) -> Sequence[Node]:
         """Return the nodes of a type in the order of the text."""
         if kind not in self._sorted:
-            nodes = self._by_type.get(kind, [])
-            self._sorted[kind] = sorted(nodes, key=_PLACE) if kind._attributes else nodes
+            nodes = self._of_type(kind)
+            has_places = bool(nodes) and hasattr(nodes[0], "lineno")
+            self._sorted[kind] = sorted(nodes, key=_PLACE) if has_places else nodes
         return cast("Sequence[Node]", self._sorted[kind])
 
     def names(self, name: str) -> Sequence[ast.Name]:
@@ -347,6 +353,15 @@ def _places(parent: ast.AST) -> dict[ast.AST, tuple[str, int]]:
         if isinstance(block, list):
             result.update((item, (field, number)) for number, item in enumerate(block))
     return result
+
+
+def _inside(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield a node and those below it, each before what is below it."""
+    pending = [node]
+    while pending:
+        node = pending.pop()
+        yield node
+        pending += reversed([*children(node)])
 
 
 def children(node: ast.AST) -> Iterator[ast.AST]:
