@@ -92,19 +92,22 @@ class Signature(NamedTuple):
     required: tuple[str, ...]
 
 
-@cache
 def signature(kind: str) -> Signature | None:
     """Return the arguments of a class of launch; ``None`` for one that is not known."""
-    text = _ACTIONS.get(kind, _OTHERS.get(kind))
-    if text is None:
-        return None
+    return _signatures().get(kind)
+
+
+@cache
+def _signatures() -> Mapping[str, Signature]:
+    of_actions = {kind: _read(text, "condition") for kind, text in _ACTIONS.items()}
+    return {kind: _read(text) for kind, text in _OTHERS.items()} | of_actions
+
+
+def _read(text: str, *more: str) -> Signature:
     first, _, _ = text.partition("/")
     names = [name for name in text.split() if name != "/"]
-    parameters = {name.rstrip("*") for name in names} | (
-        {"condition"} if kind in _ACTIONS else set()
-    )
     return Signature(
         tuple(name.rstrip("*") for name in first.split()),
-        frozenset(parameters),
+        frozenset((*more, *(name.rstrip("*") for name in names))),
         tuple(name[:-1] for name in names if name.endswith("*")),
     )
