@@ -239,6 +239,8 @@ def _parse(output: bytes) -> Iterator[tuple[str, TyDiagnostic]]:
             place = entry["location"]["positions"]
             begin, end = place["begin"], place["end"]
             kind = entry["check_name"]
+            if kind == "panic":  # in some file, and the others were left out
+                raise CrashError(f"ty failed: {entry['description']}")
             yield (
                 entry["location"]["path"],
                 TyDiagnostic(

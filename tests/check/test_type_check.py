@@ -461,6 +461,19 @@ def _replace(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str) -> No
 
 
 VERSION = f'[ "$1" = --version ] && echo ty {ty.VERSION} && exit\n'
+PANIC = json.dumps(
+    [
+        {
+            "check_name": "panic",
+            "description": "panic: too many cycles",
+            "location": {
+                "path": "",
+                "positions": {"begin": {"line": 1, "column": 1}, "end": {"line": 1, "column": 1}},
+            },
+        }
+    ]
+)
+"""What ty reports if it stumbles over a file; it leaves the others out, and exits with 0."""
 
 
 @pytest.mark.parametrize(
@@ -469,11 +482,15 @@ VERSION = f'[ "$1" = --version ] && echo ty {ty.VERSION} && exit\n'
         ("echo ty 0.0.1", "version 0.0.1"),
         (f"{VERSION}exit 101", "exit status 101"),
         (f"{VERSION}kill -SEGV $$", "exit status -11"),
+        (f"{VERSION}echo '{PANIC}'", "too many cycles"),
         (f"{VERSION}echo nonsense", "cannot be read"),
         (f"{VERSION}exec sleep 600", "did not finish"),
         (f"{VERSION}exec yes", "did not finish"),
     ],
-    ids=["another version", "fails", "crashes", "says nonsense", "hangs", "never stops writing"],
+    ids=[
+        *("another version", "fails", "crashes", "panics", "says nonsense", "hangs"),
+        "never stops writing",
+    ],
 )
 def test_without_the_type_checker_the_rest_is_checked(
     source: Path,
