@@ -15,8 +15,9 @@ from scaffold.ament.python_text.quick_tokens import QUOTED
 from scaffold.ament.python_text.tokens import FSTRING_START
 from scaffold.record import NamedTuple
 
-_MUTED = re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}", re.DOTALL)
-"""Comments and string literals, the latter without their prefixes."""
+_MUTED = re.compile(rf"#[^\n]*|{'|'.join(QUOTED)}|['\"]", re.DOTALL)
+"""Comments and string literals, the latter without their prefixes. From Python 3.12 on, fields of
+an f-string may have line breaks: then there is one of its quotes alone."""
 _PREFIX = re.compile(r"(?:^|\W)([rRbBuUfF]{1,2})\Z")
 """What is ahead of the quotes of a string, at the end of three characters."""
 _FIELD = re.compile(
@@ -72,6 +73,8 @@ class _Mute:
         literal = match[0]
         if literal[0] == "#":
             return "#"
+        if len(literal) == 1:
+            raise _UnsureError
         start, end = match.span()
         prefix = ""
         if match.string[start - 1 : start].isalpha():
