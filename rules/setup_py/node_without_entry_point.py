@@ -104,7 +104,8 @@ class NodeWithoutEntryPoint(Rule):
                     f"add '{stem} = {name}:main'"
                 )
                 severity = Severity.ERROR if _is_named(package, stem) else Severity.WARNING
-                yield self.report(keyword, message, severity=severity)
+                cause = f"nodes without entry points: {severity.value}"
+                yield self.report(keyword, message, severity=severity, cause=cause)
 
 
 def _nodes(package: Package) -> Iterator[tuple[str, tuple[str, ...], bool]]:
