@@ -78,7 +78,7 @@ def test_types_of_packages_that_are_not_known_are_left_to_the_build() -> None:
 
 def test_a_type_that_the_package_lacks() -> None:
     given = {"kind": "message", "name": "Scan", "fields": "Header header"}
-    with pytest.raises(InputError, match=r"has no message 'Header' to use .*std_msgs/msg/Header"):
+    with pytest.raises(InputError, match=r"has no message 'Header'.*std_msgs/msg/Header"):
         make(package="scan_interfaces", add=[given])
 
 

@@ -528,7 +528,7 @@ def test_a_compiled_program_is_built_installed_and_run() -> None:
 @pytest.mark.parametrize("line", ["add_executable(two a.cpp)", "ament_auto_add_library(two b.cpp)"])
 def test_a_target_is_not_made_twice(line: str) -> None:
     text = f"project(demo)\n{line}\nament_package()\n"
-    with pytest.raises(ConflictError, match=r"CMakeLists.txt:2:1: .* a target 'two' already"):
+    with pytest.raises(ConflictError, match=r"CMakeLists.txt:2:1: .*defines a target 'two'"):
         cmake_edit(text, Addition("demo", compiled=Compiled("two", "src/two.cpp")))
 
 
