@@ -14,7 +14,7 @@ _SENDING = {
     "send_goal_async": ("rclpy.action.client.ActionClient", "goal", "wait_for_server()"),
     "call_async": ("rclpy.client.Client", "request", "wait_for_service()"),
 }
-_WAITING = ("get_subscription_count", "sleep(", "wait_for", "spin_once", "spin_until")
+_WAITING = ("get_subscription_count", "sleep(", "wait_for", "spin_once", "spin_until", "input(")
 _ASKING = ("wait_for_server", "server_is_ready", "wait_for_service", "service_is_ready")
 _NODE = (
     "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
@@ -82,6 +82,18 @@ class SentBeforeKnown(RclpyRule):
             ),
         ),
         Example(
+            "a message at the end of a loop for a keyboard",
+            {
+                "keys.py": "from geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
+                "class Keys(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('keys')\n"
+                "        self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)\n"
+                "        while self.press():\n            pass\n"
+                "        self.publisher.publish(Twist())\n"
+            },
+        ),
+        Example(
             "at once",
             {"caller.py": _NODE.format("")},
             Report(
@@ -119,6 +131,8 @@ class SentBeforeKnown(RclpyRule):
             if publisher.qos is not None and publisher.qos.durability == "VOLATILE"
         }
         for executed in in_constructors(file):
+            if any(file.module.below(executed.function, ast.While, ast.Await)):
+                continue  # it may take its time
             for call in file.calls_in(executed.function):
                 func = call.func
                 if not isinstance(func, ast.Attribute) or func.attr != "publish":
