@@ -6,9 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.programs import in_constructors
+from scaffold.api.programs import in_callbacks, in_constructors
 from scaffold.api.python import conditions_on
-from scaffold.api.rclpy import RclpyFile, class_of
+from scaffold.api.rclpy import RclpyFile, Timer, class_of
 
 _SENDING = {
     "send_goal_async": ("rclpy.action.client.ActionClient", "goal", "wait_for_server()"),
@@ -66,10 +66,12 @@ class SentBeforeKnown(RclpyRule):
                 "    def __init__(self):\n"
                 "        super().__init__('hello')\n"
                 f"        self.publisher = self.create_publisher(String, 'hello', {qos})\n"
-                "        self.greet()\n\n"
+                + ("        self.create_timer(1.0, self.greet)\n" if name == "again" else "")
+                + "        self.greet()\n\n"
                 "    def greet(self):\n"
                 "        self.publisher.publish(String(data='hello'))\n"
                 for name, qos in {
+                    "again": "10",
                     "kept": "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
                     "lost": "10",
                 }.items()
@@ -130,9 +132,11 @@ class SentBeforeKnown(RclpyRule):
             for publisher in file.publishers
             if publisher.qos is not None and publisher.qos.durability == "VOLATILE"
         }
+        again = {x.function for x in in_callbacks(file) if isinstance(x.entity, Timer)}
         for executed in in_constructors(file):
-            if any(file.module.below(executed.function, ast.While, ast.Await)):
-                continue  # it may take its time
+            is_long = any(file.module.below(executed.function, ast.While, ast.Await))
+            if is_long or executed.function in again:
+                continue
             for call in file.calls_in(executed.function):
                 func = call.func
                 if not isinstance(func, ast.Attribute) or func.attr != "publish":
