@@ -14,6 +14,7 @@ from scaffold.api import (
     closest_name,
     listed_names,
 )
+from scaffold.api.distributions import target
 from scaffold.api.formats import Scalar
 from scaffold.api.formats import Sequence as YamlSequence
 from scaffold.api.launch import (
@@ -145,7 +146,7 @@ class ControllerUnfit(Rule):
             ),
             Report(
                 "config/controllers.yaml:5:13",
-                "ROS 2 has no controller "
+                "Jazzy has no controller "
                 "'position_controllers/JointTrajectoryController': use "
                 "'joint_trajectory_controller/JointTrajectoryController'",
             ),
@@ -252,7 +253,9 @@ class ControllerUnfit(Rule):
             if entry.name.endswith(_TYPE) and isinstance(entry.value, Scalar):
                 instead = _OF_ROS1.get(entry.value.text)
                 if instead:
-                    message = f"ROS 2 has no controller {entry.value.text!r}: use {instead!r}"
+                    message = (
+                        f"{target().title} has no controller {entry.value.text!r}: use {instead!r}"
+                    )
                     yield self.report(entry.value.location, message)
 
     def _check_nested(
