@@ -74,32 +74,35 @@ class ScopeIndex:
 
     def build(self, deepest: int) -> bool:
         """Visit all nodes; give up and return false when they nest deeper than allowed."""
-        parents, numbers, nodes, spans = self._parents, self._numbers, self._nodes, self._spans
+        return self._visit(self.tree, deepest - 1)
 
-        def visit(node: ast.AST, levels: int) -> bool:
-            kind = type(node)
-            first = len(nodes)
-            nodes.append(node)
-            numbers[kind].append(first)
-            for field in _FIELDS[kind]:
-                value = getattr(node, field, None)
-                for item in value if type(value) is list else (value,):
-                    if not isinstance(item, ast.AST):
-                        continue
-                    parents[item] = node
-                    if not levels:
-                        return False
-                    inner = type(item)
-                    if not _FIELDS[inner]:  # as half of all nodes: spare them a call
-                        numbers[inner].append(len(nodes))
-                        nodes.append(item)
-                    elif not visit(item, levels - 1):
-                        return False
-            if kind in _STATEMENTS:
-                spans[node] = first, len(nodes)
-            return True
+    def _visit(self, node: ast.AST, levels: int) -> bool:
+        """Number a node and those below it; return false when they nest deeper than allowed.
 
-        return visit(self.tree, deepest - 1)
+        A method, as a nested function would hold itself and with it the tree, as garbage.
+        """
+        parents, numbers, nodes = self._parents, self._numbers, self._nodes
+        kind = type(node)
+        first = len(nodes)
+        nodes.append(node)
+        numbers[kind].append(first)
+        for field in _FIELDS[kind]:
+            value = getattr(node, field, None)
+            for item in value if type(value) is list else (value,):
+                if not isinstance(item, ast.AST):
+                    continue
+                parents[item] = node
+                if not levels:
+                    return False
+                inner = type(item)
+                if not _FIELDS[inner]:  # as half of all nodes: spare them a call
+                    numbers[inner].append(len(nodes))
+                    nodes.append(item)
+                elif not self._visit(item, levels - 1):
+                    return False
+        if kind in _STATEMENTS:
+            self._spans[node] = first, len(nodes)
+        return True
 
     @property
     def nodes(self) -> Sequence[ast.AST]:
