@@ -160,8 +160,7 @@ def below_launch(runs: Mapping[str, process.Running]) -> Iterator[str]:
             yield f"{died['name']} died, {ending(int(died['code']))}"
         for node in _IGNORED.finditer(written):
             yield (
-                f"{node['name']} ignored {node['signal']}: it was still running after "
-                f"{node['seconds']} s"
+                f"{node['name']} ignored {node['signal']}: still running after {node['seconds']} s"
             )
 
 

@@ -49,8 +49,9 @@ _GENERIC = frozenset(
     | {"copy", "deepcopy", "partial", "super"}
 )
 """Functions whose results are of the type of what they are given."""
-_SET = re.compile(r"^ *((?:\w+ *, *)*\w+) *(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
-_BOUND = re.compile(r"\bfor +\(?([\w, ()]+?)\)? +in\b([^\n]*)|\bas +(\w+)")
+_SET = re.compile(r"^([\w ,]+)(?::[^=\n]*)?[-+*/|&%]?=(?!=)([^\n]*)", re.MULTILINE)
+"""Matches assignments to names, and statements whose beginning looks like one."""
+_BOUND = re.compile(r"\bfor ([\w, ()]{1,200}?) in\b([^\n]*)|\bas (\w+)")
 _ATTRIBUTE = re.compile(r"(?<![\w.])self\.(\w+) *(?::[^=\n]*)?=(?!=)([^\n]*)")
 _OF_SELF = re.compile(r"self\.(\w+)")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
@@ -178,7 +179,7 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
             return
         place = start + line
         name = f"{_KEPT}_{place}"
-        written = re.sub(r"\s*\n\s*", " ", value)
+        written = " ".join(map(str.strip, value.split("\n")))
         added = f"{body[line : match.start()]}global {name}; {name} = [({written})]"
         found.append(_Kept(match[0], value, place, name, added))
     yield from found
@@ -207,13 +208,21 @@ def _derived(body: str, names: Collection[str]) -> set[str]:
     """Return names and the local variables whose values may be made of theirs."""
     result = {*names}
     for _ in range(2):
-        for match in _SET.finditer(body):
-            if not _is_independent(match[2].strip(), result):
-                result.update(_WORD.findall(match[1]))
+        for targets, value in _assignments(body):
+            if not _is_independent(value, result):
+                result.update(targets)
         for match in _BOUND.finditer(body):
             if match[3] or not _is_independent(match[2].strip(), result):
                 result.update(_WORD.findall(match[1] or match[3]))
     return result
+
+
+def _assignments(body: str) -> Iterator[tuple[Sequence[str], str]]:
+    """Yield the names that a line gives a value, and what it gives them."""
+    for match in _SET.finditer(body):
+        targets = [target.strip() for target in match[1].split(",")]
+        if all(map(str.isidentifier, targets)):
+            yield targets, match[2].strip()
 
 
 class _Attributes:
@@ -248,7 +257,7 @@ def _shape(value: str, body: str, attributes: _Attributes) -> str:
     root = _WORD.match(value)
     if root is None or not form:
         return form
-    given = [m[2].strip() for m in _SET.finditer(body) if root[0] in _WORD.findall(m[1])]
+    given = [item for targets, item in _assignments(body) if root[0] in targets]
     forms = {_form(item) for item in given} - {"None"}
     own = [match[1] for match in map(_OF_SELF.match, given) if match]
     return (

@@ -110,7 +110,7 @@ def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> N
     manifest.write_text(manifest.read_text().replace("ament_python", "ament_cmake"))
     uses = "from my_msgs.msg import Beat\n\nbeat = Beat()\nbeat.rate()\nprint(beat.rat)\n"
     make_package(source, "talker", {"talker/talk.py": uses})
-    assert check("talker") == ["talker/talker/talk.py:5:TY003"]
+    assert check("talker") == ["talker/talker/talk.py:4:TY008", "talker/talker/talk.py:5:TY003"]
 
 
 def test_what_is_subscribed_to_is_what_a_callback_gets(check: Check, source: Path) -> None:

@@ -133,7 +133,7 @@ def test_it_goes_with_a_baseline(workspace: Path, capsys: pytest.CaptureFixture[
         (["--since=--all"], "--since --all: git knows no such commit"),
         (["--since", "HEAD:first"], "--since HEAD:first: git knows no such commit"),
         (["--since", "HEAD", "--fix"], "--since only reports: omit --fix"),
-        (["--since", "HEAD", "--write-baseline", "a"], "leave out --write-baseline"),
+        (["--since", "HEAD", "--write-baseline", "a"], "omit --write-baseline"),
     ],
 )
 def test_mistakes_are_refused_in_one_line(

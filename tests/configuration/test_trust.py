@@ -409,7 +409,7 @@ def test_a_directory_where_everybody_may_write_is_not_trusted(repository: Reposi
     shared = repository.root / "shared"
     shared.mkdir()
     shared.chmod(0o1777)
-    with pytest.raises(InputError, match="everybody may write"):
+    with pytest.raises(InputError, match="world-writable"):
         trust.add(str(shared))
 
 

@@ -244,7 +244,7 @@ def test_update_moves_a_package_to_another_distribution(
     own = Path("robot", PUBLISHER)
     own.write_text(own.read_text().replace("import signal", "import signal  # mine"))
     assert main(["update", "robot", "--distro", "lyrical"]) == 0
-    assert "The package is for Lyrical now." in capsys.readouterr().out
+    assert "The package is now for Lyrical." in capsys.readouterr().out
     assert targets() == ["lyrical"]
     assert "import signal  # mine" in own.read_text()
     assert "with rclpy.init(args=args):" in own.read_text()

@@ -864,7 +864,7 @@ def test_the_real_linters_accept_what_is_written(
     ("wanted", "message"),
     [
         ({"dependencies": ["numpy"]}, "no key 'numpy'; its key is python3-numpy"),
-        ({"dependencies": ["rosidl_default_generators"]}, "builds the package"),
+        ({"dependencies": ["rosidl_default_generators"]}, "is a build tool"),
         ({"add": [{"kind": "timer", "name": "launch"}]}, "would shadow the Python module launch"),
         (
             {"add": [{"kind": "message", "fields": ["int32 class"]}]},

@@ -508,7 +508,7 @@ def test_node_names_that_are_refused(name: str, message: str) -> None:
         ("a/1b", "none starting with a digit"),
         ("{node}/x", "must be words of letters"),
         ("a'b", "must be words of letters"),
-        ("a__b", "two underscores in a row"),
+        ("a__b", "a double underscore"),
         ("rosout", "used by ROS itself"),
         ("/parameter_events", "used by ROS itself"),
         ("t" * 65, "has 65 characters; the limit is 64"),
@@ -615,7 +615,7 @@ def test_persons_that_are_refused(name: str) -> None:
     ("given", "message"),
     [
         ("talker", "--dependencies: talker is the package itself"),
-        ("ament_cmake", "--dependencies: ament_cmake builds the package"),
+        ("ament_cmake", "--dependencies: ament_cmake is a build tool"),
         ("a b;c", "the dependency 'b;c' is not the name of a package"),
         (7, "the dependency '7' is not the name"),
     ],
@@ -916,8 +916,8 @@ def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[s
             "outer/deep",
             "/outer is a package, and colcon does not search for packages inside of packages",
         ),
-        ("ws/src/mine", "/folder is a package with the name 'talker' already"),
-        ("ws", "/folder is a package with the name 'talker' already"),
+        ("ws/src/mine", "/folder is already a package named 'talker'"),
+        ("ws", "/folder is already a package named 'talker'"),
     ):
         before = sorted(work.rglob("*"))
         command = ["new", "talker", "--destination-directory", place]
@@ -1034,9 +1034,9 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
         (
             "{{ package | upper }}.jinja",
             "",
-            "a path may only contain {{ variables }} that are defined",
+            "a path holds only {{ names }} that are defined",
         ),
-        ("{{ nobody }}.jinja", "", "a path may only contain {{ variables }} that are defined"),
+        ("{{ nobody }}.jinja", "", "a path holds only {{ names }} that are defined"),
         ("README.md.jinja", "", "README.md is rendered twice"),
         ("setup.py", "", "setup.py: must end in .jinja"),
     ],

@@ -121,7 +121,7 @@ def executables(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("blocked_in_c", "ignored SIGINT: it was still running after 5 s, SIGKILL ended it"),
+        ("blocked_in_c", "ignored SIGINT: still running after 5 s, SIGKILL ended it"),
         ("changes_type", "has several types: std_msgs/msg/Int32, std_msgs/msg/String"),
         ("closes_all", "ignored SIGINT"),
         ("grandchildren", "leaves a process running: "),

@@ -164,6 +164,6 @@ def test_writing_goes_with_no_other_output(
     capsys: pytest.CaptureFixture[str], flag: list[str]
 ) -> None:
     assert main(["check", "--write-baseline", "base.json", *flag]) == 2
-    assert f"leave out {flag[0]}\n" in capsys.readouterr().err
+    assert f"omit {flag[0]}\n" in capsys.readouterr().err
     assert main(["check", "--write-baseline", "nowhere/base.json"]) == 2
     assert "--write-baseline nowhere/base.json: No such file" in capsys.readouterr().err

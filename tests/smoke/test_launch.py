@@ -56,7 +56,7 @@ def test_what_nodes_below_launch_do_wrong(tmp_path: Path) -> None:
     running = SimpleNamespace(out=tmp_path / "out", err=tmp_path / "err", exit_code=0)
     assert list(together.below_launch({"a.launch.py": cast("Any", running)})) == [
         "talker-1 died, exit code 1",
-        "deaf-3 ignored SIGINT: it was still running after 5 s",
+        "deaf-3 ignored SIGINT: still running after 5 s",
     ]
 
 

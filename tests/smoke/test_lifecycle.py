@@ -113,7 +113,7 @@ def test_a_transition_that_fails_is_a_problem(executables: dict[str, dict[str, A
     assert steps(refuses)[1] == ("activate", "inactive", "inactive")
     assert len(refuses["transitions"]) == len(("configure", "activate"))
     (problem,) = refuses["problems"]
-    assert problem.startswith("/refuses does not activate from inactive: it refuses")
+    assert problem.startswith("/refuses does not activate from inactive: rejected")
 
 
 @NEEDS_ROS

@@ -275,7 +275,7 @@ def test_plot_stays_inside_of_its_axes(hertz: float) -> None:
 @pytest.mark.parametrize(
     ("flag", "message"),
     [
-        ("--report", "--report {}is a file, not a directory"),
+        ("--report", "--report {}: is a file, not a directory"),
         ("--output-file", "--output-file {}/x: there is no directory '{}'; create it"),
     ],
 )

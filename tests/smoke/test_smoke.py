@@ -190,7 +190,7 @@ def test_hangs_before_there_is_a_node(packages: dict[str, Result]) -> None:
 
 def test_ignores_signals(packages: dict[str, Result]) -> None:
     found, problem = bad(packages, "ignores")
-    assert problem == "ignored SIGINT: it was still running after 5 s, SIGKILL ended it"
+    assert problem == "ignored SIGINT: still running after 5 s, SIGKILL ended it"
     assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGKILL", -9)
 
 

@@ -174,7 +174,7 @@ def test_what_nodes_together_leave_behind_is_named(tmp_path: Path) -> None:
     memory = "leaves shared memory behind: /dev/shm/scaffold_test_keeps"
     assert problems[:2] == [
         "keeps exited while running with the others, killed by SIGKILL",
-        "ignores ignored SIGINT: it was still running after 5 s, SIGKILL ended it",
+        "ignores ignored SIGINT: still running after 5 s, SIGKILL ended it",
     ]
     assert problems[2].startswith("parent leaves a process running: ")
     assert problems[3:] == [f"keeps {memory}"]

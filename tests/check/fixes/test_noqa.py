@@ -120,4 +120,4 @@ def test_no_comment_is_added_that_suppresses_nothing(
 @pytest.mark.parametrize("flag", [["--fix"], ["--since", "HEAD"], ["--write-baseline", "a"]])
 def test_it_goes_with_no_other_work(capsys: pytest.CaptureFixture[str], flag: list[str]) -> None:
     assert main(["check", "--add-noqa", *flag]) == 2
-    assert f"leave out {flag[0]}\n" in capsys.readouterr().err
+    assert f"omit {flag[0]}\n" in capsys.readouterr().err

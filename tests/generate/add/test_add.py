@@ -915,7 +915,7 @@ def test_launch_starts_the_nodes_of_a_package(
     before = read(demo)
     assert add(demo, "launch") == 0
     assert capsys.readouterr().err == (
-        f"note: launch/demo.launch.py leaves out hello{ending}: not known to be nodes\n"
+        f"note: launch/demo.launch.py does not start hello{ending}: not known to be nodes\n"
     )
     assert set(launched(demo)) == {
         f"executable='first{ending}'",
@@ -1058,7 +1058,7 @@ def test_launch_starts_programs_that_use_rclcpp(
     assert add(demo, "launch") == 0
     assert launched(demo) == ["executable='one'", "executable='two'"]
     said = capsys.readouterr().err
-    assert "launch/demo.launch.py leaves out hello.py, three: not known to be nodes" in said
+    assert "launch/demo.launch.py does not start hello.py, three: not known to be nodes" in said
 
 
 def test_launch_starts_the_nodes_that_setup_cfg_declares(tmp_path: Path) -> None:
@@ -1276,12 +1276,12 @@ def test_a_program_that_is_there_is_not_added_again(
             (demo / "CMakeLists.txt").read_text().replace("scripts/hello.py", "a/hello.py b/x.py")
         )
         write(demo, {"CMakeLists.txt": text, "a/hello.py": "", "b/x.py": ""})
-        expected = "demo has a program 'hello.py' already, a/hello.py: choose another name"
+        expected = "demo already has a program 'hello.py', a/hello.py; choose another name"
     else:
         text = (demo / "setup.py").read_text().replace("demo.hello:main", "demo.other:main")
         write(demo, {"setup.py": text, "demo/other.py": "def main():\n    pass\n"})
         (demo / "demo" / "hello.py").unlink()
-        expected = "demo has a program 'hello' already, demo/other.py: choose another name"
+        expected = "demo already has a program 'hello', demo/other.py; choose another name"
     assert refused(demo, capsys, "publisher", "hello") == expected
 
 
@@ -1293,7 +1293,7 @@ def test_a_program_that_is_there_is_not_added_again(
         (("publisher",), "NAME is required: the name of the node"),
         (("launch", "all"), "NAME does not apply to launch, which is for the whole package"),
         (("lunch",), "did you mean launch?"),
-        (("publisher", "talker", "--rate", "fast"), "--rate: 'fast' is not a number"),
+        (("publisher", "talker", "--rate", "fast"), "--rate: 'fast' is not a rate in hertz"),
         (("message", "Status"), "message needs the build type ament_cmake, not ament_python"),
     ],
 )
