@@ -211,7 +211,7 @@ class MessageUsedAsValue(MessageRule):
                 "        self.create_subscription(Image, 'image', self.on_image, 10)\n"
                 "        self.create_subscription(Point, 'point', self.on_point, 10)\n\n"
                 "    def on_image(self, msg):\n"
-                "        cv2.imwrite('/tmp/a.png', msg)\n"
+                "        cv2.imwrite('a.png', msg)\n"
                 "        cv2.line(np.zeros((msg.height, msg.width)), (0, 0), (9, 9), 255)\n\n"
                 "    def on_point(self, msg):\n"
                 "        return np.linalg.norm(msg), np.linalg.norm([msg.x, msg.y, msg.z])\n"

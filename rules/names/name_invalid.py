@@ -117,7 +117,7 @@ class NameInvalid(RclpyRule):
                 )
             },
             Report("9:39", "ROS 2 refuses this name: '\\\\' is not allowed"),
-            Report("11:39", "ROS 2 refuses this name: a blank is not allowed"),
+            Report("11:39", "ROS 2 refuses this name: whitespace is not allowed"),
         ),
         Example(
             "a program that is called like a test, and a test",

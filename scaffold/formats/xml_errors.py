@@ -51,7 +51,7 @@ def _text_before_declaration(text: str) -> Explanation | None:
     if before.strip(BLANK + BOM):
         what = "text" if "<!--" not in before else "a comment"
     else:
-        what = "a blank line" if "\n" in before else "a blank"
+        what = "a blank line" if "\n" in before else "a space"
     return begin, at, f'{what} before "<?xml": it must come first'
 
 

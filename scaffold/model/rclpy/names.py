@@ -61,7 +61,7 @@ def _form_problem(name: str, plain: str) -> str | None:
 
 
 def _shown(character: str) -> str:
-    return "a blank" if character.isspace() else repr(character)
+    return "whitespace" if character.isspace() else repr(character)
 
 
 def node_problem(name: str) -> str | None:

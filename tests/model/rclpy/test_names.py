@@ -19,7 +19,7 @@ PIECES = ("a", "B", "_", "/", "~", "{", "}", "1", "-", " ", "node", "{ns}", "{no
         ("~/scan_2d", None),
         ("{node}/scan", None),
         ("", "it is empty"),
-        ("front scan", "a blank is not allowed"),
+        ("front scan", "whitespace is not allowed"),
         ("front-scan", "'-' is not allowed"),
         ("scan/2d", "'2d' begins with a digit"),
         ("scan/", "it ends with '/'"),
