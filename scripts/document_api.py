@@ -69,15 +69,19 @@ def _example(module: str, name: str) -> tuple[str, str] | None:
     """Return the shortest rule that imports a name from a room, and the line that uses it."""
     statement = rf"from {re.escape(module)} import (\([^)]*\b{name}\b|[^\n(]*\b{name}\b)"
     files = sorted((ROOT / "rules").glob("*/*.py"), key=lambda path: path.stat().st_size)
+    cut = None  # a use that goes on in the next line
     for path in files:
         text = path.read_text(encoding="utf-8")
         if not re.search(statement, text):
             continue
-        uses = [node.lineno for node in ast.walk(ast.parse(text)) if _is_use(node, name)]
-        if uses:
-            line = text.splitlines()[min(uses) - 1].strip()
-            return path.relative_to(ROOT).as_posix(), line
-    return None
+        lines = text.splitlines()
+        uses = sorted(node.lineno for node in ast.walk(ast.parse(text)) if _is_use(node, name))
+        for use in (lines[number - 1].strip() for number in uses):
+            example = path.relative_to(ROOT).as_posix(), use
+            if not use.endswith("("):
+                return example
+            cut = cut or example
+    return cut
 
 
 def _is_use(node: ast.AST, name: str) -> TypeGuard[ast.Name]:

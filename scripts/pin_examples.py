@@ -90,6 +90,8 @@ def _places(example: Example, current: Sequence[Report]) -> list[str]:
 
 
 def _source(at: str, report: Report) -> str:
+    if (report.fix, report.unsafe_fix, report.severity) == (None, None, None):
+        return _string(f"{at}: {report.message}", "")
     arguments = [repr(at), _string(report.message)]
     for name in ("fix", "unsafe_fix"):
         title = getattr(report, name)
@@ -100,12 +102,12 @@ def _source(at: str, report: Report) -> str:
     return f"Report({', '.join(arguments)})"
 
 
-def _string(text: str) -> str:
+def _string(text: str, keyword: str = "    unsafe_fix=") -> str:
     """Return a literal, in several parts where one would be too long for a line."""
-    room = WIDTH - len(INDENT) - len('unsafe_fix="",') - 8
+    room = WIDTH - len(INDENT) - len(f'{keyword}"",')
     parts = [""]
     for word in text.split(" "):
-        if parts[-1] and len(parts[-1]) + len(word) > room:
+        if parts[-1] and len(repr(f"{parts[-1]}{word}")) > room + 1:
             parts.append("")
         parts[-1] += f"{word} "
     parts[-1] = parts[-1][:-1]

@@ -75,11 +75,8 @@ class BridgeDiffersFromNodes(Rule):
         Example(
             "another type",
             {"driver.py": _NODE, "a.yaml": _ENTRY.format("/cmd_vel", "Twist", "ROS_TO_GZ")},
-            Report(
-                "a.yaml:3:18",
-                "'/cmd_vel' has type geometry_msgs/msg/Twist here, but "
-                "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
-            ),
+            "a.yaml:3:18: '/cmd_vel' has type geometry_msgs/msg/Twist here, but "
+            "geometry_msgs/msg/TwistStamped in driver.py:8: they never connect",
         ),
         Example(
             "both ways",

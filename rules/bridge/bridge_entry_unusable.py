@@ -79,15 +79,10 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY.replace("GZ_TO_ROS", "ROS_TO_IGN"),
                 "b.yaml": _ENTRY.replace("GZ_TO_ROS", "both"),
             },
-            Report(
-                "a.yaml:5:14",
-                "invalid direction 'ROS_TO_IGN': the bridge drops the entry; closest: ROS_TO_GZ",
-            ),
-            Report(
-                "b.yaml:5:14",
-                "invalid direction 'both': the bridge drops the entry; known: "
-                "GZ_TO_ROS, ROS_TO_GZ, BIDIRECTIONAL",
-            ),
+            "a.yaml:5:14: invalid direction 'ROS_TO_IGN': the bridge drops the entry; closest: "
+            "ROS_TO_GZ",
+            "b.yaml:5:14: invalid direction 'both': the bridge drops the entry; known: GZ_TO_ROS, "
+            "ROS_TO_GZ, BIDIRECTIONAL",
         ),
         Example(
             "other keys; those of Fortress",
@@ -95,10 +90,8 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY.replace("ros_type_name", "ros_type"),
                 "b.yaml": _ENTRY.replace("gz_topic_name", "ign_topic_name"),
             },
-            Report("a.yaml:3:3", "the bridge ignores the key 'ros_type': write 'ros_type_name'"),
-            Report(
-                "b.yaml:2:3", "the bridge ignores the key 'ign_topic_name': write 'gz_topic_name'"
-            ),
+            "a.yaml:3:3: the bridge ignores the key 'ros_type': write 'ros_type_name'",
+            "b.yaml:2:3: the bridge ignores the key 'ign_topic_name': write 'gz_topic_name'",
         ),
         Example(
             "no type; no topic; two topics",
@@ -107,25 +100,21 @@ class BridgeEntryUnusable(Rule):
                 "b.yaml": "- ros_type_name: std_msgs/msg/Bool\n  gz_type_name: gz.msgs.Boolean\n",
                 "c.yaml": _ENTRY.replace("gz_topic_name", "topic_name"),
             },
-            Report("a.yaml:1:3", "no 'gz_type_name': 'Could not parse entry', nothing is bridged"),
-            Report("b.yaml:1:3", "no topic: write 'ros_topic_name' and 'gz_topic_name'"),
-            Report(
-                "c.yaml:2:3",
-                "'topic_name' and 'ros_topic_name' exclude each other: the bridge drops the entry",
-            ),
+            "a.yaml:1:3: no 'gz_type_name': 'Could not parse entry', nothing is bridged",
+            "b.yaml:1:3: no topic: write 'ros_topic_name' and 'gz_topic_name'",
+            "c.yaml:2:3: 'topic_name' and 'ros_topic_name' exclude each other: the bridge drops "
+            "the entry",
         ),
         Example(
             "not YAML",
             {"a.yaml": _ENTRY.replace("  gz_topic", "\tgz_topic")},
-            Report(
-                "2:1",
-                "line is indented with a tab; YAML allows only spaces: the bridge connects nothing",
-            ),
+            "2:1: line is indented with a tab; YAML allows only spaces: the bridge connects "
+            "nothing",
         ),
         Example(
             "not a list",
             {"a.yaml": _ENTRY.replace("- ", "", 1).replace("\n  ", "\n")},
-            Report("1:1", "the bridge reads a list of entries: write '- ' before the first key"),
+            "1:1: the bridge reads a list of entries: write '- ' before the first key",
         ),
         Example(
             "a pair of types",
@@ -151,18 +140,11 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/Image", "gz.msgs.LaserScan"),
                 "b.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/LaserScan", "gz.msgs.LidarScan"),
             },
-            Report(
-                "a.yaml:4:17",
-                "no conversion between 'sensor_msgs/msg/Image' and "
-                "'gz.msgs.LaserScan': nothing is bridged; 'sensor_msgs/msg/Image' "
-                "goes with gz.msgs.Image",
-            ),
-            Report(
-                "b.yaml:4:17",
-                "no conversion between 'sensor_msgs/msg/LaserScan' and "
-                "'gz.msgs.LidarScan': nothing is bridged; "
-                "'sensor_msgs/msg/LaserScan' goes with gz.msgs.LaserScan",
-            ),
+            "a.yaml:4:17: no conversion between 'sensor_msgs/msg/Image' and 'gz.msgs.LaserScan': "
+            "nothing is bridged; 'sensor_msgs/msg/Image' goes with gz.msgs.Image",
+            "b.yaml:4:17: no conversion between 'sensor_msgs/msg/LaserScan' and "
+            "'gz.msgs.LidarScan': nothing is bridged; 'sensor_msgs/msg/LaserScan' goes with "
+            "gz.msgs.LaserScan",
         ),
         Example(
             "an unknown type of ROS; one without msg",
@@ -170,16 +152,10 @@ class BridgeEntryUnusable(Rule):
                 "a.yaml": _ENTRY_TYPES.format("sensor_msgs/msg/LaserScans", "gz.msgs.LaserScan"),
                 "b.yaml": _ENTRY_TYPES.format("sensor_msgs/LaserScan", "gz.msgs.LaserScan"),
             },
-            Report(
-                "a.yaml:3:18",
-                "the bridge does not know the type 'sensor_msgs/msg/LaserScans': "
-                "nothing is bridged; closest: 'sensor_msgs/msg/LaserScan'",
-            ),
-            Report(
-                "b.yaml:3:18",
-                "the bridge does not know the type 'sensor_msgs/LaserScan': nothing "
-                "is bridged; closest: 'sensor_msgs/msg/LaserScan'",
-            ),
+            "a.yaml:3:18: the bridge does not know the type 'sensor_msgs/msg/LaserScans': nothing "
+            "is bridged; closest: 'sensor_msgs/msg/LaserScan'",
+            "b.yaml:3:18: the bridge does not know the type 'sensor_msgs/LaserScan': nothing is "
+            "bridged; closest: 'sensor_msgs/msg/LaserScan'",
         ),
         Example(
             "types in a launch file",
@@ -193,22 +169,13 @@ class BridgeEntryUnusable(Rule):
                 "launch/b.launch.xml": '<launch>\n  <node pkg="ros_gz_bridge" '
                 'exec="parameter_bridge" args="/a@std_msgs/msg/Bool@gz.msgs.Image"/>\n</launch>\n',
             },
-            Report(
-                "launch/a.launch.py:8:25",
-                "no conversion between 'sensor_msgs/msg/LaserScan' and "
-                "'gz.msgs.Image': nothing is bridged; 'sensor_msgs/msg/LaserScan' "
-                "goes with gz.msgs.LaserScan",
-            ),
-            Report(
-                "launch/b.launch.xml:2:59",
-                "no conversion between 'std_msgs/msg/Bool' and 'gz.msgs.Image': "
-                "nothing is bridged; 'std_msgs/msg/Bool' goes with gz.msgs.Boolean",
-            ),
-            Report(
-                "launch/c.launch.py:8:25",
-                "the type of ROS comes first: write @sensor_msgs/msg/LaserScan, "
-                "then gz.msgs.LaserScan; nothing is bridged",
-            ),
+            "launch/a.launch.py:8:25: no conversion between 'sensor_msgs/msg/LaserScan' and "
+            "'gz.msgs.Image': nothing is bridged; 'sensor_msgs/msg/LaserScan' goes with "
+            "gz.msgs.LaserScan",
+            "launch/b.launch.xml:2:59: no conversion between 'std_msgs/msg/Bool' and "
+            "'gz.msgs.Image': nothing is bridged; 'std_msgs/msg/Bool' goes with gz.msgs.Boolean",
+            "launch/c.launch.py:8:25: the type of ROS comes first: write "
+            "@sensor_msgs/msg/LaserScan, then gz.msgs.LaserScan; nothing is bridged",
         ),
     )
 

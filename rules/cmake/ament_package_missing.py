@@ -56,7 +56,7 @@ class AmentPackageMissing(Rule):
         Example(
             "return() before it",
             {"CMakeLists.txt": _RETURN.format("return()\n") + "ament_package()\n"},
-            Report("3:1", "return() ends the file here: ament_package() in line 5 is never called"),
+            "3:1: return() ends the file here: ament_package() in line 5 is never called",
         ),
     )
 

@@ -56,7 +56,7 @@ class AmentPackageNotLast(Rule):
         Example(
             "an export after it",
             {"CMakeLists.txt": f"{_LISTS}ament_package()\nament_export_libraries(talker)\n"},
-            Report("4:1", "ament_export_libraries() comes after ament_package() in line 3"),
+            "4:1: ament_export_libraries() comes after ament_package() in line 3",
         ),
         Example(
             "interfaces after it",
@@ -64,7 +64,7 @@ class AmentPackageNotLast(Rule):
                 "CMakeLists.txt": f"{_LISTS}ament_package()\n"
                 "rosidl_generate_interfaces(talker msg/A.msg)\n"
             },
-            Report("4:1", "rosidl_generate_interfaces() comes after ament_package() in line 3"),
+            "4:1: rosidl_generate_interfaces() comes after ament_package() in line 3",
         ),
         Example(
             "linters after it",
@@ -73,10 +73,7 @@ class AmentPackageNotLast(Rule):
                 "  find_package(ament_lint_auto REQUIRED)\n"
                 "  ament_lint_auto_find_test_dependencies()\nendif()\n"
             },
-            Report(
-                "6:3",
-                "ament_lint_auto_find_test_dependencies() comes after ament_package() in line 3",
-            ),
+            "6:3: ament_lint_auto_find_test_dependencies() comes after ament_package() in line 3",
         ),
         Example(
             "linters that are found before it, and registered after it",

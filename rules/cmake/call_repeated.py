@@ -50,10 +50,8 @@ class CallRepeated(Rule):
         Example(
             "two tests of one name",
             {"CMakeLists.txt": _LISTS.format("talk"), **_FILES},
-            Report(
-                "CMakeLists.txt:3:23",
-                "ament_add_pytest_test(talk) is already called in line 2: CMake stops",
-            ),
+            "CMakeLists.txt:3:23: ament_add_pytest_test(talk) is already called in line 2: CMake "
+            "stops",
         ),
         Example(
             "ament_package() in two branches",
@@ -65,7 +63,7 @@ class CallRepeated(Rule):
         Example(
             "ament_package() twice",
             {"CMakeLists.txt": "project(talker)\nament_package()\nament_package()\n"},
-            Report("3:1", "ament_package() is already called in line 2"),
+            "3:1: ament_package() is already called in line 2",
         ),
         Example(
             "a package found twice",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.cmake import BUILT_IN, OF_AMENT, CMakeLists, uses_ament
 
 _OF_ROS1 = {
@@ -112,11 +112,8 @@ class CommandUndefined(Rule):
                 "ament_lint_auto_find_test_dependencies()\nament_package()\n",
                 "msg/Talk.msg": "int8 x\n",
             },
-            Report(
-                "CMakeLists.txt:3:1",
-                "rosidl_generate_interfaces() is undefined without "
-                "find_package(rosidl_default_generators REQUIRED)",
-            ),
+            "CMakeLists.txt:3:1: rosidl_generate_interfaces() is undefined without "
+            "find_package(rosidl_default_generators REQUIRED)",
         ),
         Example(
             "found",
@@ -125,11 +122,8 @@ class CommandUndefined(Rule):
         Example(
             "not found",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report(
-                "2:1",
-                "ament_add_pytest_test() is undefined without "
-                "find_package(ament_cmake_pytest REQUIRED)",
-            ),
+            "2:1: ament_add_pytest_test() is undefined without find_package(ament_cmake_pytest "
+            "REQUIRED)",
         ),
         Example(
             "launch tests",
@@ -137,22 +131,19 @@ class CommandUndefined(Rule):
                 "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake_pytest REQUIRED)\n"
                 "add_launch_test(test/test_talk.py)\n"
             },
-            Report(
-                "3:1",
-                "add_launch_test() is undefined without "
-                "find_package(launch_testing_ament_cmake REQUIRED)",
-            ),
+            "3:1: add_launch_test() is undefined without find_package(launch_testing_ament_cmake "
+            "REQUIRED)",
         ),
         Example("a command of ament", {"CMakeLists.txt": _CALL.format("ament_package")}),
         Example(
             "misspelled",
             {"CMakeLists.txt": _CALL.format("ament_pakage")},
-            Report("3:1", "unknown command ament_pakage(): CMake stops; closest: ament_package()"),
+            "3:1: unknown command ament_pakage(): CMake stops; closest: ament_package()",
         ),
         Example(
             "of catkin",
             {"CMakeLists.txt": _CALL.format("catkin_package")},
-            Report("3:1", "catkin_package() is a command of ROS 1: CMake stops; use ament_package"),
+            "3:1: catkin_package() is a command of ROS 1: CMake stops; use ament_package",
         ),
     )
 

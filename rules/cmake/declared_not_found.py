@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.cmake import has_unknown_commands
 
@@ -57,10 +57,8 @@ class DeclaredNotFound(Rule):
         Example(
             "not found",
             {"package.xml": _MANIFEST, "CMakeLists.txt": _LISTS.format("")},
-            Report(
-                "package.xml:3:17",
-                "<build_depend> 'std_msgs', but CMakeLists.txt does not find that package",
-            ),
+            "package.xml:3:17: <build_depend> 'std_msgs', but CMakeLists.txt does not find that "
+            "package",
         ),
     )
 

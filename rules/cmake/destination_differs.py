@@ -101,7 +101,7 @@ class DestinationDiffers(Rule):
         Example(
             "absolute",
             {"CMakeLists.txt": _LISTS_ABSOLUTE.format("/opt/talker/share")},
-            Report("2:38", "installs to /opt/talker/share, outside of the workspace"),
+            "2:38: installs to /opt/talker/share, outside of the workspace",
         ),
         Example(
             "modules, by the variable",
@@ -110,11 +110,8 @@ class DestinationDiffers(Rule):
         Example(
             "modules below a version of Python",
             {"CMakeLists.txt": _LISTS_PYTHON.format("lib/python3.8/site-packages")},
-            Report(
-                "2:38",
-                "installs Python modules to lib/python3.8/site-packages, which only "
-                "that version of Python searches",
-            ),
+            "2:38: installs Python modules to lib/python3.8/site-packages, which only that "
+            "version of Python searches",
         ),
         Example(
             "modules below the version of Python of the distribution",

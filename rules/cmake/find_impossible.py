@@ -65,23 +65,17 @@ class FindImpossible(Rule):
         Example(
             "pure Python",
             {"CMakeLists.txt": _LISTS.format("launch_ros")},
-            Report(
-                "2:14",
-                "'launch_ros' is a pure Python package without CMake files: CMake stops",
-            ),
+            "2:14: 'launch_ros' is a pure Python package without CMake files: CMake stops",
         ),
         Example(
             "a key of rosdep",
             {"CMakeLists.txt": _LISTS.format("python3-numpy")},
-            Report(
-                "2:14",
-                "'python3-numpy' is a pure Python package without CMake files: CMake stops",
-            ),
+            "2:14: 'python3-numpy' is a pure Python package without CMake files: CMake stops",
         ),
         Example(
             "of ROS 1",
             {"CMakeLists.txt": _LISTS.format("ament_cmake") + "find_package(catkin REQUIRED)\n"},
-            Report("3:14", "'catkin' belongs to ROS 1: CMake stops; use ament_cmake"),
+            "3:14: 'catkin' belongs to ROS 1: CMake stops; use ament_cmake",
         ),
     )
 

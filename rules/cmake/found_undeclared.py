@@ -93,12 +93,9 @@ class FoundUndeclared(Rule):
                 "CMakeLists.txt": _LISTS.format("nav_msgs")
                 + "if(USES_NODES)\n  find_package(rclcpp REQUIRED)\nendif()\n",
             },
-            Report(
-                "CMakeLists.txt:2:14",
-                "finds 'rclcpp', and line 3 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which excludes Jazzy; change the "
-                "condition, or find it under the same one",
-            ),
+            "CMakeLists.txt:2:14: finds 'rclcpp', and line 3 of package.xml declares it only if "
+            "$ROS_DISTRO == humble, which excludes Jazzy; change the condition, or find it under "
+            "the same one",
         ),
         Example(
             "what comes along with a dependency for another distribution",

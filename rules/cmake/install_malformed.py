@@ -48,7 +48,7 @@ class InstallMalformed(Rule):
         Example(
             "without",
             {"CMakeLists.txt": _LISTS.format(""), **_FILES},
-            Report("CMakeLists.txt:2:1", "install(DIRECTORY) has no DESTINATION: CMake stops"),
+            "CMakeLists.txt:2:1: install(DIRECTORY) has no DESTINATION: CMake stops",
         ),
         Example(
             "programs", {"CMakeLists.txt": _KIND.format("PROGRAMS"), "talker/node.py": "pass\n"}
@@ -77,7 +77,7 @@ class InstallMalformed(Rule):
         Example(
             "nothing like it",
             {"CMakeLists.txt": _KIND.format("BINARY"), "talker/node.py": "pass\n"},
-            Report("CMakeLists.txt:2:9", "unknown install() keyword 'BINARY': CMake stops"),
+            "CMakeLists.txt:2:9: unknown install() keyword 'BINARY': CMake stops",
         ),
     )
 

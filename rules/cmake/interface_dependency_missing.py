@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, ViewError
 from scaffold.api.catalog import transitive_dependencies
 from scaffold.api.cmake import CMakeLists, Generation, generations, has_unknown_commands
 from scaffold.api.interfaces import KINDS, Definitions, interface_files
@@ -51,16 +51,10 @@ class InterfaceDependencyMissing(Rule):
         Example(
             "no DEPENDENCIES; one that is not enough",
             {"CMakeLists.txt": _LISTS % "", **_FILES},
-            Report(
-                "CMakeLists.txt:4:1",
-                "msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
-                "DEPENDENCIES: add it",
-            ),
-            Report(
-                "CMakeLists.txt:4:1",
-                "msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not among "
-                "the DEPENDENCIES: add it",
-            ),
+            "CMakeLists.txt:4:1: msg/Beat.msg:1 uses a type of 'std_msgs', which is not among the "
+            "DEPENDENCIES: add it",
+            "CMakeLists.txt:4:1: msg/Beat.msg:2 uses a type of 'geometry_msgs', which is not "
+            "among the DEPENDENCIES: add it",
         ),
         Example(
             "found before",
@@ -76,11 +70,8 @@ class InterfaceDependencyMissing(Rule):
         Example(
             "among the DEPENDENCIES, but not found",
             {"CMakeLists.txt": _LISTS_FOUND.format(""), **_BEAT},
-            Report(
-                "CMakeLists.txt:4:1",
-                "'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
-                "find_package(std_msgs REQUIRED) is missing",
-            ),
+            "CMakeLists.txt:4:1: 'std_msgs' is among the DEPENDENCIES, but nothing finds it: "
+            "find_package(std_msgs REQUIRED) is missing",
         ),
     )
 

@@ -56,11 +56,8 @@ class InterfaceNotGenerated(Rule):
         Example(
             "a file in place of the name",
             {"CMakeLists.txt": _LISTS % "msg/Rate.msg", **_MESSAGE},
-            Report(
-                "CMakeLists.txt:2:28",
-                "the first argument must be a name, not the file 'msg/Rate.msg': "
-                "insert ${PROJECT_NAME} before it",
-            ),
+            "CMakeLists.txt:2:28: the first argument must be a name, not the file 'msg/Rate.msg': "
+            "insert ${PROJECT_NAME} before it",
         ),
         Example(
             "listed; omitted on purpose, as a comment says; a file for tests",
@@ -123,10 +120,8 @@ class InterfaceNotGenerated(Rule):
                 "msg/Old.msg": "int32 count\n",
                 "robot/talker.py": "from robot.msg import Beat\n",
             },
-            Report(
-                "msg/Beat.msg:1:1",
-                "an ament_python package generates no interfaces: move it to ament_cmake",
-            ),
+            "msg/Beat.msg:1:1: an ament_python package generates no interfaces: move it to "
+            "ament_cmake",
             Report(
                 "msg/Old.msg:1:1",
                 "an ament_python package generates no interfaces: move it to ament_cmake",

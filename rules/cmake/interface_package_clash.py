@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.cmake import generations, is_interface_package
 from scaffold.api.distributions import target
 
@@ -40,11 +40,8 @@ class InterfacePackageClash(Rule):
         Example(
             "the same name",
             {"CMakeLists.txt": _LISTS % "${PROJECT_NAME}", **_FILES},
-            Report(
-                "CMakeLists.txt:3:1",
-                "the Python package 'my_robot' and the interfaces generated in line "
-                "2 have the same name, so CMake stops: move the interfaces to a separate package",
-            ),
+            "CMakeLists.txt:3:1: the Python package 'my_robot' and the interfaces generated in "
+            "line 2 have the same name, so CMake stops: move the interfaces to a separate package",
         ),
     )
 

@@ -38,9 +38,7 @@ class LintersNeverRun(Rule):
         Example(
             "found only",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report(
-                "3:16", "no linter runs: ament_lint_auto_find_test_dependencies() is not called"
-            ),
+            "3:16: no linter runs: ament_lint_auto_find_test_dependencies() is not called",
         ),
         Example("none switched off", {"CMakeLists.txt": _LISTS_SWITCHED.format("")}),
         Example(

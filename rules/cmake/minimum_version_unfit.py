@@ -45,12 +45,12 @@ class MinimumVersionUnfit(Rule):
         Example(
             "after project",
             {"CMakeLists.txt": f"project(talker)\n{_MINIMUM}"},
-            Report("1:1", "cmake_minimum_required() of line 2 belongs before project()"),
+            "1:1: cmake_minimum_required() of line 2 belongs before project()",
         ),
         Example(
             "none",
             {"CMakeLists.txt": "project(talker)\n"},
-            Report("1:1", "no cmake_minimum_required(VERSION ...) before project()"),
+            "1:1: no cmake_minimum_required(VERSION ...) before project()",
         ),
         Example("of ROS 2", {"CMakeLists.txt": _LISTS.format("3.8")}),
         Example(

@@ -82,23 +82,16 @@ class NamedFileMissing(Rule):
                 + _INSTALL.format("PROGRAMS talker/nod.py"),
                 "talker/node.py": "",
             },
-            Report(
-                "CMakeLists.txt:2:19",
-                "installs the directory include/, which does not exist: the build stops",
-            ),
-            Report(
-                "CMakeLists.txt:4:18",
-                "installs talker/nod.py, which does not exist: the build stops; "
-                "closest: talker/node.py",
-            ),
+            "CMakeLists.txt:2:19: installs the directory include/, which does not exist: the "
+            "build stops",
+            "CMakeLists.txt:4:18: installs talker/nod.py, which does not exist: the build stops; "
+            "closest: talker/node.py",
         ),
         Example(
             "an empty directory",
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
-            Report(
-                "CMakeLists.txt:2:19",
-                "the directory include/ is empty: git does not keep it, then the build stops",
-            ),
+            "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, then the "
+            "build stops",
         ),
         Example(
             "a directory that git ignores, and a package in a directory",
@@ -133,9 +126,7 @@ class NamedFileMissing(Rule):
         Example(
             "a source that is not there",
             {"CMakeLists.txt": _LISTS.format("src/a.cpp"), "src/b.cpp": ""},
-            Report(
-                "CMakeLists.txt:2:23", "there is no file src/a.cpp: CMake stops; closest: src/b.cpp"
-            ),
+            "CMakeLists.txt:2:23: there is no file src/a.cpp: CMake stops; closest: src/b.cpp",
         ),
         Example(
             "a submodule of git, which a clone may not have",
@@ -147,20 +138,18 @@ class NamedFileMissing(Rule):
         Example(
             "a directory to add that is not there",
             {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src")},
-            Report("2:18", "adds the directory src/, which does not exist: CMake stops"),
+            "2:18: adds the directory src/, which does not exist: CMake stops",
         ),
         Example(
             "without a CMakeLists.txt",
             {"CMakeLists.txt": _LISTS_SUBDIRECTORIES.format("src"), "src/talker.py": ""},
-            Report("CMakeLists.txt:2:18", "adds src/, which has no CMakeLists.txt: CMake stops"),
+            "CMakeLists.txt:2:18: adds src/, which has no CMakeLists.txt: CMake stops",
         ),
         Example(
             "a test that is not there",
             {"CMakeLists.txt": _LISTS_TESTS.format("test_talks.py"), "test/test_talk.py": ""},
-            Report(
-                "CMakeLists.txt:2:28",
-                "there is no test file test/test_talks.py; closest: test/test_talk.py",
-            ),
+            "CMakeLists.txt:2:28: there is no test file test/test_talks.py; closest: "
+            "test/test_talk.py",
         ),
         Example(
             "interfaces that exist, or are made by the build",
@@ -176,27 +165,20 @@ class NamedFileMissing(Rule):
                 "CMakeLists.txt": _LISTS_INTERFACES % "\n  msg/beat.msg\n  Beat.msg\n",
                 "msg/Beat.msg": "int32 count\n",
             },
-            Report(
-                "CMakeLists.txt:3:3",
-                "there is no file 'msg/beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
-            ),
-            Report(
-                "CMakeLists.txt:4:3",
-                "there is no file 'Beat.msg', so CMake stops; did you mean 'msg/Beat.msg'?",
-            ),
+            "CMakeLists.txt:3:3: there is no file 'msg/beat.msg', so CMake stops; did you mean "
+            "'msg/Beat.msg'?",
+            "CMakeLists.txt:4:3: there is no file 'Beat.msg', so CMake stops; did you mean "
+            "'msg/Beat.msg'?",
         ),
         Example(
             "an interface next to CMakeLists.txt",
             {"CMakeLists.txt": _LISTS_INTERFACES % "Beat.msg", "Beat.msg": "int32 count\n"},
-            Report(
-                "CMakeLists.txt:2:11",
-                "Beat.msg must be in a directory, so CMake stops: move it to msg/",
-            ),
+            "CMakeLists.txt:2:11: Beat.msg must be in a directory, so CMake stops: move it to msg/",
         ),
         Example(
             "another kind of file than an interface",
             {"CMakeLists.txt": _LISTS_INTERFACES % "msg/Beat.txt", "msg/Beat.txt": ""},
-            Report("CMakeLists.txt:2:11", "msg/Beat.txt is not a .msg, .srv, .action or .idl file"),
+            "CMakeLists.txt:2:11: msg/Beat.txt is not a .msg, .srv, .action or .idl file",
         ),
         Example(
             "a Python package without __init__.py",
@@ -211,10 +193,7 @@ class NamedFileMissing(Rule):
         Example(
             "no directory of the Python package",
             {"CMakeLists.txt": _LISTS_PACKAGE.format("talkers"), "talker/__init__.py": ""},
-            Report(
-                "CMakeLists.txt:2:30",
-                "the Python package folder talkers/ does not exist: CMake stops",
-            ),
+            "CMakeLists.txt:2:30: the Python package folder talkers/ does not exist: CMake stops",
         ),
     )
 

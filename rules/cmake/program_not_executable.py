@@ -132,11 +132,8 @@ class ProgramNotExecutable(Rule):
                 "CMakeLists.txt": _LISTS_KIND.format("DIRECTORY").replace("/node.py", ""),
                 "talker/node.py": _NODE_KIND,
             },
-            Report(
-                "CMakeLists.txt:2:19",
-                "install(DIRECTORY) drops the executable bit of talker/node.py: "
-                "`ros2 run` finds no executable; install it with PROGRAMS",
-            ),
+            "CMakeLists.txt:2:19: install(DIRECTORY) drops the executable bit of talker/node.py: "
+            "`ros2 run` finds no executable; install it with PROGRAMS",
             executable=("talker/node.py",),
         ),
         Example(
@@ -190,10 +187,8 @@ class ProgramNotExecutable(Rule):
         Example(
             "line ends of Windows",
             {"CMakeLists.txt": _LISTS, "talker/node.py": f"{SHEBANG}\r\nimport rclpy\r\n"},
-            Report(
-                "talker/node.py:1:1",
-                "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends",
-            ),
+            "talker/node.py:1:1: CRLF: the kernel looks for 'python3\\r'; save it with LF line "
+            "ends",
             executable=("talker/node.py",),
         ),
         Example(

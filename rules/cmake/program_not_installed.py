@@ -98,11 +98,8 @@ class ProgramNotInstalled(Rule):
                 "README.md": "    ros2 run talker other.py\n",
                 **dict.fromkeys(("talker/node.py", "talker/other.py"), _NODE),
             },
-            Report(
-                "CMakeLists.txt:3:1",
-                "talker/other.py is a node with a main function, but not installed: "
-                "`ros2 run` does not find it",
-            ),
+            "CMakeLists.txt:3:1: talker/other.py is a node with a main function, but not "
+            "installed: `ros2 run` does not find it",
         ),
         Example(
             "one to try something",
@@ -150,11 +147,8 @@ class ProgramNotInstalled(Rule):
                 "    return LaunchDescription([Node(package='talker', executable='node.py')])\n",
                 "talker/node.py": _NODE,
             },
-            Report(
-                "CMakeLists.txt:4:1",
-                "talker/node.py is a node with a main function, but not installed: "
-                "`ros2 run` does not find it",
-            ),
+            "CMakeLists.txt:4:1: talker/node.py is a node with a main function, but not "
+            "installed: `ros2 run` does not find it",
             executable=("talker/node.py",),
         ),
     )

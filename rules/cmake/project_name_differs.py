@@ -42,7 +42,7 @@ class ProjectNameDiffers(Rule):
         Example(
             "not named",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report("1:1", "no project(): CMake stops at ament_package()"),
+            "1:1: no project(): CMake stops at ament_package()",
         ),
         Example(
             "a language", {"CMakeLists.txt": _LISTS_LANGUAGE.format("VERSION 1.0 LANGUAGES C CXX")}
@@ -55,8 +55,8 @@ class ProjectNameDiffers(Rule):
         Example(
             "an unknown language",
             {"CMakeLists.txt": _LISTS_LANGUAGE.format("DESCRIPTION Talk LANGUAGES CPP PYTHON")},
-            Report("1:43", "CMake has no language 'CPP': it stops; closest: 'CXX'"),
-            Report("1:47", "CMake has no language 'PYTHON': it stops; closest: 'NONE'"),
+            "1:43: CMake has no language 'CPP': it stops; closest: 'CXX'",
+            "1:47: CMake has no language 'PYTHON': it stops; closest: 'NONE'",
         ),
         Example(
             "the name of the package",

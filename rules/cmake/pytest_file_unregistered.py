@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
 
 _REGISTER = "ament_add_pytest_test({0} test/{0}.py)\n"
 _LISTS = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
@@ -45,10 +45,8 @@ class PytestFileUnregistered(Rule):
         Example(
             "forgotten",
             {"CMakeLists.txt": _LISTS.format(""), "test/test_talk.py": _TEST},
-            Report(
-                "CMakeLists.txt:3:1",
-                "test/test_talk.py is not registered with ament_add_pytest_test(): it never runs",
-            ),
+            "CMakeLists.txt:3:1: test/test_talk.py is not registered with "
+            "ament_add_pytest_test(): it never runs",
         ),
     )
 

@@ -64,10 +64,8 @@ class ShareDirectoryNotInstalled(Rule):
                 "config/ is not installed, so config/talker.yaml is not found at run time",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "CMakeLists.txt:3:1",
-                "launch/ is not installed, so launch/talk.launch.py is not found at run time",
-            ),
+            "CMakeLists.txt:3:1: launch/ is not installed, so launch/talk.launch.py is not found "
+            "at run time",
         ),
         Example(
             "a file of that name, of this package and of another one",
@@ -86,10 +84,8 @@ class ShareDirectoryNotInstalled(Rule):
                 "config/talker.yaml": "",
                 "maps/floor.yaml": "",
             },
-            Report(
-                "CMakeLists.txt:4:1",
-                "config/ is not installed, so config/talker.yaml is not found at run time",
-            ),
+            "CMakeLists.txt:4:1: config/ is not installed, so config/talker.yaml is not found at "
+            "run time",
             Report(
                 "CMakeLists.txt:4:1",
                 "maps/ is not installed, so maps/floor.yaml is not found at run time",
@@ -136,18 +132,14 @@ class ShareDirectoryNotInstalled(Rule):
         Example(
             "a pattern of another ending",
             {"CMakeLists.txt": _LISTS_PATTERNS.format(' FILES_MATCHING PATTERN "*.yml"'), **_FILES},
-            Report(
-                "CMakeLists.txt:2:19",
-                "the patterns match no file of config/, for instance config/talker.yaml",
-            ),
+            "CMakeLists.txt:2:19: the patterns match no file of config/, for instance "
+            "config/talker.yaml",
         ),
         Example(
             "all files excluded",
             {"CMakeLists.txt": _LISTS_PATTERNS.format(' PATTERN "*.yaml" EXCLUDE'), **_FILES},
-            Report(
-                "CMakeLists.txt:2:19",
-                "the patterns match no file of config/, for instance config/talker.yaml",
-            ),
+            "CMakeLists.txt:2:19: the patterns match no file of config/, for instance "
+            "config/talker.yaml",
         ),
         Example(
             "both ways that keep the name",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.cmake import has_unknown_commands
 
 _LISTS = (
@@ -32,7 +32,7 @@ class TargetNotInstalled(Rule):
         Example(
             "one is forgotten",
             {"CMakeLists.txt": _LISTS.format("")},
-            Report("4:16", "'listen' is built, but not installed"),
+            "4:16: 'listen' is built, but not installed",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, closest_name
 from scaffold.api.cmake import (
     TAKING_TARGETS,
     defined_targets,
@@ -35,7 +35,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined",
             {"CMakeLists.txt": _LISTS.format("talks")},
-            Report("3:27", "nothing defines the target 'talks'; closest: 'talk'"),
+            "3:27: nothing defines the target 'talks'; closest: 'talk'",
         ),
         Example(
             "Python scripts are no targets",
@@ -44,8 +44,8 @@ class TargetUndefined(Rule):
                 "install(TARGETS talk listen DESTINATION lib/${PROJECT_NAME})\n",
                 "talker/talk.py": "",
             },
-            Report("CMakeLists.txt:2:17", "nothing defines the target 'talk': CMake stops"),
-            Report("CMakeLists.txt:2:22", "nothing defines the target 'listen': CMake stops"),
+            "CMakeLists.txt:2:17: nothing defines the target 'talk': CMake stops",
+            "CMakeLists.txt:2:22: nothing defines the target 'listen': CMake stops",
         ),
         Example(
             "of an unknown command",
@@ -57,7 +57,7 @@ class TargetUndefined(Rule):
         Example(
             "not defined, but named elsewhere",
             {"CMakeLists.txt": _LISTS.format("talks") + "message(STATUS talks)\n"},
-            Report("3:27", "nothing defines the target 'talks'; closest: 'talk'"),
+            "3:27: nothing defines the target 'talks'; closest: 'talk'",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule, Severity
 
 COMMANDS = (
     "ament_add_gmock",
@@ -65,10 +65,8 @@ class TestUnguarded(Rule):
         Example(
             "a package that is not guarded",
             {"package.xml": _MANIFEST, "CMakeLists.txt": f"project(talker)\n{_FIND}"},
-            Report(
-                "CMakeLists.txt:2:14",
-                "'ament_lint_auto' is a test dependency, but found outside of if(BUILD_TESTING)",
-            ),
+            "CMakeLists.txt:2:14: 'ament_lint_auto' is a test dependency, but found outside of "
+            "if(BUILD_TESTING)",
         ),
         Example(
             "a guarded test",
@@ -77,7 +75,7 @@ class TestUnguarded(Rule):
         Example(
             "a test that is not guarded",
             {"CMakeLists.txt": f"project(talker)\n{_TEST}"},
-            Report("2:1", "ament_add_pytest_test() is outside of if(BUILD_TESTING)"),
+            "2:1: ament_add_pytest_test() is outside of if(BUILD_TESTING)",
         ),
     )
 

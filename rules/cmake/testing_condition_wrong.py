@@ -56,10 +56,8 @@ class TestingConditionWrong(Rule):
                 "CMakeLists.txt": _LISTS_NODES.format(f"if(BUILD_TESTING)\n{_INSTALL}endif()\n"),
                 "talker/node.py": _NODE,
             },
-            Report(
-                "CMakeLists.txt:3:18",
-                "talker/node.py is installed only when tests are built: releases do not contain it",
-            ),
+            "CMakeLists.txt:3:18: talker/node.py is installed only when tests are built: releases "
+            "do not contain it",
         ),
     )
 

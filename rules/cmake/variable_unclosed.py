@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.cmake import Argument
 
 _LISTS = (
@@ -33,7 +33,7 @@ class VariableUnclosed(Rule):
         Example(
             "not closed",
             {"CMakeLists.txt": _LISTS.format("${PROJECT_NAME"), "talker/node.py": ""},
-            Report("CMakeLists.txt:3:15", "missing '}' in 'lib/${PROJECT_NAME': CMake stops"),
+            "CMakeLists.txt:3:15: missing '}' in 'lib/${PROJECT_NAME': CMake stops",
         ),
     )
 

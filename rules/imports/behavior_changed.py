@@ -97,24 +97,16 @@ class BehaviorChanged(PythonRule):
         Example(
             "a default",
             {"counter.py": _SERVER.format("")},
-            Report(
-                "9:23",
-                "from Kilted on, a result is kept for 10 s, not for 900: a "
-                "client that asks later gets none; pass result_timeout=900 to "
-                "keep it as long (rclpy 1171)",
-            ),
+            "9:23: from Kilted on, a result is kept for 10 s, not for 900: a client that asks "
+            "later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
             distro="lyrical",
             moved_from="jazzy",
         ),
         Example(
             "a default, of the class above",
             {"counter.py": _SUBCLASS.format("")},
-            Report(
-                "8:9",
-                "from Kilted on, a result is kept for 10 s, not for 900: a client "
-                "that asks later gets none; pass result_timeout=900 to keep it as "
-                "long (rclpy 1171)",
-            ),
+            "8:9: from Kilted on, a result is kept for 10 s, not for 900: a client that asks "
+            "later gets none; pass result_timeout=900 to keep it as long (rclpy 1171)",
             distro="lyrical",
             moved_from="jazzy",
         ),
@@ -141,11 +133,8 @@ class BehaviorChanged(PythonRule):
         Example(
             "a client of a node that is passed",
             {"asker.py": _PASSED},
-            Report(
-                "11:16",
-                "from Kilted on, a timeout raises TimeoutError, and returned None "
-                "before: handle both (rclpy 1271)",
-            ),
+            "11:16: from Kilted on, a timeout raises TimeoutError, and returned None before: "
+            "handle both (rclpy 1271)",
             distro="lyrical",
             moved_from="jazzy",
         ),
@@ -188,12 +177,8 @@ class BehaviorChanged(PythonRule):
                 "    first = np.array(values, copy=False)\n"
                 "    return first, np.array(values, copy=True), np.asarray(values)\n"
             },
-            Report(
-                "5:13",
-                "from Lyrical on, copy=False raises ValueError where a copy is "
-                "needed, as it is for a list, and copied before: use numpy.asarray "
-                "(NumPy 2.0)",
-            ),
+            "5:13: from Lyrical on, copy=False raises ValueError where a copy is needed, as it is "
+            "for a list, and copied before: use numpy.asarray (NumPy 2.0)",
             distro="lyrical",
             moved_from="jazzy",
         ),
@@ -206,12 +191,9 @@ class BehaviorChanged(PythonRule):
                 + _WORKER.format("self.work")
                 + "\nset_start_method('fork')\n",
             },
-            Report(
-                "work.py:10:9",
-                "from Lyrical on, a process is given a pickled copy of its target, and a node "
-                "cannot be pickled: TypeError; use a function that takes what it needs, or "
-                "multiprocessing.get_context('fork').Process (CPython 84559)",
-            ),
+            "work.py:10:9: from Lyrical on, a process is given a pickled copy of its target, and "
+            "a node cannot be pickled: TypeError; use a function that takes what it needs, or "
+            "multiprocessing.get_context('fork').Process (CPython 84559)",
             distro="lyrical",
             moved_from="jazzy",
         ),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, fact
+from scaffold.api import Diagnostic, Example, Package, Rule, fact
 from scaffold.api.python import Import, imports_by_path
 
 _FILES = {"talker/__init__.py": "", "talker/text.py": "TEXT = ''\n"}
@@ -33,16 +33,10 @@ class CircularImport(Rule):
                 "talker/text.py": "from talker.node import NODE\n\nTEXT = ''\n",
                 "talker/node.py": "from talker.text import TEXT\n\nNODE = 1\n",
             },
-            Report(
-                "talker/node.py:1:1",
-                "circular import: talker/text.py:1 imports from this module as "
-                "well, so one of them fails with ImportError",
-            ),
-            Report(
-                "talker/text.py:1:1",
-                "circular import: talker/node.py:1 imports from this module as "
-                "well, so one of them fails with ImportError",
-            ),
+            "talker/node.py:1:1: circular import: talker/text.py:1 imports from this module as "
+            "well, so one of them fails with ImportError",
+            "talker/text.py:1:1: circular import: talker/node.py:1 imports from this module as "
+            "well, so one of them fails with ImportError",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule, conditions_on, is_handled
 from scaffold.api.rclpy import is_asked_for
@@ -93,11 +93,8 @@ class EventLoopMissing(PythonRule):
                     "import loops\n\nasyncio.set_event_loop_policy(loops.Policy())", _OLD
                 ),
             },
-            Report(
-                "talker.py:10:12",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
+            "talker.py:10:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
         Example(
@@ -106,11 +103,8 @@ class EventLoopMissing(PythonRule):
                 "talker.py": f"import asyncio\n\n\ndef loop():\n    return {_OLD}\n\n\n"
                 "def main():\n    loop().run_forever()\n",
             },
-            Report(
-                "talker.py:5:12",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
+            "talker.py:5:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
         Example(
@@ -127,16 +121,10 @@ class EventLoopMissing(PythonRule):
                 "async def work():\n    Later()\n\n\n"
                 "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n",
             },
-            Report(
-                "10:21",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
-            Report(
-                "14:9",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
+            "10:21: Python 3.14 makes no event loop here: RuntimeError; use asyncio.run(), or set "
+            "one that asyncio.new_event_loop() makes",
+            "14:9: Python 3.14 makes no event loop here: RuntimeError; use asyncio.run(), or set "
+            "one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
         Example(
@@ -146,16 +134,10 @@ class EventLoopMissing(PythonRule):
                 "listener.py": "import asyncio\n\n"
                 f"if __name__ == '__main__':\n    {_OLD}.close()\n",
             },
-            Report(
-                "listener.py:4:5",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
-            Report(
-                "talker.py:10:12",
-                "Python 3.14 makes no event loop here: RuntimeError; use "
-                "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            ),
+            "listener.py:4:5: Python 3.14 makes no event loop here: RuntimeError; use "
+            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
+            "talker.py:10:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
     )

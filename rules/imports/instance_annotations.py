@@ -57,11 +57,8 @@ class InstanceAnnotations(PythonRule):
         Example(
             "an object",
             {"arguments.py": _CLASS.format("", "self.__annotations__")},
-            Report(
-                "9:21",
-                "objects of Python 3.14 have no '__annotations__': AttributeError; "
-                "ask type(self), or use dataclasses.fields(self)",
-            ),
+            "9:21: objects of Python 3.14 have no '__annotations__': AttributeError; ask "
+            "type(self), or use dataclasses.fields(self)",
             distro="lyrical",
         ),
         Example(

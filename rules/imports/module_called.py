@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.python import PythonModule
 
 _MODULES = {
@@ -34,7 +34,7 @@ class ModuleCalled(PythonRule):
         Example(
             "the module",
             {"setup.py": "import glob\n\nFILES = glob('launch/*')\n"},
-            Report("3:9", "'glob' is a module here: TypeError; use glob.glob()"),
+            "3:9: 'glob' is a module here: TypeError; use glob.glob()",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import imports_by_path, rospack_lookups
 
 _NEW = {
@@ -45,12 +45,12 @@ class ModuleOfRos1Imported(Rule):
                 "package.xml": _MANIFEST,
                 "talker/node.py": "import rclpy\nfrom tf2 import LookupException\n",
             },
-            Report("talker/node.py:2:1", "'tf2' has no Python module; use tf2_ros"),
+            "talker/node.py:2:1: 'tf2' has no Python module; use tf2_ros",
         ),
         Example(
             "of ROS 1",
             {"package.xml": _MANIFEST, "talker/node.py": "import rclpy\nimport rospy\n"},
-            Report("talker/node.py:2:1", "'rospy' belongs to ROS 1; use rclpy"),
+            "talker/node.py:2:1: 'rospy' belongs to ROS 1; use rclpy",
         ),
         Example(
             "rospkg, of which nothing is asked that ROS 2 does not know",
@@ -66,11 +66,8 @@ class ModuleOfRos1Imported(Rule):
                 "talker/node.py": "import rclpy\nfrom rospkg import RosPack\n\n"
                 "print(RosPack().get_path('talker'))\n",
             },
-            Report(
-                "talker/node.py:4:7",
-                "rospkg only finds packages of ROS 1: ResourceNotFound; use "
-                "get_package_share_directory() of ament_index_python",
-            ),
+            "talker/node.py:4:7: rospkg only finds packages of ROS 1: ResourceNotFound; use "
+            "get_package_share_directory() of ament_index_python",
         ),
     )
 

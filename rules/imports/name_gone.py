@@ -92,10 +92,7 @@ class NameGone(PythonRule):
         Example(
             "a name that is gone",
             {"area.py": _NODE.format("np.array(values, np.float)")},
-            Report(
-                "5:29",
-                "numpy.float is gone since NumPy 1.24: AttributeError; use float or np.float64",
-            ),
+            "5:29: numpy.float is gone since NumPy 1.24: AttributeError; use float or np.float64",
         ),
         Example(
             "a name of NumPy 2",
@@ -104,10 +101,8 @@ class NameGone(PythonRule):
                 "package.xml": '<package format="3">\n  <name>area</name>\n'
                 "  <exec_depend>python3-numpy</exec_depend>\n</package>\n",
             },
-            Report(
-                "area.py:5:12",
-                "numpy.trapezoid came with NumPy 2, Jazzy has 1.26: AttributeError; use np.trapz()",
-            ),
+            "area.py:5:12: numpy.trapezoid came with NumPy 2, Jazzy has 1.26: AttributeError; use "
+            "np.trapz()",
         ),
         Example(
             "a name of NumPy 2, and no package",
@@ -130,7 +125,7 @@ class NameGone(PythonRule):
                 "a.py": "import yaml\n\n\ndef read(path):\n    with open(path) as file:\n"
                 "        return yaml.load(file)\n"
             },
-            Report("6:16", "yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()"),
+            "6:16: yaml.load() needs a Loader since PyYAML 6: TypeError; use safe_load()",
         ),
         Example(
             "with a loader",

@@ -174,20 +174,14 @@ class NameRemoved(PythonRule):
                 "        return np.msort(values)\n    except Exception:\n"
                 "        return None\n",
             },
-            Report(
-                "other.py:6:16",
-                "numpy.msort was removed in Lyrical: AttributeError; use "
-                "numpy.sort(values, axis=0) (NumPy 2.0)",
-            ),
+            "other.py:6:16: numpy.msort was removed in Lyrical: AttributeError; use "
+            "numpy.sort(values, axis=0) (NumPy 2.0)",
             distro="lyrical",
         ),
         Example(
             "what NumPy 2 removed, and no name replaces",
             {"area.py": "import numpy as np\n\nleast = np.NINF\n"},
-            Report(
-                "3:9",
-                "numpy.NINF was removed in Lyrical: AttributeError; use -numpy.inf (NumPy 2.0)",
-            ),
+            "3:9: numpy.NINF was removed in Lyrical: AttributeError; use -numpy.inf (NumPy 2.0)",
             distro="lyrical",
         ),
         Example(
@@ -199,21 +193,12 @@ class NameRemoved(PythonRule):
                 "kind = np.dtype('<f4').newbyteorder()\n\n\n"
                 "def area(shape):\n    return shape.ptp()\n"
             },
-            Report(
-                "4:9",
-                "numpy.ndarray.ptp was removed in Lyrical: AttributeError; use "
-                "numpy.ptp(values) (NumPy 2.0)",
-            ),
-            Report(
-                "5:1",
-                "numpy.ndarray.itemset was removed in Lyrical: AttributeError; "
-                "assign to values[index] (NumPy 2.0)",
-            ),
-            Report(
-                "6:9",
-                "numpy.ndarray.newbyteorder was removed in Lyrical: AttributeError; "
-                "use values.view(values.dtype.newbyteorder(order)) (NumPy 2.0)",
-            ),
+            "4:9: numpy.ndarray.ptp was removed in Lyrical: AttributeError; use numpy.ptp(values) "
+            "(NumPy 2.0)",
+            "5:1: numpy.ndarray.itemset was removed in Lyrical: AttributeError; assign to "
+            "values[index] (NumPy 2.0)",
+            "6:9: numpy.ndarray.newbyteorder was removed in Lyrical: AttributeError; use "
+            "values.view(values.dtype.newbyteorder(order)) (NumPy 2.0)",
             distro="lyrical",
         ),
         Example(
@@ -281,21 +266,12 @@ class NameRemoved(PythonRule):
                 "total = np.lib.function_base.trapz(unique([1]))\n"
                 "values = np.lib.pad(as_strided([1]), 1)\n"
             },
-            Report(
-                "2:6",
-                "numpy.lib.arraysetops was removed in Lyrical: ModuleNotFoundError; "
-                "it was internal: use the names of numpy itself (NumPy 2.0)",
-            ),
-            Report(
-                "5:9",
-                "numpy.lib.function_base was removed in Lyrical: AttributeError; it "
-                "was internal: use the names of numpy itself (NumPy 2.0)",
-            ),
-            Report(
-                "6:10",
-                "numpy.lib.pad was removed in Lyrical: AttributeError; use the same "
-                "name of numpy itself (NumPy 2.0)",
-            ),
+            "2:6: numpy.lib.arraysetops was removed in Lyrical: ModuleNotFoundError; it was "
+            "internal: use the names of numpy itself (NumPy 2.0)",
+            "5:9: numpy.lib.function_base was removed in Lyrical: AttributeError; it was "
+            "internal: use the names of numpy itself (NumPy 2.0)",
+            "6:10: numpy.lib.pad was removed in Lyrical: AttributeError; use the same name of "
+            "numpy itself (NumPy 2.0)",
             distro="lyrical",
         ),
         Example(
@@ -315,22 +291,12 @@ class NameRemoved(PythonRule):
                 "    except ValueError:\n        fromstring(*some, **more)\n"
                 "    return fromstring(data, float, -1, ' '), fromstring(data, sep=' ')\n",
             },
-            Report(
-                "area.py:9:62",
-                "argparse.BooleanOptionalAction with type was removed in Lyrical: "
-                "TypeError; leave it out, it had no effect (Python 3.14)",
-            ),
-            Report(
-                "area.py:10:15",
-                "email.utils.localtime with isdst was removed in Lyrical: "
-                "TypeError; leave it out, it had no effect (Python 3.14)",
-            ),
-            Report(
-                "area.py:11:12",
-                "numpy.fromstring without sep was removed in Lyrical: ValueError; "
-                "use numpy.frombuffer for bytes, whose array is read-only, and sep "
-                "for text (NumPy 2.3)",
-            ),
+            "area.py:9:62: argparse.BooleanOptionalAction with type was removed in Lyrical: "
+            "TypeError; leave it out, it had no effect (Python 3.14)",
+            "area.py:10:15: email.utils.localtime with isdst was removed in Lyrical: TypeError; "
+            "leave it out, it had no effect (Python 3.14)",
+            "area.py:11:12: numpy.fromstring without sep was removed in Lyrical: ValueError; use "
+            "numpy.frombuffer for bytes, whose array is read-only, and sep for text (NumPy 2.3)",
             distro="lyrical",
         ),
         Example(
@@ -341,11 +307,8 @@ class NameRemoved(PythonRule):
         Example(
             "a function of another distribution",
             {"params.py": "from ros2param.api import get_parameter_value\n"},
-            Report(
-                "1:27",
-                "ros2param.api.get_parameter_value was removed in Jazzy: "
-                "ImportError; import it from rclpy.parameter (ros2cli 866)",
-            ),
+            "1:27: ros2param.api.get_parameter_value was removed in Jazzy: ImportError; import it "
+            "from rclpy.parameter (ros2cli 866)",
         ),
         Example(
             "a long name of a policy",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError, closest_name
 from scaffold.api.install import (
     absolute_name,
     file_of,
@@ -92,10 +92,7 @@ class OwnImportMissing(Rule):
         Example(
             "no such module",
             {**_FILES, "talker/node.py": "from talker.texts import make\n"},
-            Report(
-                "talker/node.py:1:1",
-                "the package has no module 'talker.texts'; closest: 'talker.text'",
-            ),
+            "talker/node.py:1:1: the package has no module 'talker.texts'; closest: 'talker.text'",
         ),
         Example(
             "modules that were moved one directory down, which is one cause",
@@ -106,21 +103,15 @@ class OwnImportMissing(Rule):
                 "talker/junk/old.py": "",
                 "talker/other.py": "from talker.old import run\n",
             },
-            Report(
-                "talker/junk/node.py:1:1",
-                "the package has no module 'talker.junk.text'; closest: 'talker.text'",
-            ),
-            Report(
-                "talker/other.py:1:1",
-                "the package has no module 'talker.old'; closest: 'talker.junk.old'",
-            ),
+            "talker/junk/node.py:1:1: the package has no module 'talker.junk.text'; closest: "
+            "'talker.text'",
+            "talker/other.py:1:1: the package has no module 'talker.old'; closest: "
+            "'talker.junk.old'",
         ),
         Example(
             "no such function",
             {**_FILES, "talker/node.py": "from .text import makes\n"},
-            Report(
-                "talker/node.py:1:19", "talker/text.py has no 'makes': ImportError; closest: 'make'"
-            ),
+            "talker/node.py:1:19: talker/text.py has no 'makes': ImportError; closest: 'make'",
         ),
         Example(
             "without the package, with its directory",
@@ -128,15 +119,10 @@ class OwnImportMissing(Rule):
                 **_FILES,
                 "talker/node.py": "from text import make\nfrom src.talker.text import make\n",
             },
-            Report(
-                "talker/node.py:1:1",
-                "no module 'text' is installed: ModuleNotFoundError; closest: 'talker.text'",
-            ),
-            Report(
-                "talker/node.py:2:1",
-                "no module 'src.talker.text' is installed: ModuleNotFoundError; "
-                "closest: 'talker.text'",
-            ),
+            "talker/node.py:1:1: no module 'text' is installed: ModuleNotFoundError; closest: "
+            "'talker.text'",
+            "talker/node.py:2:1: no module 'src.talker.text' is installed: ModuleNotFoundError; "
+            "closest: 'talker.text'",
         ),
         Example(
             "a file next to a program is installed with it",
@@ -149,18 +135,14 @@ class OwnImportMissing(Rule):
                 "CMakeLists.txt": _LISTS.format("scripts/node.py"),
                 "scripts/node.py": "from scripts.text import make\n",
             },
-            Report(
-                "scripts/node.py:1:1",
-                "scripts/text.py is not installed with this program: ModuleNotFoundError",
-            ),
+            "scripts/node.py:1:1: scripts/text.py is not installed with this program: "
+            "ModuleNotFoundError",
         ),
         Example(
             "a file next to a program is not installed",
             {**_PROGRAM, "CMakeLists.txt": _LISTS.format("scripts/node.py")},
-            Report(
-                "scripts/node.py:1:1",
-                "scripts/text.py is not installed with this program: ModuleNotFoundError",
-            ),
+            "scripts/node.py:1:1: scripts/text.py is not installed with this program: "
+            "ModuleNotFoundError",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.api.cmake import programs
 
 _LISTS = (
@@ -33,10 +33,8 @@ class RelativeImportInScript(Rule):
         Example(
             "relative",
             {**_FILES, "talker/node.py": "from .text import TEXT\n"},
-            Report(
-                "talker/node.py:1:1",
-                "installed as a program, it has no package to import from: ImportError",
-            ),
+            "talker/node.py:1:1: installed as a program, it has no package to import from: "
+            "ImportError",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile, describe, entities
 
 _ACTIONS = frozenset(
@@ -67,22 +67,22 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "no list",
             _launch(_RIGHT[0], "[GroupAction(node)]"),
-            Report("8:43", "expected a list of actions, not one Node"),
+            "8:43: expected a list of actions, not one Node",
         ),
         Example(
             "several arguments",
             _launch(_RIGHT[0], "node, node"),
-            Report("8:12", "LaunchDescription takes one list of actions: put them in [...]"),
+            "8:12: LaunchDescription takes one list of actions: put them in [...]",
         ),
         Example(
             "a missing comma",
             _launch(_RIGHT[0], "[Node(package='a', executable='b')(node)]"),
-            Report("8:31", "missing comma after this Node: it is called"),
+            "8:31: missing comma after this Node: it is called",
         ),
         Example(
             "no program",
             _launch("name='node'", "[node]"),
-            Report("7:12", "Node needs executable=...: TypeError"),
+            "7:12: Node needs executable=...: TypeError",
         ),
         Example(
             "no package; a setting at the end",
@@ -94,14 +94,10 @@ class ActionMadeWrongly(LaunchRule):
                     "executable='node'", "[GroupAction([node, SetParameter('a', 1)])]"
                 ).replace("import Node", "import Node, SetParameter"),
             },
-            Report(
-                "launch/a.launch.py:7:12",
-                "Node has no package=...: the program is looked for on the PATH",
-            ),
-            Report(
-                "launch/b.launch.py:8:50",
-                "nothing follows this SetParameter in the group: it has no effect",
-            ),
+            "launch/a.launch.py:7:12: Node has no package=...: the program is looked for on the "
+            "PATH",
+            "launch/b.launch.py:8:50: nothing follows this SetParameter in the group: it has no "
+            "effect",
         ),
         Example(
             "something set before and after the nodes",
@@ -117,9 +113,7 @@ class ActionMadeWrongly(LaunchRule):
                     "executable='a'", "[GroupAction([]), node, SetParameter('use_sim_time', True)]"
                 ),
             },
-            Report(
-                "launch/b.launch.py:8:54", "nothing follows this SetParameter: it has no effect"
-            ),
+            "launch/b.launch.py:8:54: nothing follows this SetParameter: it has no effect",
         ),
         Example(
             "a list of actions",
@@ -128,22 +122,17 @@ class ActionMadeWrongly(LaunchRule):
         Example(
             "a list, a substitution, a handler in the list",
             {"launch/a.launch.py": _LAUNCH_ITEMS.format("[node],\n name,\n handler")},
-            Report(
-                "12:31", "this is a list, but LaunchDescription takes actions: unpack it with *"
-            ),
-            Report("13:2", "this is a LaunchConfiguration, but LaunchDescription takes actions"),
-            Report(
-                "14:2",
-                "this is the handler OnProcessExit, but LaunchDescription takes "
-                "actions: wrap it in RegisterEventHandler(...)",
-            ),
+            "12:31: this is a list, but LaunchDescription takes actions: unpack it with *",
+            "13:2: this is a LaunchConfiguration, but LaunchDescription takes actions",
+            "14:2: this is the handler OnProcessExit, but LaunchDescription takes actions: wrap "
+            "it in RegisterEventHandler(...)",
         ),
         Example(
             "a text, a class, None in the list",
             {"launch/a.launch.py": _LAUNCH_ITEMS.format("'node',\n Node,\n None")},
-            Report("12:31", "this is a string, but LaunchDescription takes actions"),
-            Report("13:2", "this is a class, but LaunchDescription takes actions: call it"),
-            Report("14:2", "this is None, but LaunchDescription takes actions"),
+            "12:31: this is a string, but LaunchDescription takes actions",
+            "13:2: this is a class, but LaunchDescription takes actions: call it",
+            "14:2: this is None, but LaunchDescription takes actions",
         ),
         Example(
             "an event for what happens at the end of a node",
@@ -151,11 +140,8 @@ class ActionMadeWrongly(LaunchRule):
                 "launch/a.launch.py": "from launch.events import Shutdown\n"
                 + _LAUNCH_ITEMS.format("node").replace("name=name", "on_exit=Shutdown()")
             },
-            Report(
-                "11:62",
-                "this is an event, but 'on_exit' of Node takes actions: wrap it in "
-                "EmitEvent(event=...)",
-            ),
+            "11:62: this is an event, but 'on_exit' of Node takes actions: wrap it in "
+            "EmitEvent(event=...)",
         ),
         Example(
             "an event, a source, a node in a container",
@@ -170,17 +156,11 @@ class ActionMadeWrongly(LaunchRule):
                     "  composable_node_descriptions=[node])"
                 )
             },
-            Report(
-                "15:31",
-                "this is an event, but LaunchDescription takes actions: wrap it in "
-                "EmitEvent(event=...)",
-            ),
-            Report(
-                "16:2",
-                "this is an AnyLaunchDescriptionSource, but LaunchDescription takes "
-                "actions: wrap it in IncludeLaunchDescription(...)",
-            ),
-            Report("18:33", "this is a Node, but a container takes ComposableNode"),
+            "15:31: this is an event, but LaunchDescription takes actions: wrap it in "
+            "EmitEvent(event=...)",
+            "16:2: this is an AnyLaunchDescriptionSource, but LaunchDescription takes actions: "
+            "wrap it in IncludeLaunchDescription(...)",
+            "18:33: this is a Node, but a container takes ComposableNode",
         ),
     )
 

@@ -66,11 +66,8 @@ class ActionNotLaunched(LaunchRule):
                     "context", "Node(package='talker', executable='node')", ""
                 )
             },
-            Report(
-                "5:5",
-                "`ros2 launch` calls generate_launch_description without arguments: TypeError",
-            ),
-            Report("8:5", "this Node is not in the LaunchDescription: it is never launched"),
+            "5:5: `ros2 launch` calls generate_launch_description without arguments: TypeError",
+            "8:5: this Node is not in the LaunchDescription: it is never launched",
         ),
         Example(
             "an action that only a variable holds",
@@ -96,22 +93,19 @@ class ActionNotLaunched(LaunchRule):
         Example(
             "what add_action returns",
             {"launch/a.launch.py": _LAUNCH.format("", "", ".add_action(talker)")},
-            Report("9:5", "add_action() returns nothing: return the LaunchDescription"),
+            "9:5: add_action() returns nothing: return the LaunchDescription",
         ),
         Example("launched once", {"launch/a.launch.py": _LAUNCH_ONCE.format("first, ")}),
         Example(
             "launched again in the handler",
             {"launch/a.launch.py": _LAUNCH_ONCE.format("first, second, ")},
-            Report("10:59", "second is launched twice: here, and in the LaunchDescription"),
+            "10:59: second is launched twice: here, and in the LaunchDescription",
         ),
         Example(
             "watched, but not launched",
             {"launch/a.launch.py": _LAUNCH_ONCE.format("")},
-            Report(
-                "8:13",
-                "a handler watches first, which is not in the LaunchDescription: it "
-                "is never launched",
-            ),
+            "8:13: a handler watches first, which is not in the LaunchDescription: it is never "
+            "launched",
         ),
     )
 

@@ -93,22 +93,22 @@ class ArgumentNotList(LaunchRule):
         Example(
             "remappings: a dictionary",
             _node("remappings={'a': 'b'}"),
-            Report("8:62", "remappings are a list of pairs, [('from', 'to')], not a dictionary"),
+            "8:62: remappings are a list of pairs, [('from', 'to')], not a dictionary",
         ),
         Example(
             "remappings: one pair",
             _node("remappings=('a', 'b')"),
-            Report("8:62", "this is one pair: remappings are a list of pairs, [('from', 'to')]"),
+            "8:62: this is one pair: remappings are a list of pairs, [('from', 'to')]",
         ),
         Example(
             "remappings: texts",
             _node("remappings=['a:=b']"),
-            Report("8:62", "'a:=b' is not a pair ('from', 'to')"),
+            "8:62: 'a:=b' is not a pair ('from', 'to')",
         ),
         Example(
             "remappings: three parts",
             _node("remappings=[('a', 'b', 'c')]"),
-            Report("8:62", "a remapping is a pair, and this has 3 parts"),
+            "8:62: a remapping is a pair, and this has 3 parts",
         ),
         Example("of an include: items", _include("{'rate': '2'}.items()")),
         Example(

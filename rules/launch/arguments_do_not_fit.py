@@ -63,12 +63,12 @@ class ArgumentsDoNotFit(LaunchRule):
         Example(
             "two parts instead of a list",
             {"launch/a.launch.py": _LAUNCH.format("'a', 'b'", "period")},
-            Report("8:12", "PathJoinSubstitution takes one list of parts: put them in [...]"),
+            "8:12: PathJoinSubstitution takes one list of parts: put them in [...]",
         ),
         Example(
             "no period",
             {"launch/a.launch.py": _LAUNCH.format("['a', 'b']", "cancel_on_shutdown")},
-            Report("10:31", "TimerAction needs period=...: TypeError"),
+            "10:31: TimerAction needs period=...: TypeError",
         ),
         Example(
             "arguments without names",
@@ -78,19 +78,15 @@ class ArgumentsDoNotFit(LaunchRule):
                 "def generate_launch_description():\n"
                 "    return LaunchConfiguration('a', 'b')\n",
             },
-            Report("launch/a.launch.py:10:31", "TimerAction takes keyword arguments only"),
-            Report(
-                "launch/b.launch.py:5:12",
-                "LaunchConfiguration takes 1 positional argument: variable_name",
-            ),
+            "launch/a.launch.py:10:31: TimerAction takes keyword arguments only",
+            "launch/b.launch.py:5:12: LaunchConfiguration takes 1 positional argument: "
+            "variable_name",
         ),
         Example("a known keyword", {"launch/a.launch.py": _ARGUMENT.format("default_value")}),
         Example(
             "a keyword of another class",
             {"launch/a.launch.py": _ARGUMENT.format("default")},
-            Report(
-                "9:39", "DeclareLaunchArgument has no argument 'default'; closest: 'default_value'"
-            ),
+            "9:39: DeclareLaunchArgument has no argument 'default'; closest: 'default_value'",
         ),
         Example(
             "keywords of Eloquent, for Eloquent",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
+from scaffold.api import Diagnostic, Example, LaunchRule, Package
 from scaffold.api.launch import LaunchFile
 
 _LAUNCH = (
@@ -51,12 +51,8 @@ class ComponentNotLoadable(LaunchRule):
         Example(
             "of Python",
             {"package.xml": _MANIFEST, "launch/a.launch.py": _LAUNCH.format("talker")},
-            Report(
-                "launch/a.launch.py:10:36",
-                "'talker' has no components, which are classes in C++: the "
-                "container does not find the plugin; start a node in Python with "
-                "Node(...)",
-            ),
+            "launch/a.launch.py:10:36: 'talker' has no components, which are classes in C++: the "
+            "container does not find the plugin; start a node in Python with Node(...)",
         ),
     )
 

@@ -78,40 +78,29 @@ class ConditionUnusable(LaunchRule):
                     "PythonExpression([\"'\", use, \"' == 'True' or '\", use, \"' == 'true'\"])",
                 ),
             },
-            Report(
-                "launch/a.launch.py:12:65",
-                "'use' is 'true' by default, which does not equal 'True'",
-            ),
+            "launch/a.launch.py:12:65: 'use' is 'true' by default, which does not equal 'True'",
             Report(
                 "launch/b.launch.py:12:65",
                 "'use' is 'false' by default: setting it to 'true' does not give 'True'",
                 severity=Severity.WARNING,
             ),
-            Report("launch/c.launch.py:12:65", "'use' takes 'no', 'yes': it never equals 'true'"),
-            Report(
-                "launch/f.launch.py:12:53",
-                "'use' is 'true' by default, which does not equal 'True'",
-            ),
+            "launch/c.launch.py:12:65: 'use' takes 'no', 'yes': it never equals 'true'",
+            "launch/f.launch.py:12:53: 'use' is 'true' by default, which does not equal 'True'",
         ),
         Example(
             "a value of Python",
             {"launch/a.launch.py": _LAUNCH.format("true", "not use")},
-            Report(
-                "12:65",
-                "`not` tests the LaunchConfiguration object, not its value: use NotSubstitution",
-            ),
+            "12:65: `not` tests the LaunchConfiguration object, not its value: use NotSubstitution",
         ),
         Example(
             "the name of the argument",
             {"launch/a.launch.py": _LAUNCH.format("true", "'use'")},
-            Report(
-                "12:65", "'use' is neither true nor false; did you mean LaunchConfiguration('use')?"
-            ),
+            "12:65: 'use' is neither true nor false; did you mean LaunchConfiguration('use')?",
         ),
         Example(
             "an expression without quotes",
             {"launch/a.launch.py": _LAUNCH.format("true", "PythonExpression(['not ', use])")},
-            Report("12:65", "with the defaults this is 'not true': the name 'true' is not defined"),
+            "12:65: with the defaults this is 'not true': the name 'true' is not defined",
         ),
         Example(
             "a condition in a condition, a truth value, a list, a value for a name",
@@ -127,18 +116,12 @@ class ConditionUnusable(LaunchRule):
                     "IfCondition", "LaunchConfigurationEquals"
                 ),
             },
-            Report("launch/a.launch.py:12:65", "IfCondition takes a string, not another condition"),
-            Report(
-                "launch/b.launch.py:12:65", "True is not a string: write 'true', or no condition"
-            ),
-            Report(
-                "launch/c.launch.py:12:53",
-                "a condition is one object such as IfCondition(...), not a list",
-            ),
-            Report(
-                "launch/d.launch.py:12:79",
-                "LaunchConfigurationEquals takes the name of the launch argument, a string",
-            ),
+            "launch/a.launch.py:12:65: IfCondition takes a string, not another condition",
+            "launch/b.launch.py:12:65: True is not a string: write 'true', or no condition",
+            "launch/c.launch.py:12:53: a condition is one object such as IfCondition(...), not a "
+            "list",
+            "launch/d.launch.py:12:79: LaunchConfigurationEquals takes the name of the launch "
+            "argument, a string",
         ),
         Example(
             "conditions in a substitution",
@@ -155,16 +138,10 @@ class ConditionUnusable(LaunchRule):
                     "true", "AndSubstitution(use, NotSubstitution(use))"
                 ).replace("import Launch", "import AndSubstitution, NotSubstitution, Launch"),
             },
-            Report(
-                "launch/a.launch.py:12:80",
-                "OrSubstitution takes substitutions, not the condition IfCondition: "
-                "write its value",
-            ),
-            Report(
-                "launch/b.launch.py:12:86",
-                "AndSubstitution takes substitutions, not the condition "
-                "LaunchConfigurationEquals: use EqualsSubstitution",
-            ),
+            "launch/a.launch.py:12:80: OrSubstitution takes substitutions, not the condition "
+            "IfCondition: write its value",
+            "launch/b.launch.py:12:86: AndSubstitution takes substitutions, not the condition "
+            "LaunchConfigurationEquals: use EqualsSubstitution",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, listed_names
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, listed_names
 from scaffold.api.launch import (
     LaunchCall,
     LaunchFile,
@@ -99,14 +99,10 @@ class ConfigurationUndeclared(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("", _USED),
                 "launch/b.launch.py": _LAUNCH.format(_DECLARED, "LaunchConfiguration('nod')"),
             },
-            Report(
-                "launch/a.launch.py:9:56",
-                "the launch configuration 'node' is never set; declared here: nothing",
-            ),
-            Report(
-                "launch/b.launch.py:10:56",
-                "the launch configuration 'nod' is never set; declared here: node",
-            ),
+            "launch/a.launch.py:9:56: the launch configuration 'node' is never set; declared "
+            "here: nothing",
+            "launch/b.launch.py:10:56: the launch configuration 'nod' is never set; declared "
+            "here: node",
         ),
         Example(
             "declared first",
@@ -115,11 +111,8 @@ class ConfigurationUndeclared(LaunchRule):
         Example(
             "declared after its use",
             {"launch/a.launch.py": _LAUNCH_ORDER.format(f"node, {_DECLARED_ORDER}")},
-            Report(
-                "8:12",
-                "'name' is declared after its use: the Node in line 9 reads it "
-                "before it has a value",
-            ),
+            "8:12: 'name' is declared after its use: the Node in line 9 reads it before it has a "
+            "value",
         ),
         Example(
             "declared after a function that uses it",
@@ -130,11 +123,8 @@ class ConfigurationUndeclared(LaunchRule):
                 + "\n\ndef set_up(context):\n"
                 "    text = LaunchConfiguration('name').perform(context)\n    return [text]\n"
             },
-            Report(
-                "14:12",
-                "'name' is declared after its use: the OpaqueFunction in line 10 "
-                "reads it before it has a value",
-            ),
+            "14:12: 'name' is declared after its use: the OpaqueFunction in line 10 reads it "
+            "before it has a value",
         ),
         Example(
             "added after its use",
@@ -142,11 +132,8 @@ class ConfigurationUndeclared(LaunchRule):
                 "launch/a.launch.py": _LAUNCH_ORDER.format("node").replace("return", "launch =")
                 + f"    launch.add_action({_DECLARED_ORDER})\n    return launch\n"
             },
-            Report(
-                "8:12",
-                "'name' is declared after its use: the Node in line 9 reads it "
-                "before it has a value",
-            ),
+            "8:12: 'name' is declared after its use: the Node in line 9 reads it before it has a "
+            "value",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Location, Package, Rule, Severity
 from scaffold.api.distributions import of_kind
 from scaffold.api.launch import markup_files, package_uses
 
@@ -51,18 +51,12 @@ class ExecutableDeprecated(Rule):
                 "launch/a.launch.py": _LAUNCH.format("component_container_mt"),
                 "launch/b.launch.xml": _XML.format("component_container_isolated"),
             },
-            Report(
-                "launch/a.launch.py:9:24",
-                "component_container_mt is deprecated since Lyrical: it warns at "
-                "each start; use component_container with the arguments "
-                "--executor-type multi-threaded (rclcpp 3134)",
-            ),
-            Report(
-                "launch/b.launch.xml:2:49",
-                "component_container_isolated is deprecated since Lyrical: it warns "
-                "at each start; use component_container with the arguments "
-                "--isolated --executor-type single-threaded (rclcpp 3134)",
-            ),
+            "launch/a.launch.py:9:24: component_container_mt is deprecated since Lyrical: it "
+            "warns at each start; use component_container with the arguments --executor-type "
+            "multi-threaded (rclcpp 3134)",
+            "launch/b.launch.xml:2:49: component_container_isolated is deprecated since Lyrical: "
+            "it warns at each start; use component_container with the arguments --isolated "
+            "--executor-type single-threaded (rclcpp 3134)",
             distro="lyrical",
         ),
     )

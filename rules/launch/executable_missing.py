@@ -70,10 +70,8 @@ class ExecutableMissing(Rule):
         Example(
             "the module's name",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("talk.py")},
-            Report(
-                "launch/a.launch.py:7:43",
-                "talker has no program 'talk.py' (it has: talk); closest: 'talk'",
-            ),
+            "launch/a.launch.py:7:43: talker has no program 'talk.py' (it has: talk); closest: "
+            "'talk'",
         ),
         Example(
             "one of many",
@@ -85,11 +83,8 @@ class ExecutableMissing(Rule):
                 ),
                 "launch/a.launch.py": _LAUNCH.format("g_nde"),
             },
-            Report(
-                "launch/a.launch.py:7:43",
-                "talker has no program 'g_nde' (it has: g_node, a_node, b_node, "
-                "c_node, d_node and 3 more); closest: 'g_node'",
-            ),
+            "launch/a.launch.py:7:43: talker has no program 'g_nde' (it has: g_node, a_node, "
+            "b_node, c_node, d_node and 3 more); closest: 'g_node'",
         ),
         Example(
             "in another package of the workspace, in XML and in YAML",
@@ -98,14 +93,9 @@ class ExecutableMissing(Rule):
                 "launch/a.launch.xml": '<launch>\n  <node pkg="talker" exec="tlk"/>\n</launch>\n',
                 "launch/b.launch.yaml": "launch:\n- node:\n    pkg: talker\n    exec: tlk\n",
             },
-            Report(
-                "launch/a.launch.xml:2:28",
-                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
-            ),
-            Report(
-                "launch/b.launch.yaml:4:11",
-                "talker has no program 'tlk' (it has: talk); closest: 'talk'",
-            ),
+            "launch/a.launch.xml:2:28: talker has no program 'tlk' (it has: talk); closest: 'talk'",
+            "launch/b.launch.yaml:4:11: talker has no program 'tlk' (it has: talk); closest: "
+            "'talk'",
             neighbours={"talker": _FILES},
         ),
         Example(

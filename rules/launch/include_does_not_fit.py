@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report
+from scaffold.api import Diagnostic, Example, LaunchRule, Package
 from scaffold.api.launch import Included, LaunchCall, LaunchFile, given_arguments, included
 
 _INCLUDED = (
@@ -56,10 +56,8 @@ class IncludeDoesNotFit(LaunchRule):
         Example(
             "required, but not given",
             _files("b.launch.py", "{}"),
-            Report(
-                "launch/a.launch.py:11:9",
-                "launch/b.launch.py requires the argument 'robot_name', which is not given here",
-            ),
+            "launch/a.launch.py:11:9: launch/b.launch.py requires the argument 'robot_name', "
+            "which is not given here",
         ),
         Example(
             "misspelled in a dictionary with a name, and one that is changed",
@@ -73,23 +71,19 @@ class IncludeDoesNotFit(LaunchRule):
                     "    given = {'robot_nam': 'a'}\n    given['robot_name'] = 'a'\n    return",
                 ),
             },
-            Report(
-                "launch/a.launch.py:10:14",
-                "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
-            ),
+            "launch/a.launch.py:10:14: launch/b.launch.py has no argument 'robot_nam'; closest: "
+            "'robot_name'",
         ),
         Example(
             "misspelled",
             _files("b.launch.py", "{'robot_nam': 'a'}"),
-            Report(
-                "launch/a.launch.py:13:31",
-                "launch/b.launch.py has no argument 'robot_nam'; closest: 'robot_name'",
-            ),
+            "launch/a.launch.py:13:31: launch/b.launch.py has no argument 'robot_nam'; closest: "
+            "'robot_name'",
         ),
         Example(
             "itself",
             _files("a.launch.py", "{}"),
-            Report("launch/a.launch.py:11:9", "this file includes itself endlessly"),
+            "launch/a.launch.py:11:9: this file includes itself endlessly",
         ),
     )
 

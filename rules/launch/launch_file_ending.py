@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Package, Report, Severity
+from scaffold.api import Diagnostic, Example, LaunchRule, Package, Severity
 from scaffold.api.launch import FUNCTION, LaunchFile
 
 _LAUNCH = (
@@ -36,11 +36,8 @@ class LaunchFileEnding(LaunchRule):
         Example(
             "neither",
             {"launch/talk.py": _LAUNCH},
-            Report(
-                "1:1",
-                "defines generate_launch_description, but `ros2 launch` lists only "
-                "names that end with launch.py, not talk.py",
-            ),
+            "1:1: defines generate_launch_description, but `ros2 launch` lists only names that "
+            "end with launch.py, not talk.py",
         ),
     )
 

@@ -69,10 +69,7 @@ class LaunchFunctionMissing(LaunchRule):
         Example(
             "not there",
             {"launch/a.launch.py": "from launch import LaunchDescription\n\nLaunchDescription()\n"},
-            Report(
-                "1:1",
-                "`ros2 launch` calls generate_launch_description, which this file does not define",
-            ),
+            "1:1: `ros2 launch` calls generate_launch_description, which this file does not define",
         ),
         Example(
             "a description that is made, but not returned",
@@ -91,14 +88,10 @@ class LaunchFunctionMissing(LaunchRule):
                 "launch/b.launch.py": _LAUNCH_RESULT
                 + "    if node:\n        return LaunchDescription([node])\n",
             },
-            Report(
-                "launch/a.launch.py:7:5",
-                "generate_launch_description returns a list, not a LaunchDescription",
-            ),
-            Report(
-                "launch/b.launch.py:5:5",
-                "generate_launch_description returns None on some paths, not a LaunchDescription",
-            ),
+            "launch/a.launch.py:7:5: generate_launch_description returns a list, not a "
+            "LaunchDescription",
+            "launch/b.launch.py:5:5: generate_launch_description returns None on some paths, not "
+            "a LaunchDescription",
         ),
     )
 

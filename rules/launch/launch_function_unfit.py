@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import ACTIONS, CALLBACKS, HANDLERS, LaunchCall, LaunchFile, function_of
 from scaffold.api.python import misfit_of_context, returned
 
@@ -73,33 +73,33 @@ class LaunchFunctionUnfit(LaunchRule):
         Example(
             "no context",
             _launch("", ""),
-            Report("10:55", "set_up takes no arguments; it is given the context: TypeError"),
+            "10:55: set_up takes no arguments; it is given the context: TypeError",
         ),
         Example(
             "what nothing gives",
             _launch("context, a", ""),
-            Report("10:55", "set_up takes 'a', which args=[...] does not give: TypeError"),
+            "10:55: set_up takes 'a', which args=[...] does not give: TypeError",
         ),
         Example(
             "a text for the list of arguments",
             _launch("context, a", ", args='fast'"),
-            Report("10:55", "set_up gets a string letter by letter: args=... must be a list"),
+            "10:55: set_up gets a string letter by letter: args=... must be a list",
         ),
         Example(
             "called",
             _launch("", "()"),
-            Report("10:31", "set_up() is called here: pass the function itself"),
+            "10:31: set_up() is called here: pass the function itself",
         ),
         Example("a list returned", {"launch/a.launch.py": _RETURNS.format("[node]")}),
         Example(
             "one action returned",
             {"launch/a.launch.py": _RETURNS.format("node")},
-            Report("8:5", "set_up returns one Node, not a list: TypeError"),
+            "8:5: set_up returns one Node, not a list: TypeError",
         ),
         Example(
             "a description returned",
             {"launch/a.launch.py": _RETURNS.format("LaunchDescription([node])")},
-            Report("8:5", "set_up returns one LaunchDescription, not a list: TypeError"),
+            "8:5: set_up returns one LaunchDescription, not a list: TypeError",
         ),
         Example(
             "an event handler of event and context",
@@ -108,17 +108,17 @@ class LaunchFunctionUnfit(LaunchRule):
         Example(
             "an event handler that takes nothing",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("", "on_exit")},
-            Report("14:57", "launch calls on_exit with event and context: TypeError"),
+            "14:57: launch calls on_exit with event and context: TypeError",
         ),
         Example(
             "a lambda that takes nothing",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "lambda: []")},
-            Report("14:57", "launch calls this with event and context: TypeError"),
+            "14:57: launch calls this with event and context: TypeError",
         ),
         Example(
             "an event handler that is called",
             {"launch/a.launch.py": _LAUNCH_HANDLERS.format("event, context", "on_exit()")},
-            Report("14:57", "on_exit() is called here: pass the function itself"),
+            "14:57: on_exit() is called here: pass the function itself",
         ),
     )
 

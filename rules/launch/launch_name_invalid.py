@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import NODES, LaunchFile
 
 _TRUTHS = frozenset({"true", "false", "1", "0"})
@@ -38,8 +38,8 @@ class LaunchNameInvalid(LaunchRule):
         Example(
             "a dash and a slash",
             {"launch/a.launch.py": _LAUNCH.format("my/talker", "robot-1")},
-            Report("7:56", "ROS 2 rejects the node name 'my/talker': letters, digits and _ only"),
-            Report("7:79", "ROS 2 rejects the namespace 'robot-1'"),
+            "7:56: ROS 2 rejects the node name 'my/talker': letters, digits and _ only",
+            "7:79: ROS 2 rejects the namespace 'robot-1'",
         ),
         Example(
             "a condition",
@@ -49,7 +49,7 @@ class LaunchNameInvalid(LaunchRule):
                 "def generate_launch_description():\n"
                 "    return IfCondition(LaunchConfiguration('use', default='yes'))\n"
             },
-            Report("6:12", "the default is 'yes', which is neither true nor false"),
+            "6:12: the default is 'yes', which is neither true nor false",
         ),
     )
 

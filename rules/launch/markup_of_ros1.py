@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.api.formats import Element, xml_reader
 
 _TAGS: Mapping[str, str] = {"rosparam": "<param from='...'/>", "machine": "no equivalent"}
@@ -45,13 +45,13 @@ class MarkupOfRos1(Rule):
         Example(
             "of ROS 1",
             {"launch/a.launch.xml": _LAUNCH.format("type", "$(arg name)")},
-            Report("2:28", "'type' of <node> belongs to ROS 1; ROS 2 has exec"),
-            Report("2:40", "$(arg ...) belongs to ROS 1; ROS 2 has $(var name)"),
+            "2:28: 'type' of <node> belongs to ROS 1; ROS 2 has exec",
+            "2:40: $(arg ...) belongs to ROS 1; ROS 2 has $(var name)",
         ),
         Example(
             "an element of ROS 1",
             {"launch/a.launch.xml": "<launch>\n  <rosparam file='a.yaml'/>\n</launch>\n"},
-            Report("2:4", "<rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>"),
+            "2:4: <rosparam> belongs to ROS 1; ROS 2 has <param from='...'/>",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.install import share_of
 from scaffold.api.launch import StartedNode, consumers
 from scaffold.api.parameters import ParameterFile, parameter_file
@@ -46,11 +46,8 @@ class NamespaceNotInFile(Rule):
         Example(
             "the name alone",
             {**_FILES, "config/demo.yaml": _FILE.format("talker")},
-            Report(
-                "launch/a.launch.py:10:74",
-                "the node runs as /left/talker, but config/demo.yaml:1 is for "
-                "/talker: it is ignored",
-            ),
+            "launch/a.launch.py:10:74: the node runs as /left/talker, but config/demo.yaml:1 is "
+            "for /talker: it is ignored",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.launch import started_nodes
 
 _LAUNCH = (
@@ -45,8 +45,8 @@ class NodeNameRepeated(Rule):
                     ", namespace='left'", "eye", ", namespace='/left'"
                 ),
             },
-            Report("launch/a.launch.py:8:48", "the node in line 7 is named /eye as well"),
-            Report("launch/b.launch.py:8:48", "the node in line 7 is named /left/eye as well"),
+            "launch/a.launch.py:8:48: the node in line 7 is named /eye as well",
+            "launch/b.launch.py:8:48: the node in line 7 is named /left/eye as well",
         ),
     )
 

@@ -90,11 +90,9 @@ class PackageUndeclared(Rule):
                 ),
                 "launch/a.launch.py": _LAUNCH,
             },
-            Report(
-                "launch/a.launch.py:8:22",
-                "starts a node of 'rviz2', and line 4 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which excludes Jazzy; change the condition",
-            ),
+            "launch/a.launch.py:8:22: starts a node of 'rviz2', and line 4 of package.xml "
+            "declares it only if $ROS_DISTRO == humble, which excludes Jazzy; change the "
+            "condition",
         ),
         Example(
             "declared for this distribution, or where a variable of who builds it is set",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import SHARE, LaunchFile
 from scaffold.api.python import PathValue
 
@@ -36,7 +36,7 @@ class PathJoinedWrongly(LaunchRule):
         Example(
             "a slash too many",
             {"launch/a.launch.py": _LAUNCH.format("PATH = os.path.join(SHARE, '/config')")},
-            Report("6:28", "'/config' begins with a slash, which discards everything before it"),
+            "6:28: '/config' begins with a slash, which discards everything before it",
         ),
         Example(
             "no slash in a list",
@@ -47,12 +47,12 @@ class PathJoinedWrongly(LaunchRule):
                     "OTHER = PythonLaunchDescriptionSource([SHARE, '/launch', '/b.launch.py'])"
                 )
             },
-            Report("7:46", "parts are concatenated: missing slash before this one"),
+            "7:46: parts are concatenated: missing slash before this one",
         ),
         Example(
             "no slash",
             {"launch/a.launch.py": _LAUNCH.format("PATH = SHARE + 'config/a.yaml'")},
-            Report("6:8", "missing slash between the share directory and 'config/a.yaml'"),
+            "6:8: missing slash between the share directory and 'config/a.yaml'",
         ),
     )
 

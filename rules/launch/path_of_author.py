@@ -11,7 +11,6 @@ from scaffold.api import (
     Example,
     Location,
     Package,
-    Report,
     Rule,
     Severity,
     ViewError,
@@ -67,25 +66,14 @@ class PathOfAuthor(Rule):
                 "launch/c.launch.xml": "<launch>\n"
                 '  <arg name="map" default="/home/me/map.yaml"/>\n</launch>\n',
             },
-            Report(
-                "launch/a.launch.py:7:63",
-                "'/home/me/ros2_ws/src/talker/talker.yaml' exists on one machine "
-                "only; build it from the share directory",
-            ),
-            Report(
-                "launch/b.launch.py:7:63",
-                "'/ros2_ws/src/talker/talker.yaml' exists on one machine only; "
-                "build it from the share directory",
-            ),
-            Report(
-                "launch/c.launch.xml:2:28",
-                "'/home/me/map.yaml' exists on one machine only; build it from the share directory",
-            ),
-            Report(
-                "launch/d.launch.py:7:63",
-                "'config/talker.yaml' is relative to the directory of `ros2 launch`, "
-                "not to this file",
-            ),
+            "launch/a.launch.py:7:63: '/home/me/ros2_ws/src/talker/talker.yaml' exists on one "
+            "machine only; build it from the share directory",
+            "launch/b.launch.py:7:63: '/ros2_ws/src/talker/talker.yaml' exists on one machine "
+            "only; build it from the share directory",
+            "launch/c.launch.xml:2:28: '/home/me/map.yaml' exists on one machine only; build it "
+            "from the share directory",
+            "launch/d.launch.py:7:63: 'config/talker.yaml' is relative to the directory of `ros2 "
+            "launch`, not to this file",
         ),
     )
 

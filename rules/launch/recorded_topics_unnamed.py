@@ -148,11 +148,8 @@ class RecordedTopicsUnnamed(Rule):
                 "launch/c.launch.yaml": "launch:\n- executable:\n"
                 '    cmd: "ros2 bag record \\x2Ftf"\n',
             },
-            Report(
-                "launch/c.launch.yaml:3:10",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-            ),
+            "launch/c.launch.yaml:3:10: '/tf' follows no option: ros2 bag record of Lyrical ends "
+            "at once; use --topics (rosbag2 2328)",
             distro="lyrical",
         ),
         Example(
@@ -161,16 +158,10 @@ class RecordedTopicsUnnamed(Rule):
                 "launch/a.launch.py": _LAUNCH.format("'-o', name(), *'/scan /tf'.split()"),
                 "launch/b.launch.py": _FOUND.format("[[ROS, ' bag record ', '/tf']], shell=True"),
             },
-            Report(
-                "launch/a.launch.py:7:69",
-                "'/scan' follows no option: ros2 bag record of Lyrical ends at "
-                "once; use --topics (rosbag2 2328)",
-            ),
-            Report(
-                "launch/b.launch.py:5:32",
-                "'/tf' follows no option: ros2 bag record of Lyrical ends at once; "
-                "use --topics (rosbag2 2328)",
-            ),
+            "launch/a.launch.py:7:69: '/scan' follows no option: ros2 bag record of Lyrical ends "
+            "at once; use --topics (rosbag2 2328)",
+            "launch/b.launch.py:5:32: '/tf' follows no option: ros2 bag record of Lyrical ends at "
+            "once; use --topics (rosbag2 2328)",
             distro="lyrical",
         ),
     )

@@ -9,7 +9,6 @@ from scaffold.api import (
     Effect,
     Example,
     Package,
-    Report,
     Rule,
     closest_name,
     listed_names,
@@ -81,29 +80,20 @@ class RemappingWithoutEffect(Rule):
         Example(
             "a private topic without ~/",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "input")},
-            Report(
-                "launch/a.launch.py:8:27",
-                "'talk' has '~/input', which is below the name of the node: nothing "
-                "is remapped; write '~/input'",
-            ),
+            "launch/a.launch.py:8:27: 'talk' has '~/input', which is below the name of the node: "
+            "nothing is remapped; write '~/input'",
         ),
         Example(
             "no such topic",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "chat_in")},
-            Report(
-                "launch/a.launch.py:8:27",
-                "'talk' has no topic, service or action 'chat_in': nothing is "
-                "remapped; it has chatter, ~/input",
-            ),
+            "launch/a.launch.py:8:27: 'talk' has no topic, service or action 'chat_in': nothing "
+            "is remapped; it has chatter, ~/input",
         ),
         Example(
             "a slip",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("", "chater")},
-            Report(
-                "launch/a.launch.py:8:27",
-                "'talk' has no topic, service or action 'chater': nothing is "
-                "remapped; did you mean 'chatter'?",
-            ),
+            "launch/a.launch.py:8:27: 'talk' has no topic, service or action 'chater': nothing is "
+            "remapped; did you mean 'chatter'?",
         ),
         Example(
             "the wrong way round",
@@ -113,19 +103,14 @@ class RemappingWithoutEffect(Rule):
                     "'other'", "'chatter'"
                 ),
             },
-            Report(
-                "launch/a.launch.py:8:27",
-                "'talk' has 'chatter', not 'robot/chatter': nothing is remapped; "
-                "the name in the code comes first",
-            ),
+            "launch/a.launch.py:8:27: 'talk' has 'chatter', not 'robot/chatter': nothing is "
+            "remapped; the name in the code comes first",
         ),
         Example(
             "a full name, in a namespace",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format(" namespace='bot',", "/chatter")},
-            Report(
-                "launch/a.launch.py:8:27",
-                "in its namespace, 'talk' has '/bot/chatter': nothing is remapped; write 'chatter'",
-            ),
+            "launch/a.launch.py:8:27: in its namespace, 'talk' has '/bot/chatter': nothing is "
+            "remapped; write 'chatter'",
         ),
         Example(
             "in XML and in YAML",
@@ -138,16 +123,10 @@ class RemappingWithoutEffect(Rule):
                 "launch/c.launch.xml": '<launch><node pkg="demo" exec="talk">'
                 '<param from="a.yaml"/><remap from="chat_in" to="b"/></node></launch>\n',
             },
-            Report(
-                "launch/a.launch.xml:1:81",
-                "'talk' has no topic, service or action 'chat_in': nothing is "
-                "remapped; it has chatter, ~/input",
-            ),
-            Report(
-                "launch/b.launch.yaml:6:13",
-                "'talk' has no topic, service or action 'chat_in': nothing is "
-                "remapped; it has chatter, ~/input",
-            ),
+            "launch/a.launch.xml:1:81: 'talk' has no topic, service or action 'chat_in': nothing "
+            "is remapped; it has chatter, ~/input",
+            "launch/b.launch.yaml:6:13: 'talk' has no topic, service or action 'chat_in': nothing "
+            "is remapped; it has chatter, ~/input",
         ),
         Example(
             "the name of a parameter that is set",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.launch import missing_in, paths_of, why_missing
 
 _LAUNCH = (
@@ -126,11 +126,8 @@ class SharePathMissing(Rule):
                     "    lights = open(path).read()\n    return",
                 ),
             },
-            Report(
-                "launch/a.launch.py:10:12",
-                "share/talker/config/lights.yaml does not exist: talker has no such "
-                "file; closest: config/talker.yaml",
-            ),
+            "launch/a.launch.py:10:12: share/talker/config/lights.yaml does not exist: talker has "
+            "no such file; closest: config/talker.yaml",
         ),
         Example(
             "a file that the node writes",
@@ -175,11 +172,8 @@ class SharePathMissing(Rule):
                     "os.path.join(share, 'tests', 'a.test')", "share + '/tests/a.test \\n'"
                 ),
             },
-            Report(
-                "launch/a.launch.py:12:26",
-                "share/talker/tests/a.test does not exist: setup.py of talker does not install "
-                "tests/a.test",
-            ),
+            "launch/a.launch.py:12:26: share/talker/tests/a.test does not exist: setup.py of "
+            "talker does not install tests/a.test",
         ),
         Example(
             "a node that reads what is installed, and makes a file of its own",
@@ -193,11 +187,8 @@ class SharePathMissing(Rule):
         Example(
             "a node",
             {**_FILES, "talker/talk.py": _NODE.format("talk.yaml")},
-            Report(
-                "talker/talk.py:6:11",
-                "share/talker/config/talk.yaml does not exist: talker has no such "
-                "file; closest: config/talker.yaml",
-            ),
+            "talker/talk.py:6:11: share/talker/config/talk.yaml does not exist: talker has no "
+            "such file; closest: config/talker.yaml",
         ),
         Example(
             "another name; another directory; not installed",
@@ -207,21 +198,12 @@ class SharePathMissing(Rule):
                 "launch/b.launch.py": _LAUNCH.format("'talker.yaml'"),
                 "launch/c.launch.py": _LAUNCH.format("'config', 'other.json'"),
             },
-            Report(
-                "launch/a.launch.py:12:26",
-                "share/talker/config/talk.yaml does not exist: talker has no such "
-                "file; closest: config/talker.yaml",
-            ),
-            Report(
-                "launch/b.launch.py:12:26",
-                "share/talker/talker.yaml does not exist: it is installed as "
-                "share/talker/config/talker.yaml",
-            ),
-            Report(
-                "launch/c.launch.py:12:26",
-                "share/talker/config/other.json does not exist: setup.py of talker "
-                "does not install config/other.json",
-            ),
+            "launch/a.launch.py:12:26: share/talker/config/talk.yaml does not exist: talker has "
+            "no such file; closest: config/talker.yaml",
+            "launch/b.launch.py:12:26: share/talker/talker.yaml does not exist: it is installed "
+            "as share/talker/config/talker.yaml",
+            "launch/c.launch.py:12:26: share/talker/config/other.json does not exist: setup.py of "
+            "talker does not install config/other.json",
         ),
     )
 

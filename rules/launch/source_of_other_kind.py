@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import LaunchFile
 
 _ENDINGS: Mapping[str, tuple[str, ...]] = {
@@ -42,11 +42,8 @@ class SourceOfOtherKind(LaunchRule):
         Example(
             "XML for Python",
             {"launch/a.launch.py": _LAUNCH.format("b.launch.xml")},
-            Report(
-                "11:34",
-                "PythonLaunchDescriptionSource cannot read b.launch.xml: write "
-                "AnyLaunchDescriptionSource",
-            ),
+            "11:34: PythonLaunchDescriptionSource cannot read b.launch.xml: write "
+            "AnyLaunchDescriptionSource",
         ),
     )
 

@@ -206,26 +206,17 @@ class StaticTransformArguments(Rule):
                 "    yield Node(package='tf2_ros', executable=NODE,\n"
                 "               arguments=[*WORDS, '--ros-args', '-r', 'a:=b'])\n"
             },
-            Report(
-                "8:62",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
-            ),
-            Report(
-                "10:26",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
-            ),
+            "8:62: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "--x, --y and so on",
+            "10:26: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "--x, --y and so on",
             distro="lyrical",
         ),
         Example(
             "the arguments of ROS 1, with a period at the end",
             {"launch/a.launch.xml": _XML.format("0 0 0 0 0 0 base laser 100")},
-            Report(
-                "2:63",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
-            ),
+            "2:63: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "--x, --y and so on",
             distro="lyrical",
         ),
         Example(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Location, Package, Rule, closest_name
 from scaffold.api.distributions import of_program
 from scaffold.api.launch import PROGRAM, UNSAID, Word, static_transforms
 
@@ -59,19 +59,12 @@ class StaticTransformMisused(Rule):
                 "launch/b.launch.py": _LAUNCH.format("'--x', '1', '--frame-id', 'a'"),
                 "launch/c.launch.xml": _XML.format("--tx 1 --frame-id a --child-frame-id b"),
             },
-            Report(
-                "launch/a.launch.py:8:25",
-                "'--frame_id' is not an option: static_transform_publisher ends at "
-                "once; closest: '--frame-id'",
-            ),
-            Report(
-                "launch/b.launch.py:7:9",
-                "no '--child-frame-id': static_transform_publisher ends at once, it must be given",
-            ),
-            Report(
-                "launch/c.launch.xml:2:63",
-                "'--tx' is not an option: static_transform_publisher ends at once; closest: '--x'",
-            ),
+            "launch/a.launch.py:8:25: '--frame_id' is not an option: static_transform_publisher "
+            "ends at once; closest: '--frame-id'",
+            "launch/b.launch.py:7:9: no '--child-frame-id': static_transform_publisher ends at "
+            "once, it must be given",
+            "launch/c.launch.xml:2:63: '--tx' is not an option: static_transform_publisher ends "
+            "at once; closest: '--x'",
         ),
         Example(
             "options that Lyrical passes over",
@@ -83,14 +76,10 @@ class StaticTransformMisused(Rule):
                     "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
                 ),
             },
-            Report(
-                "launch/a.launch.py:8:25",
-                "'--tx' is not an option: static_transform_publisher ignores it; closest: '--x'",
-            ),
-            Report(
-                "launch/b.launch.py:8:25",
-                "'0.1' follows no option: static_transform_publisher ignores it",
-            ),
+            "launch/a.launch.py:8:25: '--tx' is not an option: static_transform_publisher ignores "
+            "it; closest: '--x'",
+            "launch/b.launch.py:8:25: '0.1' follows no option: static_transform_publisher ignores "
+            "it",
             distro="lyrical",
         ),
         Example(
@@ -102,10 +91,8 @@ class StaticTransformMisused(Rule):
                 "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id $(var b c)"),
                 "launch/d.launch.xml": _XML.format("0 0 0 $(var rotation) a b"),
             },
-            Report(
-                "launch/a.launch.xml:2:20",
-                "no '--child-frame-id': static_transform_publisher ends at once, it must be given",
-            ),
+            "launch/a.launch.xml:2:20: no '--child-frame-id': static_transform_publisher ends at "
+            "once, it must be given",
         ),
         Example(
             "degrees",
@@ -116,8 +103,8 @@ class StaticTransformMisused(Rule):
                 "launch/b.launch.xml": _XML.format("7 8 9 -6.28 0 180 a b"),
                 "launch/c.launch.xml": _XML.format("7 8 9 10 11 12 13 a b"),
             },
-            Report("launch/a.launch.py:8:34", "angles are in radians: 90 is more than a turn"),
-            Report("launch/b.launch.xml:2:63", "angles are in radians: 180 is more than a turn"),
+            "launch/a.launch.py:8:34: angles are in radians: 90 is more than a turn",
+            "launch/b.launch.xml:2:63: angles are in radians: 180 is more than a turn",
         ),
         Example(
             "the arguments of ROS 1, with a period at the end; no number",
@@ -128,14 +115,8 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("1e-1 .5 -.5 +0 inf 1.0f 1 a b"),
             },
-            Report(
-                "launch/a.launch.py:8:26",
-                "'a' is no number: static_transform_publisher ends at once",
-            ),
-            Report(
-                "launch/b.launch.py:8:34",
-                "'pi' is no number: static_transform_publisher ends at once",
-            ),
+            "launch/a.launch.py:8:26: 'a' is no number: static_transform_publisher ends at once",
+            "launch/b.launch.py:8:34: 'pi' is no number: static_transform_publisher ends at once",
         ),
         Example(
             "a value without an option",
@@ -144,7 +125,7 @@ class StaticTransformMisused(Rule):
                     "'0.1', '--frame-id', 'a', '--child-frame-id', 'b'"
                 )
             },
-            Report("8:25", "'0.1' follows no option: static_transform_publisher ends at once"),
+            "8:25: '0.1' follows no option: static_transform_publisher ends at once",
         ),
         Example(
             "too few numbers; two kinds of rotation; one frame",
@@ -155,17 +136,11 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id a"),
             },
-            Report(
-                "launch/a.launch.py:7:9",
-                "5 arguments without names: static_transform_publisher ends at "
-                "once; write --frame-id, --child-frame-id and --x, --y, ...",
-            ),
-            Report(
-                "launch/b.launch.py:7:9",
-                "angles and a quaternion: static_transform_publisher ends at once; "
-                "give one of them",
-            ),
-            Report("launch/c.launch.xml:2:63", "'a' is its own parent: tf2 ignores the transform"),
+            "launch/a.launch.py:7:9: 5 arguments without names: static_transform_publisher ends "
+            "at once; write --frame-id, --child-frame-id and --x, --y, ...",
+            "launch/b.launch.py:7:9: angles and a quaternion: static_transform_publisher ends at "
+            "once; give one of them",
+            "launch/c.launch.xml:2:63: 'a' is its own parent: tf2 ignores the transform",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import CONDITION, LaunchFile, text_uses, truth_tests
 
 _SHOWN = frozenset({"in an f-string", "in str()", "in a % format", "in format()"})
@@ -69,39 +69,24 @@ class SubstitutionUsedAsText(LaunchRule):
         Example(
             "joined by Python",
             {"launch/a.launch.py": _LAUNCH.format("os.path.join('a', name)", "'x' + name")},
-            Report(
-                "10:30",
-                "the value of a LaunchConfiguration is not known yet in "
-                "os.path.join(): it is evaluated later",
-            ),
-            Report(
-                "12:74",
-                "the value of a LaunchConfiguration is not known yet in a sum: it "
-                "is evaluated later",
-            ),
+            "10:30: the value of a LaunchConfiguration is not known yet in os.path.join(): it is "
+            "evaluated later",
+            "12:74: the value of a LaunchConfiguration is not known yet in a sum: it is evaluated "
+            "later",
         ),
         Example(
             "filled into a text, a choice of Python",
             {"launch/a.launch.py": _LAUNCH.format("'%s.a' % name", "'a' if name else 'b'")},
-            Report(
-                "10:21",
-                "the value of a LaunchConfiguration is not known yet in a % format: "
-                "it is evaluated later",
-            ),
-            Report(
-                "12:81",
-                "the LaunchConfiguration object is tested, not its value: always "
-                "true; use IfCondition",
-            ),
+            "10:21: the value of a LaunchConfiguration is not known yet in a % format: it is "
+            "evaluated later",
+            "12:81: the LaunchConfiguration object is tested, not its value: always true; use "
+            "IfCondition",
         ),
         Example(
             "in an f-string",
             {"launch/a.launch.py": _LAUNCH.format("'a'", "f'x{name}'")},
-            Report(
-                "12:74",
-                "the value of a LaunchConfiguration is not known yet in an "
-                "f-string: it is evaluated later",
-            ),
+            "12:74: the value of a LaunchConfiguration is not known yet in an f-string: it is "
+            "evaluated later",
         ),
         Example(
             "its text compared",
@@ -113,12 +98,12 @@ class SubstitutionUsedAsText(LaunchRule):
         Example(
             "the truth of its text",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use", "false")},
-            Report("8:18", "this is a string such as 'false', which is always true"),
+            "8:18: this is a string such as 'false', which is always true",
         ),
         Example(
             "its text compared with a truth value",
             {"launch/a.launch.py": _LAUNCH_TRUTH.format("use == True", "false")},
-            Report("8:18", "this is a string, which never equals True"),
+            "8:18: this is a string, which never equals True",
         ),
     )
 

@@ -114,11 +114,8 @@ class TextReadAsYaml(Rule):
         Example(
             "read as YAML",
             {**_FILES, "launch/a.launch.py": _LAUNCH.format("text")},
-            Report(
-                "launch/a.launch.py:12:70",
-                "text is a string, and launch reads a value such as 42 or on as "
-                "YAML: wrap it in ParameterValue(..., value_type=str)",
-            ),
+            "launch/a.launch.py:12:70: text is a string, and launch reads a value such as 42 or "
+            "on as YAML: wrap it in ParameterValue(..., value_type=str)",
         ),
         Example(
             "the output of a command, kept as text",

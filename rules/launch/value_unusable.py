@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import LaunchFile
 
 from ._values import flaws
@@ -86,8 +86,8 @@ class ValueUnusable(LaunchRule):
         Example(
             "a number, a number in a list",
             {"launch/a.launch.py": _LAUNCH.format("2.0", "['--rate', 3]")},
-            Report("8:53", "this is not a string: write '2.0'"),
-            Report("9:72", "this is not a string: write '3'"),
+            "8:53: this is not a string: write '2.0'",
+            "9:72: this is not a string: write '3'",
         ),
         Example(
             "other arguments of a node",
@@ -99,32 +99,24 @@ class ValueUnusable(LaunchRule):
                     "             condition='true', parameters=[('rate', 2.0)]",
                 )
             },
-            Report(
-                "10:21", "unknown output 'console'; choose from both, full, log, own_log, screen"
-            ),
-            Report("10:66", "the environment must be a dictionary, not a list"),
-            Report("11:24", "a condition must be an object such as IfCondition(...), not a value"),
-            Report(
-                "11:43",
-                "parameters must be files or dictionaries {'name': value}, not lists or pairs",
-            ),
+            "10:21: unknown output 'console'; choose from both, full, log, own_log, screen",
+            "10:66: the environment must be a dictionary, not a list",
+            "11:24: a condition must be an object such as IfCondition(...), not a value",
+            "11:43: parameters must be files or dictionaries {'name': value}, not lists or pairs",
         ),
         Example("texts", {"launch/a.launch.py": _TEXTS.format("['a', 'b']", "'n'", "'3'")}),
         Example(
             "a number, an action, a number in the environment",
             {"launch/a.launch.py": _TEXTS.format("3", "name", "3")},
-            Report("10:21", "this is not a string: write '3'"),
-            Report(
-                "11:48",
-                "this is the action DeclareLaunchArgument, not a value: write "
-                "LaunchConfiguration('name')",
-            ),
-            Report("11:78", "this is not a string: write '3'"),
+            "10:21: this is not a string: write '3'",
+            "11:48: this is the action DeclareLaunchArgument, not a value: write "
+            "LaunchConfiguration('name')",
+            "11:78: this is not a string: write '3'",
         ),
         Example(
             "a number among texts",
             {"launch/a.launch.py": _TEXTS.format("['a', 3]", "'n'", "'3'")},
-            Report("10:27", "this is not a string: write '3'"),
+            "10:27: this is not a string: write '3'",
         ),
         Example(
             "a command, a period and a choice",
@@ -133,17 +125,14 @@ class ValueUnusable(LaunchRule):
         Example(
             "a default that is no choice, a command in one text, an int as a period",
             {"launch/a.launch.py": _PROCESS.format("fst", "'ls -l'", "1")},
-            Report("9:68", "the default 'fst' is not among the choices"),
-            Report("10:28", "launch splits a string into letters: write a list of words"),
-            Report("11:28", "a period must be a float: write 1.0"),
+            "9:68: the default 'fst' is not among the choices",
+            "10:28: launch splits a string into letters: write a list of words",
+            "11:28: a period must be a float: write 1.0",
         ),
         Example(
             "two words of a command in one",
             {"launch/a.launch.py": _PROCESS.format("fast", "['ls -l']", "1.0")},
-            Report(
-                "10:28",
-                "this is one word, so a program 'ls -l' is looked for: write a list of words",
-            ),
+            "10:28: this is one word, so a program 'ls -l' is looked for: write a list of words",
         ),
         Example(
             "the name of a type",
@@ -155,7 +144,7 @@ class ValueUnusable(LaunchRule):
                 "    return [ParameterValue(rate, value_type=int),\n"
                 "            ParameterValue(rate, value_type='int')]\n"
             },
-            Report("8:45", "value_type must be a type, not a string: write int"),
+            "8:45: value_type must be a type, not a string: write int",
         ),
         Example(
             "other kinds of respawn, periods and choices",
@@ -168,20 +157,13 @@ class ValueUnusable(LaunchRule):
                     "['fast', 'slow']", "[1, 2]"
                 ),
             },
-            Report(
-                "launch/a.launch.py:10:44",
-                "respawn must be a bool, not a string: write True or False",
-            ),
-            Report("launch/a.launch.py:11:28", "a period must be a number of seconds, such as 1.0"),
-            Report(
-                "launch/b.launch.py:9:69",
-                "choices must be a list of strings: every letter of this string is a choice",
-            ),
-            Report("launch/b.launch.py:11:28", "a period must be a number of seconds, not 'soon'"),
-            Report(
-                "launch/c.launch.py:9:66",
-                "choices must be strings: a value of the command line never equals a number",
-            ),
+            "launch/a.launch.py:10:44: respawn must be a bool, not a string: write True or False",
+            "launch/a.launch.py:11:28: a period must be a number of seconds, such as 1.0",
+            "launch/b.launch.py:9:69: choices must be a list of strings: every letter of this "
+            "string is a choice",
+            "launch/b.launch.py:11:28: a period must be a number of seconds, not 'soon'",
+            "launch/c.launch.py:9:66: choices must be strings: a value of the command line never "
+            "equals a number",
         ),
         Example(
             "arguments of an include: pairs",
@@ -190,53 +172,48 @@ class ValueUnusable(LaunchRule):
         Example(
             "arguments of an include: a number",
             {"launch/a.launch.py": _INCLUDE.format("{'a': 3}.items()")},
-            Report("13:36", "'a' gets 3, which is not a string: write '3'"),
+            "13:36: 'a' gets 3, which is not a string: write '3'",
         ),
         Example(
             "arguments of an include: a number in a list",
             {"launch/a.launch.py": _INCLUDE.format("[('a', ['b', 1])]")},
-            Report("13:37", "'a' gets a list with a number, which launch cannot join"),
+            "13:37: 'a' gets a list with a number, which launch cannot join",
         ),
         Example(
             "arguments of an include: a set",
             {"launch/a.launch.py": _INCLUDE.format("{'a', 'b'}")},
-            Report(
-                "13:30", "this is a set: launch takes pairs, {...}.items() or [('name', 'value')]"
-            ),
+            "13:30: this is a set: launch takes pairs, {...}.items() or [('name', 'value')]",
         ),
         Example(
             "arguments of an include: items, not called",
             {"launch/a.launch.py": _INCLUDE.format("{'a': 'b'}.items")},
-            Report("13:30", "items is not called: write .items()"),
+            "13:30: items is not called: write .items()",
         ),
         Example(
             "arguments of an include: a list of texts",
             {"launch/a.launch.py": _INCLUDE.format("['a', 'b']")},
-            Report(
-                "13:30",
-                "these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
-            ),
+            "13:30: these are not pairs: launch takes pairs, {...}.items() or [('name', 'value')]",
         ),
         Example(
             "arguments of an include: a number that is computed",
             {"launch/a.launch.py": _INCLUDE.format("{'a': 1 + 2}.items()")},
-            Report("13:36", "'a' gets 3, which is not a string"),
+            "13:36: 'a' gets 3, which is not a string",
         ),
         Example("a parameter: values of one type", {"launch/a.launch.py": _NODE.format("[1, 2]")}),
         Example(
             "a parameter: nothing",
             {"launch/a.launch.py": _NODE.format("None")},
-            Report("7:61", "the parameter 'a' is None, which is not a value of a parameter"),
+            "7:61: the parameter 'a' is None, which is not a value of a parameter",
         ),
         Example(
             "a parameter: an empty list",
             {"launch/a.launch.py": _NODE.format("[]")},
-            Report("7:61", "the parameter 'a' is an empty list, whose type is unknown"),
+            "7:61: the parameter 'a' is an empty list, whose type is unknown",
         ),
         Example(
             "a parameter: a mixed list",
             {"launch/a.launch.py": _NODE.format("[1, 'a']")},
-            Report("7:61", "the parameter 'a' mixes types in a list"),
+            "7:61: the parameter 'a' mixes types in a list",
         ),
     )
 

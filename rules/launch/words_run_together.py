@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Report
+from scaffold.api import Diagnostic, Example, LaunchRule
 from scaffold.api.launch import NODES, LaunchCall, LaunchFile
 from scaffold.api.python import joined_names
 
@@ -64,9 +64,7 @@ class WordsRunTogether(LaunchRule):
         Example(
             "a missing comma",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args' '-r', 'a:=b'")},
-            Report(
-                "7:62", "Python joins this to '--ros-args-r': missing comma between the strings"
-            ),
+            "7:62: Python joins this to '--ros-args-r': missing comma between the strings",
         ),
         Example(
             "names in a parameter",
@@ -76,19 +74,17 @@ class WordsRunTogether(LaunchRule):
                     "             'text': ['one long ' 'text']}"
                 )
             },
-            Report("8:24", "Python joins this to 'armgripper': missing comma between the strings"),
+            "8:24: Python joins this to 'armgripper': missing comma between the strings",
         ),
         Example(
             "a prefix",
             {"launch/a.launch.py": _LAUNCH.format("'a'], prefix=['xterm', '-e'")},
-            Report("7:85", "launch concatenates the parts of a prefix: missing space"),
+            "7:85: launch concatenates the parts of a prefix: missing space",
         ),
         Example(
             "three in one",
             {"launch/a.launch.py": _LAUNCH.format("'--ros-args -r a:=b'")},
-            Report(
-                "7:62", "this is one argument with spaces in it: write one string for each word"
-            ),
+            "7:62: this is one argument with spaces in it: write one string for each word",
         ),
         Example(
             "the value of an option, which its program splits",
@@ -98,12 +94,12 @@ class WordsRunTogether(LaunchRule):
         Example(
             "a command without one",
             _command("['xacro', 'a']"),
-            Report("7:12", "launch concatenates the parts of a command: write 'xacro '"),
+            "7:12: launch concatenates the parts of a command: write 'xacro '",
         ),
         Example(
             "a program that is looked for",
             _command("[PathJoinSubstitution([FindExecutable(name='xacro')]), 'a']"),
-            Report("7:12", "launch concatenates the parts of a command: write ' ' after it"),
+            "7:12: launch concatenates the parts of a command: write ' ' after it",
         ),
     )
 

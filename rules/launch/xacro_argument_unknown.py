@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, LaunchRule, Package, Report, closest_name
+from scaffold.api import Diagnostic, Effect, Example, LaunchRule, Package, closest_name
 from scaffold.api.launch import LaunchFile
 from scaffold.api.robot import Expansion, robots
 
@@ -72,11 +72,8 @@ class XacroArgumentUnknown(LaunchRule):
                 "urdf/robot.xacro": _ROBOT.format(""),
                 "launch/a.launch.py": _LAUNCH.format("use_simulation"),
             },
-            Report(
-                "launch/a.launch.py:9:45",
-                "urdf/robot.xacro has no <xacro:arg> 'use_simulation': it is "
-                "ignored; closest: 'use_sim'",
-            ),
+            "launch/a.launch.py:9:45: urdf/robot.xacro has no <xacro:arg> 'use_simulation': it is "
+            "ignored; closest: 'use_sim'",
         ),
     )
 

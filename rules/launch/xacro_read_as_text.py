@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule, Location, Report
+from scaffold.api import Diagnostic, Example, LaunchRule, Location
 from scaffold.api.launch import LaunchFile
 
 _LAUNCH = (
@@ -52,14 +52,10 @@ class XacroReadAsText(LaunchRule):
                 "launch/a.launch.py": _LAUNCH.format("urdf.xacro", "open(path).read()"),
                 "launch/b.launch.py": _LAUNCH.format("xacro", "Command(['cat ', path])"),
             },
-            Report(
-                "launch/a.launch.py:11:19",
-                "a xacro file is read without expanding its macros; run xacro in a Command",
-            ),
-            Report(
-                "launch/b.launch.py:11:28",
-                "a xacro file is read without expanding its macros; run xacro in a Command",
-            ),
+            "launch/a.launch.py:11:19: a xacro file is read without expanding its macros; run "
+            "xacro in a Command",
+            "launch/b.launch.py:11:28: a xacro file is read without expanding its macros; run "
+            "xacro in a Command",
         ),
     )
 

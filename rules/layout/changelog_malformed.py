@@ -44,7 +44,7 @@ class ChangelogMalformed(Rule):
         Example(
             "a word before the version",
             {"CHANGELOG.rst": f"{_TITLE}Release 0.1\n-----------\n* first\n"},
-            Report("5:1", "the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)"),
+            "5:1: the section 'Release 0.1' is not a version such as 1.2.3 (2026-11-21)",
         ),
         Example(
             "a section for the version",

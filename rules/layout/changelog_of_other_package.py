@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 _TITLE = r"^Changelog for package\s+(\S+)"
 _TEXT = (
@@ -36,9 +36,7 @@ class ChangelogOfOtherPackage(Rule):
         Example(
             "of another one",
             {"package.xml": _MANIFEST, "CHANGELOG.rst": _TEXT.format("other")},
-            Report(
-                "CHANGELOG.rst:2:23", "the changelog belongs to 'other', the package is 'talker'"
-            ),
+            "CHANGELOG.rst:2:23: the changelog belongs to 'other', the package is 'talker'",
         ),
     )
 

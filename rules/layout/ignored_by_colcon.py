@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 MARKERS = {
     "COLCON_IGNORE": "colcon",
@@ -32,23 +32,14 @@ class IgnoredByColcon(Rule):
         Example(
             "a marker left over from an experiment",
             {"package.xml": "<package/>\n", "COLCON_IGNORE": ""},
-            Report(
-                "COLCON_IGNORE:1:1",
-                "COLCON_IGNORE hides the package from colcon: it is never built",
-            ),
+            "COLCON_IGNORE:1:1: COLCON_IGNORE hides the package from colcon: it is never built",
         ),
         Example(
             "the markers of other tools",
             {"package.xml": "<package/>\n", "AMENT_IGNORE": "", "CATKIN_IGNORE": ""},
-            Report(
-                "AMENT_IGNORE:1:1",
-                "AMENT_IGNORE hides the package from colcon-ros and the ament "
-                "tools: it is never built",
-            ),
-            Report(
-                "CATKIN_IGNORE:1:1",
-                "CATKIN_IGNORE hides the package from colcon-ros: it is never built",
-            ),
+            "AMENT_IGNORE:1:1: AMENT_IGNORE hides the package from colcon-ros and the ament "
+            "tools: it is never built",
+            "CATKIN_IGNORE:1:1: CATKIN_IGNORE hides the package from colcon-ros: it is never built",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 NAMES = ("LICENSE", "LICENCE", "COPYING")
 _DEPTH = 5
@@ -31,7 +31,7 @@ class LicenseTextMissing(Rule):
         Example(
             "nowhere",
             {"package.xml": "<package/>\n", "setup.py": ""},
-            Report("package.xml:1:1", "there is no LICENSE file here or above"),
+            "package.xml:1:1: there is no LICENSE file here or above",
         ),
     )
 

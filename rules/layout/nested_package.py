@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
 from scaffold.api.cmake import installs_directory
 
 _COPIES = frozenset({"third_party", "thirdparty", "3rdparty", "external", "vendor"})
@@ -46,10 +46,8 @@ class NestedPackage(Rule):
         Example(
             "a package of messages inside the package that uses them",
             {"package.xml": "<package/>\n", "robot_msgs/package.xml": "<package/>\n"},
-            Report(
-                "robot_msgs/package.xml:1:1",
-                "is inside the package 'the package above it': colcon never builds it",
-            ),
+            "robot_msgs/package.xml:1:1: is inside the package 'the package above it': colcon "
+            "never builds it",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import is_handled
 
@@ -48,16 +48,10 @@ class AnswerNotUnwrapped(MessageRule):
         Example(
             "not unwrapped",
             {"sender.py": _NODE.format("", "")},
-            Report(
-                "16:21",
-                "this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
-                "AttributeError; use .feedback.sequence",
-            ),
-            Report(
-                "24:21",
-                "this wrapper has only 'result' and 'status', not 'sequence': "
-                "AttributeError; use .result.sequence",
-            ),
+            "16:21: this wrapper has only 'feedback' and 'goal_id', not 'sequence': "
+            "AttributeError; use .feedback.sequence",
+            "24:21: this wrapper has only 'result' and 'status', not 'sequence': AttributeError; "
+            "use .result.sequence",
         ),
     )
 

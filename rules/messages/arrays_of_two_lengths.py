@@ -45,10 +45,7 @@ class ArraysOfTwoLengths(MessageRule):
         Example(
             "a product",
             {"a.py": _NODE.format("[0.0] * 3", "[*range(3)]")},
-            Report(
-                "7:20",
-                "position has 3 values for 2 names: the message is ignored; give one for each",
-            ),
+            "7:20: position has 3 values for 2 names: the message is ignored; give one for each",
         ),
         Example(
             "names that the node keeps, and those that it finds later",
@@ -67,18 +64,12 @@ class ArraysOfTwoLengths(MessageRule):
                 "        first = JointState(name=self.found, position=angles)\n"
                 "        return first, JointState(name=self.names, position=angles)\n"
             },
-            Report(
-                "18:60",
-                "position has 2 values for 3 names: the message is ignored; give one for each",
-            ),
+            "18:60: position has 2 values for 3 names: the message is ignored; give one for each",
         ),
         Example(
             "two lengths",
             {"a.py": _NODE.format("[0.0]", "[1.0, 2.0]")},
-            Report(
-                "7:20",
-                "position has 1 values for 2 names: the message is ignored; give one for each",
-            ),
+            "7:20: position has 1 values for 2 names: the message is ignored; give one for each",
             Report(
                 "8:49",
                 "velocity has 2 values for 1 names: robot_state_publisher does not "

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -59,12 +59,9 @@ class ColorOrderSwapped(MessageRule):
                 "b.py": _FILE.format("rgb8"),
                 "c.py": _FILE.format("bgr8"),
             },
-            Report(
-                "a.py:9:35",
-                "'frame' is RGB, but COLOR_BGR2HSV takes BGR: red and blue are "
-                "swapped; use COLOR_RGB2HSV",
-            ),
-            Report("b.py:8:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
+            "a.py:9:35: 'frame' is RGB, but COLOR_BGR2HSV takes BGR: red and blue are swapped; "
+            "use COLOR_RGB2HSV",
+            "b.py:8:12: 'frame' is BGR, but is sent as RGB: red and blue are swapped",
         ),
         Example(
             "one channel for three",
@@ -79,12 +76,8 @@ class ColorOrderSwapped(MessageRule):
                 ),
                 "c.py": _FILE.format("mono8").replace("imread(path)", "inRange(path, 1, 2)"),
             },
-            Report(
-                "a.py:8:12", "'frame' is gray, but is sent as BGR: CvBridgeError; write 'mono8'"
-            ),
-            Report(
-                "b.py:9:12", "'frame' is gray, but is sent as RGB: CvBridgeError; write 'mono8'"
-            ),
+            "a.py:8:12: 'frame' is gray, but is sent as BGR: CvBridgeError; write 'mono8'",
+            "b.py:9:12: 'frame' is gray, but is sent as RGB: CvBridgeError; write 'mono8'",
         ),
         Example(
             "an image that a method is given",
@@ -98,11 +91,8 @@ class ColorOrderSwapped(MessageRule):
                 "    def find(self, frame):\n"
                 "        return cv2.cvtColor(frame, cv2.COLOR_RGB2HSV)\n"
             },
-            Report(
-                "12:36",
-                "'frame' is BGR, but COLOR_RGB2HSV takes RGB: red and blue are "
-                "swapped; use COLOR_BGR2HSV",
-            ),
+            "12:36: 'frame' is BGR, but COLOR_RGB2HSV takes RGB: red and blue are swapped; use "
+            "COLOR_BGR2HSV",
         ),
         Example(
             "a converted image, and one of a camera",
@@ -128,10 +118,10 @@ class ColorOrderSwapped(MessageRule):
                     "    frame = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)",
                 ),
             },
-            Report("a.py:8:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
-            Report("b.py:9:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
-            Report("e.py:9:12", "'frame' is RGB, but is sent as BGR: red and blue are swapped"),
-            Report("f.py:8:12", "'frame' is BGR, but is sent as RGB: red and blue are swapped"),
+            "a.py:8:12: 'frame' is RGB, but is sent as BGR: red and blue are swapped",
+            "b.py:9:12: 'frame' is BGR, but is sent as RGB: red and blue are swapped",
+            "e.py:9:12: 'frame' is RGB, but is sent as BGR: red and blue are swapped",
+            "f.py:8:12: 'frame' is BGR, but is sent as RGB: red and blue are swapped",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.interfaces import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 from scaffold.api.messages import MessageTypes
 
@@ -57,11 +57,11 @@ class ComparisonNeverTrue(MessageRule):
         Example(
             "out of range, a number for bytes, texts for a truth and for a number",
             {"watch.py": _NODE.format("255", "200", "0", "'true'", "('1', '2')")},
-            Report("16:16", "msg.data[0] is of int8, -128 to 127: it never equals 255"),
-            Report("16:66", "cell is of int8, -128 to 127: it never equals 200"),
-            Report("19:16", "msg.level is of type bytes, which never equals 0"),
-            Report("22:16", "msg.data is of type bool, which never equals 'true'"),
-            Report("25:16", "msg.data is of type int, which never equals '1'"),
+            "16:16: msg.data[0] is of int8, -128 to 127: it never equals 255",
+            "16:66: cell is of int8, -128 to 127: it never equals 200",
+            "19:16: msg.level is of type bytes, which never equals 0",
+            "22:16: msg.data is of type bool, which never equals 'true'",
+            "25:16: msg.data is of type int, which never equals '1'",
         ),
         Example(
             "a header for a text, and NaN",
@@ -75,8 +75,8 @@ class ComparisonNeverTrue(MessageRule):
                 )
                 + "\n\nNAN = float('nan')\n"
             },
-            Report("16:38", "msg.header is a std_msgs/msg/Header, which never equals 'map'"),
-            Report("25:49", "NaN equals nothing, itself included: use math.isnan(msg.data)"),
+            "16:38: msg.header is a std_msgs/msg/Header, which never equals 'map'",
+            "25:49: NaN equals nothing, itself included: use math.isnan(msg.data)",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Effect, Example, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Location, Package, Rule
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import Definitions, FieldType, closest_word, interface_files
 
@@ -49,16 +49,10 @@ class FieldTypeUnusable(Rule):
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
                 "msg/Beat.msg": "Header header\ngeometry_msgs/Pont point\n",
             },
-            Report(
-                "msg/Beat.msg:1:1",
-                "type 'my_msgs/Header': my_msgs has no message 'Header'; did you "
-                "mean 'std_msgs/Header'?",
-            ),
-            Report(
-                "msg/Beat.msg:2:1",
-                "type 'geometry_msgs/Pont': geometry_msgs has no message 'Pont'; "
-                "did you mean 'Point'?",
-            ),
+            "msg/Beat.msg:1:1: type 'my_msgs/Header': my_msgs has no message 'Header'; did you "
+            "mean 'std_msgs/Header'?",
+            "msg/Beat.msg:2:1: type 'geometry_msgs/Pont': geometry_msgs has no message 'Pont'; "
+            "did you mean 'Point'?",
         ),
         Example(
             "a type that the distribution removed",
@@ -67,13 +61,9 @@ class FieldTypeUnusable(Rule):
                 "CMakeLists.txt": _LISTS.replace("{}", "msg/Beat.msg"),
                 "msg/Beat.msg": "geometry_msgs/Pose2D pose\n",
             },
-            Report(
-                "msg/Beat.msg:1:1",
-                "type 'geometry_msgs/Pose2D' was removed in Lyrical; use "
-                "geometry_msgs/msg/Pose, or a message of your own with x, y and "
-                "theta: which is right depends on who reads it (common_interfaces "
-                "283)",
-            ),
+            "msg/Beat.msg:1:1: type 'geometry_msgs/Pose2D' was removed in Lyrical; use "
+            "geometry_msgs/msg/Pose, or a message of your own with x, y and theta: which is right "
+            "depends on who reads it (common_interfaces 283)",
             distro="lyrical",
         ),
         Example(
@@ -93,7 +83,7 @@ class FieldTypeUnusable(Rule):
                 "msg/Node.msg": "int32 id\nmy_msgs/Node[] children\n",
                 "msg/Tree.msg": "Node root\n",
             },
-            Report("msg/Node.msg:2:1", "message 'Node' contains itself: the build stops"),
+            "msg/Node.msg:2:1: message 'Node' contains itself: the build stops",
         ),
         Example(
             "two messages in each other",
@@ -103,14 +93,10 @@ class FieldTypeUnusable(Rule):
                 "msg/Node.msg": "Tree tree\n",
                 "msg/Tree.msg": "Node[] nodes\n",
             },
-            Report(
-                "msg/Node.msg:1:1",
-                "message 'Node' contains 'Tree', which contains 'Node': the build stops",
-            ),
-            Report(
-                "msg/Tree.msg:1:1",
-                "message 'Tree' contains 'Node', which contains 'Tree': the build stops",
-            ),
+            "msg/Node.msg:1:1: message 'Node' contains 'Tree', which contains 'Node': the build "
+            "stops",
+            "msg/Tree.msg:1:1: message 'Tree' contains 'Node', which contains 'Tree': the build "
+            "stops",
         ),
     )
 

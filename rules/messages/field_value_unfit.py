@@ -101,46 +101,24 @@ class FieldValueUnfit(MessageRule):
                     "np.min(scan.ranges)", "np.array(scan.ranges).mean()", "np.max(near)"
                 )
             },
-            Report(
-                "15:45",
-                "'data' of std_msgs/msg/Float64 is float64, but np.min(scan.ranges) "
-                "is a numpy.float32, not a float; write float(...)",
-            ),
-            Report(
-                "16:45",
-                "'data' of std_msgs/msg/Float64 is float64, but "
-                "np.array(scan.ranges).mean() is a numpy.float32, not a float; "
-                "write float(...)",
-            ),
-            Report(
-                "18:24",
-                "'data' of std_msgs/msg/Float64 is float64, but np.max(near) is a "
-                "numpy.float32, not a float; write float(...)",
-            ),
+            "15:45: 'data' of std_msgs/msg/Float64 is float64, but np.min(scan.ranges) is a "
+            "numpy.float32, not a float; write float(...)",
+            "16:45: 'data' of std_msgs/msg/Float64 is float64, but np.array(scan.ranges).mean() "
+            "is a numpy.float32, not a float; write float(...)",
+            "18:24: 'data' of std_msgs/msg/Float64 is float64, but np.max(near) is a "
+            "numpy.float32, not a float; write float(...)",
         ),
         Example(
             "a str for a float, 8 of 9 elements, an 8-bit counter, an int for a bool and a str",
             {"talker.py": _CODE.format("'20'", "[0.1] * 8", "250 + self.count", "1", "self.count")},
-            Report(
-                "13:31",
-                "'temperature' of sensor_msgs/msg/Temperature is float64, but '20' is a str",
-            ),
-            Report(
-                "15:38",
-                "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                "[0.1] * 8 has 8 elements, not 9",
-            ),
-            Report(
-                "17:22",
-                "'data' of std_msgs/msg/UInt8 is uint8, but self.count grows "
-                "without bound in line 18: uint8 holds 0 to 255",
-            ),
-            Report(
-                "19:26",
-                "'data' of std_msgs/msg/Bool is bool, but 1 is an int: subscribers "
-                "get False; write bool(...)",
-            ),
-            Report("19:42", "'data' of std_msgs/msg/String is string, but self.count is an int"),
+            "13:31: 'temperature' of sensor_msgs/msg/Temperature is float64, but '20' is a str",
+            "15:38: 'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but [0.1] * 8 "
+            "has 8 elements, not 9",
+            "17:22: 'data' of std_msgs/msg/UInt8 is uint8, but self.count grows without bound in "
+            "line 18: uint8 holds 0 to 255",
+            "19:26: 'data' of std_msgs/msg/Bool is bool, but 1 is an int: subscribers get False; "
+            "write bool(...)",
+            "19:42: 'data' of std_msgs/msg/String is string, but self.count is an int",
         ),
         Example(
             "fields of other messages, times, encoded text, a method, a parameter",
@@ -160,36 +138,17 @@ class FieldValueUnfit(MessageRule):
                 "        text.data = self.get_parameter('text')\n"
                 "        return raw, scaled, text\n"
             },
-            Report(
-                "8:28",
-                "'data' of std_msgs/msg/Float64 is float64, but count.data is an "
-                "int: subscribers get another number; write float(...)",
-            ),
-            Report(
-                "10:28",
-                "'data' of std_msgs/msg/String is string, but 'a'.upper().encode() is bytes",
-            ),
-            Report(
-                "12:28",
-                "'sec' of builtin_interfaces/msg/Time is int32, but "
-                "self.get_clock().now().nano... is about 2e+18: int32 holds "
-                "-2147483648 to 2147483647",
-            ),
-            Report(
-                "13:24",
-                "'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
-                "self.get_clock().now().nano... is an int",
-            ),
-            Report(
-                "14:24",
-                "'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
-                "'to_msg' is a method that is not called; write to_msg()",
-            ),
-            Report(
-                "15:21",
-                "'data' of std_msgs/msg/String is string, but "
-                "self.get_parameter('text') is a Parameter; append .value",
-            ),
+            "8:28: 'data' of std_msgs/msg/Float64 is float64, but count.data is an int: "
+            "subscribers get another number; write float(...)",
+            "10:28: 'data' of std_msgs/msg/String is string, but 'a'.upper().encode() is bytes",
+            "12:28: 'sec' of builtin_interfaces/msg/Time is int32, but "
+            "self.get_clock().now().nano... is about 2e+18: int32 holds -2147483648 to 2147483647",
+            "13:24: 'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but "
+            "self.get_clock().now().nano... is an int",
+            "14:24: 'stamp' of std_msgs/msg/Header is builtin_interfaces/Time, but 'to_msg' is a "
+            "method that is not called; write to_msg()",
+            "15:21: 'data' of std_msgs/msg/String is string, but self.get_parameter('text') is a "
+            "Parameter; append .value",
         ),
         Example(
             "what numpy returns for a float and a bool",
@@ -202,16 +161,10 @@ class FieldValueUnfit(MessageRule):
                 "Bool(data=np.any([0, 1]))\n"
                 "Bool(data=bool(np.any([0, 1])))\n"
             },
-            Report(
-                "4:14",
-                "'data' of std_msgs/msg/Float32 is float32, but "
-                "np.float32(0.5) is a numpy.float32, not a float; write float(...)",
-            ),
-            Report(
-                "7:11",
-                "'data' of std_msgs/msg/Bool is bool, but "
-                "np.any([0, 1]) is a numpy.bool_, not a bool; write bool(...)",
-            ),
+            "4:14: 'data' of std_msgs/msg/Float32 is float32, but np.float32(0.5) is a "
+            "numpy.float32, not a float; write float(...)",
+            "7:11: 'data' of std_msgs/msg/Bool is bool, but np.any([0, 1]) is a numpy.bool_, not "
+            "a bool; write bool(...)",
         ),
         Example(
             "all results of a function for one of them",
@@ -223,12 +176,8 @@ class FieldValueUnfit(MessageRule):
                 "    image.data = cv2.imencode('.jpg', frame)\n"
                 "    return image\n"
             },
-            Report(
-                "8:18",
-                "'data' of sensor_msgs/msg/CompressedImage is uint8[], but "
-                "cv2.imencode('.jpg', frame) is a tuple of several results, not a "
-                "list",
-            ),
+            "8:18: 'data' of sensor_msgs/msg/CompressedImage is uint8[], but cv2.imencode('.jpg', "
+            "frame) is a tuple of several results, not a list",
         ),
         Example(
             "one message for a list of them",
@@ -238,11 +187,8 @@ class FieldValueUnfit(MessageRule):
                 "pose = PoseStamped()\npath = Path()\n"
                 "path.poses = [pose]\npath.poses = pose\n"
             },
-            Report(
-                "7:14",
-                "'poses' of nav_msgs/msg/Path is geometry_msgs/PoseStamped[], but "
-                "pose is one geometry_msgs/msg/PoseStamped, not a list",
-            ),
+            "7:14: 'poses' of nav_msgs/msg/Path is geometry_msgs/PoseStamped[], but pose is one "
+            "geometry_msgs/msg/PoseStamped, not a list",
         ),
         Example(
             "a comma is missing between two names",
@@ -254,11 +200,8 @@ class FieldValueUnfit(MessageRule):
                 "joints.name = ['the joint with a name '\n               'of several words']\n"
                 "joints.name = ['robot/' 'arm', 'robot_'\n               'arm']\n"
             },
-            Report(
-                "5:26",
-                "'name' of sensor_msgs/msg/JointState is string[], but 'left_wheel' "
-                "and 'right_wheel' are one text: missing comma",
-            ),
+            "5:26: 'name' of sensor_msgs/msg/JointState is string[], but 'left_wheel' and "
+            "'right_wheel' are one text: missing comma",
         ),
         Example(
             "a 2-D array for a flat one",
@@ -271,22 +214,12 @@ class FieldValueUnfit(MessageRule):
                 "imu.orientation_covariance = np.zeros((3, 3))\n"
                 "imu.orientation_covariance = np.zeros(9)\n"
             },
-            Report(
-                "6:30",
-                "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                "np.eye(3) is two-dimensional; append .flatten()",
-            ),
-            Report(
-                "7:30",
-                "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                "np.array([[0.1, 0.0, 0.0]] ... is two-dimensional; append "
-                ".flatten()",
-            ),
-            Report(
-                "8:30",
-                "'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
-                "np.zeros((3, 3)) is two-dimensional; append .flatten()",
-            ),
+            "6:30: 'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but np.eye(3) "
+            "is two-dimensional; append .flatten()",
+            "7:30: 'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
+            "np.array([[0.1, 0.0, 0.0]] ... is two-dimensional; append .flatten()",
+            "8:30: 'orientation_covariance' of sensor_msgs/msg/Imu is float64[9], but "
+            "np.zeros((3, 3)) is two-dimensional; append .flatten()",
         ),
         Example(
             "the int 0 for a float; what is done for a field that is None, which no field is",
@@ -329,27 +262,18 @@ class FieldValueUnfit(MessageRule):
                 "numbers = Float32MultiArray(data=0.5)\n"
                 "small = Int8(data=-129)\n"
             },
-            Report(
-                "5:18",
-                "'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int: "
-                "subscribers get another number; write float(...)",
-            ),
+            "5:18: 'x' of geometry_msgs/msg/Vector3 is float64, but 1 is an int: subscribers get "
+            "another number; write float(...)",
             Report(
                 "6:22",
                 "'position' of geometry_msgs/msg/Pose is geometry_msgs/Point, but "
                 "Vector3() is a geometry_msgs/msg/Vector3",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "7:34",
-                "'data' of std_msgs/msg/Float32MultiArray is float32[], but 0.5 is "
-                "a float, not a list",
-            ),
-            Report(
-                "8:19",
-                "'data' of std_msgs/msg/Int8 is int8, but -129 is out of range: "
-                "int8 holds -128 to 127",
-            ),
+            "7:34: 'data' of std_msgs/msg/Float32MultiArray is float32[], but 0.5 is a float, not "
+            "a list",
+            "8:19: 'data' of std_msgs/msg/Int8 is int8, but -129 is out of range: int8 holds -128 "
+            "to 127",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Severity
 from scaffold.api.messages import MessageTypes, childless, lacking, unstamped
 from scaffold.api.rclpy import is_used_elsewhere
 
@@ -51,11 +51,8 @@ class HeaderIncomplete(MessageRule):
         Example(
             "never set",
             {"talker.py": _NODE.format("")},
-            Report(
-                "11:19",
-                "sensor_msgs/msg/Temperature is published in line 13 with a zero "
-                "stamp; set header.stamp",
-            ),
+            "11:19: sensor_msgs/msg/Temperature is published in line 13 with a zero stamp; set "
+            "header.stamp",
         ),
         Example(
             "a pose that is nowhere",
@@ -67,11 +64,8 @@ class HeaderIncomplete(MessageRule):
                 .replace("Temperature", "PoseStamped")
                 .replace("'temperature'", "'goal_pose'")
             },
-            Report(
-                "11:19",
-                "geometry_msgs/msg/PoseStamped is published in line 13 without a "
-                "frame; set header.frame_id",
-            ),
+            "11:19: geometry_msgs/msg/PoseStamped is published in line 13 without a frame; set "
+            "header.frame_id",
         ),
         Example(
             "odometry of no child",
@@ -88,11 +82,8 @@ class HeaderIncomplete(MessageRule):
                 "        odometry.twist.twist.linear.x = 0.5\n"
                 "        self.publisher.publish(odometry)\n"
             },
-            Report(
-                "11:20",
-                "nav_msgs/msg/Odometry is sent in line 15 without a child frame; "
-                "set child_frame_id",
-            ),
+            "11:20: nav_msgs/msg/Odometry is sent in line 15 without a child frame; set "
+            "child_frame_id",
         ),
         Example(
             "a scan that reaches nowhere, odometry of nowhere; a scan that a driver completes",
@@ -117,16 +108,10 @@ class HeaderIncomplete(MessageRule):
                 "        here.header.stamp = self.get_clock().now().to_msg()\n"
                 "        self.odometry.publish(here)\n"
             },
-            Report(
-                "13:16",
-                "sensor_msgs/msg/LaserScan is published in line 16 with its data, "
-                "and range_max is left at its default, zero or empty: set it",
-            ),
-            Report(
-                "21:16",
-                "nav_msgs/msg/Odometry is published in line 23 without a frame; set "
-                "header.frame_id",
-            ),
+            "13:16: sensor_msgs/msg/LaserScan is published in line 16 with its data, and "
+            "range_max is left at its default, zero or empty: set it",
+            "21:16: nav_msgs/msg/Odometry is published in line 23 without a frame; set "
+            "header.frame_id",
         ),
         Example(
             "points of a trajectory without a time",
@@ -150,11 +135,8 @@ class HeaderIncomplete(MessageRule):
                 "        self.publisher = self.create_publisher(JointState, 'state', 10)\n"
                 "        self.now = JointTrajectoryPoint(positions=[0.0])\n",
             },
-            Report(
-                "arm.py:11:17",
-                "nothing sets time_from_start of the points: the trajectory has no "
-                "duration, and controllers refuse it",
-            ),
+            "arm.py:11:17: nothing sets time_from_start of the points: the trajectory has no "
+            "duration, and controllers refuse it",
         ),
         Example(
             "possibly set elsewhere", {"talker.py": _NODE.format("        self.stamp(reading)\n")}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Effect, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Effect, Example, Package, Rule
 from scaffold.api.interfaces import (
     ProblemKind,
     escape_problem,
@@ -79,49 +79,29 @@ class InterfaceMalformed(Rule):
                 "std_msgs/msg/String text\n",
                 "srv/Add.srv": "int32 a\n",
             },
-            Report(
-                "msg/Beat.msg:1:1",
-                "'int' is neither a primitive type nor an interface name (a capital "
-                "letter, then letters and digits)",
-            ),
-            Report("msg/Beat.msg:2:13", "'256' is out of range for 'uint8': 0 to 255"),
-            Report("msg/Beat.msg:3:3", "indented line: rosidl needs the type in the first column"),
-            Report(
-                "msg/Beat.msg:4:1",
-                "invalid array size in 'int32[0]'; write a positive integer, as in "
-                "'[3]', or '[<=3]' for at most three elements",
-            ),
-            Report(
-                "msg/Beat.msg:5:1",
-                "definitions name this type without 'msg'; write 'std_msgs/String'",
-            ),
-            Report(
-                "srv/Add.srv:1:1",
-                "a .srv file needs 1 line '---' between request, response, but this file has 0",
-            ),
+            "msg/Beat.msg:1:1: 'int' is neither a primitive type nor an interface name (a capital "
+            "letter, then letters and digits)",
+            "msg/Beat.msg:2:13: '256' is out of range for 'uint8': 0 to 255",
+            "msg/Beat.msg:3:3: indented line: rosidl needs the type in the first column",
+            "msg/Beat.msg:4:1: invalid array size in 'int32[0]'; write a positive integer, as in "
+            "'[3]', or '[<=3]' for at most three elements",
+            "msg/Beat.msg:5:1: definitions name this type without 'msg'; write 'std_msgs/String'",
+            "srv/Add.srv:1:1: a .srv file needs 1 line '---' between request, response, but this "
+            "file has 0",
         ),
         Example(
             "a type with small letters and an underscore",
             {**_LISTS_NAMES, "msg/my_beat.msg": "int32 count\n"},
-            Report(
-                "msg/my_beat.msg:1:1",
-                "the file name 'my_beat' is not a valid type name: rosidl requires letters and "
-                "digits only, a capital first, as in 'MyBeat.msg'",
-            ),
+            "msg/my_beat.msg:1:1: the file name 'my_beat' is not a valid type name: rosidl "
+            "requires letters and digits only, a capital first, as in 'MyBeat.msg'",
         ),
         Example(
             "fields: camel case, a trailing underscore",
             {**_LISTS_NAMES, "msg/Beat.msg": "int32 count\nfloat64 maxSpeed\nint32 next_\n"},
-            Report(
-                "msg/Beat.msg:2:9",
-                "'maxSpeed' is not a valid field name: rosidl requires lower-case letters, "
-                "digits and single underscores, a letter first, as in 'max_speed'",
-            ),
-            Report(
-                "msg/Beat.msg:3:7",
-                "'next_' is not a valid field name: rosidl requires lower-case letters, digits "
-                "and single underscores, a letter first, as in 'next'",
-            ),
+            "msg/Beat.msg:2:9: 'maxSpeed' is not a valid field name: rosidl requires lower-case "
+            "letters, digits and single underscores, a letter first, as in 'max_speed'",
+            "msg/Beat.msg:3:7: 'next_' is not a valid field name: rosidl requires lower-case "
+            "letters, digits and single underscores, a letter first, as in 'next'",
         ),
         Example(
             "constants: capitals; a default",
@@ -130,19 +110,13 @@ class InterfaceMalformed(Rule):
         Example(
             "constants: small letters, a default with an equals sign, a bound with spaces",
             {**_LISTS_NAMES, "msg/Beat.msg": "int32 max=5\nint32 count = 1\nstring <= 5 name\n"},
-            Report(
-                "msg/Beat.msg:1:7",
-                "the '=' makes this line a constant, and 'max' is not a valid name "
-                "for one: rosidl requires capitals, digits and single underscores, "
-                "a letter first, as in 'MAX'",
-            ),
-            Report(
-                "msg/Beat.msg:2:7",
-                "the '=' makes this line a constant, and 'count' is not a valid "
-                "name for one: rosidl requires capitals, digits and single "
-                "underscores, a letter first, as in 'COUNT'",
-            ),
-            Report("msg/Beat.msg:3:8", "a bound is written without spaces, as in 'string<=10'"),
+            "msg/Beat.msg:1:7: the '=' makes this line a constant, and 'max' is not a valid name "
+            "for one: rosidl requires capitals, digits and single underscores, a letter first, as "
+            "in 'MAX'",
+            "msg/Beat.msg:2:7: the '=' makes this line a constant, and 'count' is not a valid "
+            "name for one: rosidl requires capitals, digits and single underscores, a letter "
+            "first, as in 'COUNT'",
+            "msg/Beat.msg:3:8: a bound is written without spaces, as in 'string<=10'",
         ),
         Example(
             "the same name in request and response",
@@ -151,8 +125,8 @@ class InterfaceMalformed(Rule):
         Example(
             "a name twice in the request",
             {**_LISTS_NAMES, "srv/Add.srv": "int32 a\nfloat64 a\n---\nint32 A=1\nint32 A=2\n"},
-            Report("srv/Add.srv:2:9", "the field 'a' exists already, in line 1"),
-            Report("srv/Add.srv:5:7", "the constant 'A' exists already, in line 4"),
+            "srv/Add.srv:2:9: the field 'a' exists already, in line 1",
+            "srv/Add.srv:5:7: the constant 'A' exists already, in line 4",
         ),
         Example(
             "keywords for names",
@@ -160,13 +134,9 @@ class InterfaceMalformed(Rule):
                 "CMakeLists.txt": _LISTS_KEYWORDS,
                 "msg/Beat.msg": "string class\nint32 from\nbool ok\n",
             },
-            Report(
-                "msg/Beat.msg:1:8",
-                "'class' is a keyword of C or C++: the generated code does not compile",
-            ),
-            Report(
-                "msg/Beat.msg:2:7", "'from' is a keyword of Python: 'message.from' is a SyntaxError"
-            ),
+            "msg/Beat.msg:1:8: 'class' is a keyword of C or C++: the generated code does not "
+            "compile",
+            "msg/Beat.msg:2:7: 'from' is a keyword of Python: 'message.from' is a SyntaxError",
         ),
         Example(
             "macros for names",
@@ -174,13 +144,8 @@ class InterfaceMalformed(Rule):
                 "CMakeLists.txt": _LISTS_KEYWORDS,
                 "msg/Beat.msg": "int8 NULL=0\nint8 EIO=1\nint8 OK=2\n",
             },
-            Report(
-                "msg/Beat.msg:1:6",
-                "'NULL' is a macro of C: the generated C++ code does not compile",
-            ),
-            Report(
-                "msg/Beat.msg:2:6", "'EIO' is a macro of C: the generated C++ code does not compile"
-            ),
+            "msg/Beat.msg:1:6: 'NULL' is a macro of C: the generated C++ code does not compile",
+            "msg/Beat.msg:2:6: 'EIO' is a macro of C: the generated C++ code does not compile",
         ),
         Example(
             "a type that Python cannot have",
@@ -188,10 +153,8 @@ class InterfaceMalformed(Rule):
                 "CMakeLists.txt": _LISTS_KEYWORDS.replace("Beat", "None"),
                 "msg/None.msg": "int8 count\n",
             },
-            Report(
-                "msg/None.msg:1:1",
-                "'None' is a keyword of Python: the generated module is a SyntaxError",
-            ),
+            "msg/None.msg:1:1: 'None' is a keyword of Python: the generated module is a "
+            "SyntaxError",
         ),
         Example(
             "backslashes: slashes, escapes, the end of the file, which rosidl leaves out",
@@ -206,9 +169,9 @@ class InterfaceMalformed(Rule):
                 "CMakeLists.txt": _LISTS_ESCAPES,
                 "msg/Beat.msg": "# C:\\users\nint32 count  # of C:\\data\\\n# all \\\nint8 code\n",
             },
-            Report("msg/Beat.msg:1:1", "rosidl cannot read the comment: truncated \\uXXXX escape"),
-            Report("msg/Beat.msg:2:14", "rosidl cannot read the comment: \\ at end of string"),
-            Report("msg/Beat.msg:3:1", "rosidl cannot read the comment: \\ at end of string"),
+            "msg/Beat.msg:1:1: rosidl cannot read the comment: truncated \\uXXXX escape",
+            "msg/Beat.msg:2:14: rosidl cannot read the comment: \\ at end of string",
+            "msg/Beat.msg:3:1: rosidl cannot read the comment: \\ at end of string",
         ),
         Example(
             "backslashes: a line end, a constant",
@@ -216,11 +179,9 @@ class InterfaceMalformed(Rule):
                 "CMakeLists.txt": _LISTS_ESCAPES,
                 "msg/Beat.msg": 'int8 code  # ends with \\n\nstring HOME="C:\\users"\n',
             },
-            Report(
-                "msg/Beat.msg:1:12",
-                "rosidl cannot read the comment: its \\n ends the line in the middle of a text",
-            ),
-            Report("msg/Beat.msg:2:1", "rosidl cannot read the value: truncated \\uXXXX escape"),
+            "msg/Beat.msg:1:12: rosidl cannot read the comment: its \\n ends the line in the "
+            "middle of a text",
+            "msg/Beat.msg:2:1: rosidl cannot read the value: truncated \\uXXXX escape",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import PythonModule, is_known
 
@@ -71,11 +71,8 @@ class MarkerNotShown(MessageRule):
                 "    for place in places:\n"
                 "        array.markers.append(shown(place))\n"
             },
-            Report(
-                "5:14",
-                "all markers of this loop have the id 1: RViz shows the last one; count them",
-            ),
-            Report("5:14", "nothing sets color.a, which is 0 then: RViz does not show this marker"),
+            "5:14: all markers of this loop have the id 1: RViz shows the last one; count them",
+            "5:14: nothing sets color.a, which is 0 then: RViz does not show this marker",
         ),
         Example(
             "made by a function for a list: one id",
@@ -90,10 +87,7 @@ class MarkerNotShown(MessageRule):
                 "def all_of(places):\n"
                 "    return MarkerArray(markers=[shown(place) for place in places])\n"
             },
-            Report(
-                "5:14",
-                "all markers of this loop have the id 0: RViz shows the last one; count them",
-            ),
+            "5:14: all markers of this loop have the id 0: RViz shows the last one; count them",
         ),
         Example(
             "a color without alpha",
@@ -103,7 +97,7 @@ class MarkerNotShown(MessageRule):
                 "RED = ColorRGBA(r=1.0)\nBLUE = ColorRGBA(b=1.0, a=1.0)\n"
                 "MARKERS = [Marker(color=RED), Marker(color=BLUE)]\n"
             },
-            Report("4:7", "this color has no a, which is 0 then: RViz does not show it; add a=1.0"),
+            "4:7: this color has no a, which is 0 then: RViz does not show it; add a=1.0",
         ),
         Example(
             "made by a function whose result is changed later",
@@ -166,18 +160,13 @@ class MarkerNotShown(MessageRule):
                     "marker.lifetime.sec = 1",
                 )
             },
-            Report("13:22", "nothing sets scale, which is 0 then: RViz does not show this marker"),
+            "13:22: nothing sets scale, which is 0 then: RViz does not show this marker",
         ),
         Example(
             "no alpha, one id",
             {"show.py": _NODE.format("7", "r", "marker.action = Marker.ADD")},
-            Report(
-                "13:22",
-                "all markers of this loop have the id 7: RViz shows the last one; count them",
-            ),
-            Report(
-                "13:22", "nothing sets color.a, which is 0 then: RViz does not show this marker"
-            ),
+            "13:22: all markers of this loop have the id 7: RViz shows the last one; count them",
+            "13:22: nothing sets color.a, which is 0 then: RViz does not show this marker",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Effect, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Effect, Example, MessageRule
 from scaffold.api.distributions import target
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import MessageClass, MessageTypes
@@ -39,58 +39,40 @@ class MessageArgumentUnknown(MessageRule):
                 "from tf_transformations import quaternion_from_euler\n\n"
                 "TURNED = Quaternion(*quaternion_from_euler(0.0, 0.0, 1.57))\n"
             },
-            Report(
-                "4:21",
-                "geometry_msgs/msg/Quaternion takes only keyword arguments: TypeError; write x=...",
-            ),
+            "4:21: geometry_msgs/msg/Quaternion takes only keyword arguments: TypeError; write "
+            "x=...",
         ),
         Example(
             "misspelled",
             {"talker.py": _PREFIX.format("dta='hello'")},
-            Report(
-                "3:18",
-                "std_msgs/msg/String has no field 'dta': the value is silently "
-                "dropped; did you mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 "
-                "Jazzy)",
-            ),
+            "3:18: std_msgs/msg/String has no field 'dta': the value is silently dropped; did you "
+            "mean 'data'? (definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
             "misspelled, on Humble",
             {"talker.py": _PREFIX.format("dta='hello'")},
-            Report(
-                "3:18",
-                "std_msgs/msg/String has no field 'dta': AssertionError; did you "
-                "mean 'data'? (definition: std_msgs 4.9.1 of ROS 2 Humble)",
-            ),
+            "3:18: std_msgs/msg/String has no field 'dta': AssertionError; did you mean 'data'? "
+            "(definition: std_msgs 4.9.1 of ROS 2 Humble)",
             distro="humble",
         ),
         Example(
             "misspelled, on Lyrical",
             {"talker.py": _PREFIX.format("dta='hello'")},
-            Report(
-                "3:18",
-                "std_msgs/msg/String has no field 'dta': TypeError; did you mean "
-                "'data'? (definition: std_msgs 5.9.2 of ROS 2 Lyrical)",
-            ),
+            "3:18: std_msgs/msg/String has no field 'dta': TypeError; did you mean 'data'? "
+            "(definition: std_msgs 5.9.2 of ROS 2 Lyrical)",
             distro="lyrical",
         ),
         Example(
             "asked to look at values, on Humble",
             {"talker.py": _PREFIX.format("data='hello', check_fields=True")},
-            Report(
-                "3:32",
-                "std_msgs/msg/String has no field 'check_fields': AssertionError; "
-                "it has data (definition: std_msgs 4.9.1 of ROS 2 Humble)",
-            ),
+            "3:32: std_msgs/msg/String has no field 'check_fields': AssertionError; it has data "
+            "(definition: std_msgs 4.9.1 of ROS 2 Humble)",
             distro="humble",
         ),
         Example(
             "positional",
             {"talker.py": _PREFIX.format("'hello'")},
-            Report(
-                "3:18",
-                "std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
-            ),
+            "3:18: std_msgs/msg/String takes only keyword arguments: TypeError; write data=...",
         ),
     )
 

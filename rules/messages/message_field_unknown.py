@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.distributions import removed_interface
 from scaffold.api.interfaces import closest_word
 from scaffold.api.messages import PARTS, MessageClass, MessageTypes
@@ -54,11 +54,8 @@ class MessageFieldUnknown(MessageRule):
         Example(
             "read in a callback",
             {"listener.py": _NODE.format("text")},
-            Report(
-                "11:36",
-                "std_msgs/msg/String has no field or constant 'text'; it has data "
-                "(definition: std_msgs 5.3.6 of ROS 2 Jazzy)",
-            ),
+            "11:36: std_msgs/msg/String has no field or constant 'text'; it has data (definition: "
+            "std_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
             "set, nested, of a response, a constant; reassigned names are not checked",
@@ -77,28 +74,14 @@ class MessageFieldUnknown(MessageRule):
                 "    mixed = other\n"
                 "    mixed.anything = 1\n"
             },
-            Report(
-                "9:18",
-                "geometry_msgs/msg/Vector3 has no field or constant 'yaw'; it has "
-                "x, y, z (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
-            ),
-            Report(
-                "10:11",
-                "geometry_msgs/msg/Twist has no field or constant 'speed'; it has "
-                "linear, angular (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
-            ),
-            Report(
-                "12:12",
-                "std_srvs/srv/SetBool.Response has no field or constant 'succes'; "
-                "did you mean 'success'? (definition: std_srvs 5.3.6 of ROS 2 "
-                "Jazzy)",
-            ),
-            Report(
-                "12:38",
-                "diagnostic_msgs/msg/DiagnosticStatus has no field or constant "
-                "'OKAY'; did you mean 'OK'? (definition: diagnostic_msgs 5.3.6 of "
-                "ROS 2 Jazzy)",
-            ),
+            "9:18: geometry_msgs/msg/Vector3 has no field or constant 'yaw'; it has x, y, z "
+            "(definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
+            "10:11: geometry_msgs/msg/Twist has no field or constant 'speed'; it has linear, "
+            "angular (definition: geometry_msgs 5.3.6 of ROS 2 Jazzy)",
+            "12:12: std_srvs/srv/SetBool.Response has no field or constant 'succes'; did you mean "
+            "'success'? (definition: std_srvs 5.3.6 of ROS 2 Jazzy)",
+            "12:38: diagnostic_msgs/msg/DiagnosticStatus has no field or constant 'OKAY'; did you "
+            "mean 'OK'? (definition: diagnostic_msgs 5.3.6 of ROS 2 Jazzy)",
         ),
         Example(
             "a field that is gone",
@@ -106,21 +89,15 @@ class MessageFieldUnknown(MessageRule):
                 "talker.py": "from lifecycle_msgs.msg import TransitionEvent\n\n"
                 "event = TransitionEvent()\nevent.timestamp = 3\n"
             },
-            Report(
-                "4:7",
-                "'timestamp' of lifecycle_msgs/msg/TransitionEvent was removed in "
-                "Lyrical: use stamp, a builtin_interfaces/msg/Time; timestamp "
-                "counted nanoseconds (rcl_interfaces 2.4)",
-            ),
+            "4:7: 'timestamp' of lifecycle_msgs/msg/TransitionEvent was removed in Lyrical: use "
+            "stamp, a builtin_interfaces/msg/Time; timestamp counted nanoseconds (rcl_interfaces "
+            "2.4)",
             distro="lyrical",
         ),
         Example(
             "an unknown part of a service",
             {"talker.py": "from std_srvs.srv import SetBool\n\nrequest = SetBool.Requests()\n"},
-            Report(
-                "3:19",
-                "std_srvs/srv/SetBool has no 'Requests': AttributeError; did you mean 'Request'?",
-            ),
+            "3:19: std_srvs/srv/SetBool has no 'Requests': AttributeError; did you mean 'Request'?",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageClass, MessageTypes
 from scaffold.api.python import is_handled
 
@@ -48,22 +48,12 @@ class MessageUsedAsValue(MessageRule):
         Example(
             "as a dict, as a list",
             {"listener.py": _NODE.format("msg['data']", "len(msg), msg[0], msg.layout[0]")},
-            Report(
-                "12:32", "std_msgs/msg/String cannot be indexed: TypeError; use one of its fields"
-            ),
-            Report(
-                "15:16",
-                "std_msgs/msg/Float32MultiArray has no length: TypeError; use one of its fields",
-            ),
-            Report(
-                "15:26",
-                "std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use "
-                "one of its fields",
-            ),
-            Report(
-                "15:34",
-                "std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use one of its fields",
-            ),
+            "12:32: std_msgs/msg/String cannot be indexed: TypeError; use one of its fields",
+            "15:16: std_msgs/msg/Float32MultiArray has no length: TypeError; use one of its fields",
+            "15:26: std_msgs/msg/Float32MultiArray cannot be indexed: TypeError; use one of its "
+            "fields",
+            "15:34: std_msgs/msg/MultiArrayLayout cannot be indexed: TypeError; use one of its "
+            "fields",
         ),
         Example(
             "a field of a str, a field called, a message iterated over",
@@ -72,14 +62,10 @@ class MessageUsedAsValue(MessageRule):
                     "msg.data.data", "msg.layout.data_offset(), [x for x in msg]"
                 )
             },
-            Report("12:32", "msg.data is a str, which has no 'data': AttributeError"),
-            Report(
-                "15:16", "msg.layout.data_offset is a field, not a method: TypeError; remove the ()"
-            ),
-            Report(
-                "15:54",
-                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
-            ),
+            "12:32: msg.data is a str, which has no 'data': AttributeError",
+            "15:16: msg.layout.data_offset is a field, not a method: TypeError; remove the ()",
+            "15:54: std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its "
+            "fields",
         ),
         Example(
             "as text and as a number",
@@ -87,25 +73,15 @@ class MessageUsedAsValue(MessageRule):
                 "listener.py": "import json\n\n"
                 + _NODE.format("json.loads(msg)['a']", "float(msg), msg + 1, msg > 1.0, 2 in msg")
             },
-            Report("14:32", "std_msgs/msg/String is not text: TypeError; use one of its fields"),
-            Report(
-                "17:16",
-                "std_msgs/msg/Float32MultiArray is not a number: TypeError; use one of its fields",
-            ),
-            Report(
-                "17:28",
-                "std_msgs/msg/Float32MultiArray cannot be used in arithmetic: TypeError; "
-                "use one of its fields",
-            ),
-            Report(
-                "17:37",
-                "std_msgs/msg/Float32MultiArray cannot be ordered: TypeError; use one "
-                "of its fields",
-            ),
-            Report(
-                "17:48",
-                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
-            ),
+            "14:32: std_msgs/msg/String is not text: TypeError; use one of its fields",
+            "17:16: std_msgs/msg/Float32MultiArray is not a number: TypeError; use one of its "
+            "fields",
+            "17:28: std_msgs/msg/Float32MultiArray cannot be used in arithmetic: TypeError; use "
+            "one of its fields",
+            "17:37: std_msgs/msg/Float32MultiArray cannot be ordered: TypeError; use one of its "
+            "fields",
+            "17:48: std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its "
+            "fields",
         ),
         Example(
             "fields as text and as numbers",
@@ -124,17 +100,13 @@ class MessageUsedAsValue(MessageRule):
                     "msg == 'go'", "0\n\n    def on_reset(self):\n        a, b = String()"
                 )
             },
-            Report("12:32", "std_msgs/msg/String never equals 'go'; compare one of its fields"),
-            Report(
-                "18:16", "std_msgs/msg/String cannot be unpacked: TypeError; use one of its fields"
-            ),
+            "12:32: std_msgs/msg/String never equals 'go'; compare one of its fields",
+            "18:16: std_msgs/msg/String cannot be unpacked: TypeError; use one of its fields",
         ),
         Example(
             "tested for truth",
             {"listener.py": _NODE.replace("String", "Bool").format("'on' if msg else 'off'", "0")},
-            Report(
-                "12:40", "std_msgs/msg/Bool is always true, whatever it holds; use its field 'data'"
-            ),
+            "12:40: std_msgs/msg/Bool is always true, whatever it holds; use its field 'data'",
         ),
         Example(
             "tested for being there",
@@ -153,10 +125,8 @@ class MessageUsedAsValue(MessageRule):
                     "        return", "        for x in msg:\n            print(x)\n        return"
                 )
             },
-            Report(
-                "15:18",
-                "std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its fields",
-            ),
+            "15:18: std_msgs/msg/Float32MultiArray is not iterable: TypeError; use one of its "
+            "fields",
         ),
         Example(
             "the length of an array, and one of its elements",
@@ -173,12 +143,10 @@ class MessageUsedAsValue(MessageRule):
                     "''", "range(msg.data), float(msg.data), msg.data > 1.0, range(msg.data[0])"
                 )
             },
-            Report("15:16", "msg.data is an array, not a number: TypeError; use len(msg.data)"),
-            Report(
-                "15:33", "msg.data is an array, not a number: TypeError; use one of its elements"
-            ),
-            Report("15:50", "msg.data is an array, not a number: TypeError; compare its elements"),
-            Report("15:66", "msg.data[0] is a float, not an integer: TypeError"),
+            "15:16: msg.data is an array, not a number: TypeError; use len(msg.data)",
+            "15:33: msg.data is an array, not a number: TypeError; use one of its elements",
+            "15:50: msg.data is an array, not a number: TypeError; compare its elements",
+            "15:66: msg.data[0] is a float, not an integer: TypeError",
         ),
         Example(
             "an array as one of numpy, a number as text",
@@ -187,18 +155,10 @@ class MessageUsedAsValue(MessageRule):
                     "''", "msg.data + 0.5, msg.data.min(), 'row ' + msg.data[0], msg.data * 2"
                 )
             },
-            Report(
-                "15:16", "msg.data is an array, not of numpy: TypeError; use numpy.array(msg.data)"
-            ),
-            Report(
-                "15:32",
-                "msg.data is an array, not of numpy: it has no 'min': "
-                "AttributeError; use numpy.array(msg.data)",
-            ),
-            Report(
-                "15:48",
-                "msg.data[0] is a number, and is not joined to text: TypeError; use an f-string",
-            ),
+            "15:16: msg.data is an array, not of numpy: TypeError; use numpy.array(msg.data)",
+            "15:32: msg.data is an array, not of numpy: it has no 'min': AttributeError; use "
+            "numpy.array(msg.data)",
+            "15:48: msg.data[0] is a number, and is not joined to text: TypeError; use an f-string",
         ),
         Example(
             "messages for functions of numpy and OpenCV",
@@ -216,14 +176,9 @@ class MessageUsedAsValue(MessageRule):
                 "    def on_point(self, msg):\n"
                 "        return np.linalg.norm(msg), np.linalg.norm([msg.x, msg.y, msg.z])\n"
             },
-            Report(
-                "15:9",
-                "sensor_msgs/msg/Image is not an image of OpenCV: cv2.error; "
-                "convert it with CvBridge",
-            ),
-            Report(
-                "19:16", "geometry_msgs/msg/Point is not a number: TypeError; use one of its fields"
-            ),
+            "15:9: sensor_msgs/msg/Image is not an image of OpenCV: cv2.error; convert it with "
+            "CvBridge",
+            "19:16: geometry_msgs/msg/Point is not a number: TypeError; use one of its fields",
         ),
         Example(
             "a map as a table, and columns of a matrix of numpy",
@@ -242,11 +197,8 @@ class MessageUsedAsValue(MessageRule):
                 "        row = self.grid.data[y * 10:][x]\n"
                 "        return self.grid.data[y][x], self.table[y][x], row\n"
             },
-            Report(
-                "18:16",
-                "self.grid.data is one array, row by row, whose elements are "
-                "numbers: TypeError; write self.grid.data[row * width + column]",
-            ),
+            "18:16: self.grid.data is one array, row by row, whose elements are numbers: "
+            "TypeError; write self.grid.data[row * width + column]",
         ),
         Example(
             "arrays for functions of numpy and OpenCV, columns of points",
@@ -269,21 +221,12 @@ class MessageUsedAsValue(MessageRule):
                 "        rows = point_cloud2.read_points_numpy(msg)\n"
                 "        return heights, points['z'], rows[:, 2]\n"
             },
-            Report(
-                "16:22",
-                "np.fromstring() does not take msg.data, an array.array: TypeError; "
-                "use numpy.frombuffer()",
-            ),
-            Report(
-                "17:9",
-                "cv2.imdecode() does not take msg.data, an array.array: cv2.error; "
-                "use numpy.frombuffer(msg.data, numpy.uint8)",
-            ),
-            Report(
-                "21:19",
-                "read_points() returns an array with one dimension, whose fields "
-                "have names: IndexError; write ['x'], or use read_points_numpy()",
-            ),
+            "16:22: np.fromstring() does not take msg.data, an array.array: TypeError; use "
+            "numpy.frombuffer()",
+            "17:9: cv2.imdecode() does not take msg.data, an array.array: cv2.error; use "
+            "numpy.frombuffer(msg.data, numpy.uint8)",
+            "21:19: read_points() returns an array with one dimension, whose fields have names: "
+            "IndexError; write ['x'], or use read_points_numpy()",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -63,11 +63,8 @@ class ObjectAppendedAgain(MessageRule):
                     "    poses = [Pose() for _ in range(3)]\n"
                 )
             },
-            Report(
-                "7:13",
-                "a list with one object several times: what is set in one element "
-                "is set in all; write [Pose() for _ in range(...)]",
-            ),
+            "7:13: a list with one object several times: what is set in one element is set in "
+            "all; write [Pose() for _ in range(...)]",
         ),
         Example(
             "a list that is new; a copy",
@@ -102,11 +99,8 @@ class ObjectAppendedAgain(MessageRule):
                     "self.pose.pose = msg.pose.pose\n        self.path.poses.append(self.pose)"
                 )
             },
-            Report(
-                "15:32",
-                "the same object each time, made in line 10: all elements are the "
-                "last self.pose; make a new one before it is filled",
-            ),
+            "15:32: the same object each time, made in line 10: all elements are the last "
+            "self.pose; make a new one before it is filled",
         ),
         Example(
             "in a loop",
@@ -117,11 +111,8 @@ class ObjectAppendedAgain(MessageRule):
                     "        array.poses.append(pose)\n"
                 )
             },
-            Report(
-                "9:28",
-                "the same object each time, made in line 6: all elements are the "
-                "last pose; make a new one before it is filled",
-            ),
+            "9:28: the same object each time, made in line 6: all elements are the last pose; "
+            "make a new one before it is filled",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes
 
 _GIVES = {
@@ -78,28 +78,16 @@ class QuaternionOrderSwapped(MessageRule):
                 "    p = quaternion_from_euler(0.0, 0.0, yaw)\n"
                 "    return Quaternion(x=p[1], y=p[2], z=p[3], w=p[0])\n"
             },
-            Report(
-                "7:27",
-                "euler_from_quaternion() has the order x, y, z, w, this is w, x, y, "
-                "z: it is another rotation",
-            ),
-            Report(
-                "8:16",
-                "quat2euler() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
-            ),
-            Report(
-                "9:5",
-                "euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
-            ),
-            Report(
-                "10:11",
-                "euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another rotation",
-            ),
-            Report(
-                "12:49",
-                "quaternion_from_euler() has the order x, y, z, w, this is w, x, y, "
-                "z: it is another rotation",
-            ),
+            "7:27: euler_from_quaternion() has the order x, y, z, w, this is w, x, y, z: it is "
+            "another rotation",
+            "8:16: quat2euler() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "rotation",
+            "9:5: euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "rotation",
+            "10:11: euler2quat() has the order w, x, y, z, this is x, y, z, w: it is another "
+            "rotation",
+            "12:49: quaternion_from_euler() has the order x, y, z, w, this is w, x, y, z: it is "
+            "another rotation",
         ),
     )
 

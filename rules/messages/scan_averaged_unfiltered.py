@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report, Severity
+from scaffold.api import Diagnostic, Example, MessageRule, Severity
 from scaffold.api.messages import MessageTypes
 
 _NODE = (
@@ -55,14 +55,8 @@ class ScanAveragedUnfiltered(MessageRule):
         Example(
             "means",
             {"guard.py": _NODE.format("np.mean(msg.ranges[:30]), sum(msg.ranges)")},
-            Report(
-                "14:16",
-                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
-            ),
-            Report(
-                "14:42",
-                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
-            ),
+            "14:16: beams that hit nothing are inf: so is this result; filter them with isfinite()",
+            "14:42: beams that hit nothing are inf: so is this result; filter them with isfinite()",
         ),
         Example(
             "an array that is replaced in part, one of which a part is filtered",
@@ -77,18 +71,13 @@ class ScanAveragedUnfiltered(MessageRule):
                     "        near = values.mean() - values[np.isfinite(values)].mean()"
                 ),
             },
-            Report(
-                "b.py:16:16",
-                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
-            ),
+            "b.py:16:16: beams that hit nothing are inf: so is this result; filter them with "
+            "isfinite()",
         ),
         Example(
             "an array",
             {"guard.py": _NODE.format("np.array(msg.ranges).mean()")},
-            Report(
-                "14:16",
-                "beams that hit nothing are inf: so is this result; filter them with isfinite()",
-            ),
+            "14:16: beams that hit nothing are inf: so is this result; filter them with isfinite()",
         ),
     )
 

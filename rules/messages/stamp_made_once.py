@@ -46,11 +46,8 @@ class StampMadeOnce(RclpyRule):
         Example(
             "the time of the start",
             {"sensor.py": _NODE.format("10", "self.stamp")},
-            Report(
-                "14:37",
-                "self.stamp is only set in the constructor: all messages have the time of the "
-                "start; use self.get_clock().now().to_msg()",
-            ),
+            "14:37: self.stamp is only set in the constructor: all messages have the time of the "
+            "start; use self.get_clock().now().to_msg()",
         ),
         Example(
             "renewed",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.programs import NamedEndpoint, is_private, is_remapped, named_endpoints, one_sided
 
 _SHORTEST = 5
@@ -65,7 +65,7 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chater', print, 10)"),
             },
-            Report("b.py:8:42", "no publisher for 'chater'; did you mean 'chatter' (a.py:8)?"),
+            "b.py:8:42: no publisher for 'chater'; did you mean 'chatter' (a.py:8)?",
         ),
         Example(
             "private to the node that publishes it",
@@ -73,11 +73,8 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, '~/chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            Report(
-                "b.py:8:42",
-                "no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ "
-                "expands to the node name",
-            ),
+            "b.py:8:42: no publisher for 'chatter': a.py:8 publishes '~/chatter', and ~ expands "
+            "to the node name",
         ),
         Example(
             "private, and remapped by a launch file",
@@ -95,17 +92,14 @@ class TopicNameDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(String, '~/chatter', print, 10)"),
             },
-            Report(
-                "b.py:8:42",
-                "no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ "
-                "expands to the node name",
-            ),
+            "b.py:8:42: no publisher for '~/chatter': a.py:8 publishes 'chatter', and ~ expands "
+            "to the node name",
         ),
         Example("the same name of a service", {"nodes.py": _NODE_SERVICES.format("report")}),
         Example(
             "a typo in a service",
             {"nodes.py": _NODE_SERVICES.format("reports")},
-            Report("17:51", "no service 'reports'; did you mean 'report' (nodes.py:8)?"),
+            "17:51: no service 'reports'; did you mean 'report' (nodes.py:8)?",
         ),
         Example(
             "a typo in an action",
@@ -117,19 +111,14 @@ class TopicNameDiffers(Rule):
                 "from rclpy.action import ActionClient\n\n\n"
                 "def ask(node):\n    return ActionClient(node, Spin, 'rotate_the_base')\n",
             },
-            Report(
-                "client.py:6:37",
-                "no service 'rotate_the_base'; did you mean 'rotate_base' (server.py:6)?",
-            ),
+            "client.py:6:37: no service 'rotate_the_base'; did you mean 'rotate_base' "
+            "(server.py:6)?",
         ),
         Example(
             "a service that is private on one side",
             {"nodes.py": _NODE_SERVICES.format("~/report")},
-            Report(
-                "17:51",
-                "no service '~/report'; did you mean 'report' (nodes.py:8)? ~ "
-                "expands to the node name",
-            ),
+            "17:51: no service '~/report'; did you mean 'report' (nodes.py:8)? ~ expands to the "
+            "node name",
         ),
     )
 

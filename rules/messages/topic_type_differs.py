@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.messages import message_paths
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import NamedEndpoint, services_of, topics_of
@@ -45,16 +45,10 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format("subscription(Bool, 'chatter', print, 10)"),
             },
-            Report(
-                "a.py:9:31",
-                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
-                "in b.py:9: they never connect",
-            ),
-            Report(
-                "b.py:9:34",
-                "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
-                "in a.py:9: they never connect",
-            ),
+            "a.py:9:31: 'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool in "
+            "b.py:9: they never connect",
+            "b.py:9:34: 'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String in "
+            "a.py:9: they never connect",
         ),
         Example(
             "four files",
@@ -64,21 +58,12 @@ class TopicTypeDiffers(Rule):
                 "c.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
                 "d.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            Report(
-                "b.py:9:31",
-                "'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String "
-                "in c.py:9, d.py:9: they never connect",
-            ),
-            Report(
-                "c.py:9:34",
-                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
-                "in b.py:9: they never connect",
-            ),
-            Report(
-                "d.py:9:34",
-                "'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool "
-                "in b.py:9: they never connect",
-            ),
+            "b.py:9:31: 'chatter' has type std_msgs/msg/Bool here, but std_msgs/msg/String in "
+            "c.py:9, d.py:9: they never connect",
+            "c.py:9:34: 'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool in "
+            "b.py:9: they never connect",
+            "d.py:9:34: 'chatter' has type std_msgs/msg/String here, but std_msgs/msg/Bool in "
+            "b.py:9: they never connect",
         ),
         Example(
             "two types for a service",
@@ -86,16 +71,10 @@ class TopicTypeDiffers(Rule):
                 "a.py": _NODE.format("service(Trigger, 'reset', print)"),
                 "b.py": _NODE.format("client(Empty, 'reset')"),
             },
-            Report(
-                "a.py:9:29",
-                "'reset' has type std_srvs/srv/Trigger here, but std_srvs/srv/Empty "
-                "in b.py:9: they never connect",
-            ),
-            Report(
-                "b.py:9:28",
-                "'reset' has type std_srvs/srv/Empty here, but std_srvs/srv/Trigger "
-                "in a.py:9: they never connect",
-            ),
+            "a.py:9:29: 'reset' has type std_srvs/srv/Trigger here, but std_srvs/srv/Empty in "
+            "b.py:9: they never connect",
+            "b.py:9:28: 'reset' has type std_srvs/srv/Empty here, but std_srvs/srv/Trigger in "
+            "a.py:9: they never connect",
         ),
     )
 

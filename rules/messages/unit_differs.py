@@ -173,7 +173,7 @@ class UnitDiffers(MessageRule):
                 "per second; use math.radians()",
                 severity=Severity.WARNING,
             ),
-            Report("12:24", "position is in radians, this is in degrees; use math.radians()"),
+            "12:24: position is in radians, this is in degrees; use math.radians()",
             Report(
                 "13:42",
                 "range is in meters, this is in millimeters; divide by 1000",

@@ -74,13 +74,10 @@ class ValueImplausible(MessageRule):
             Report(
                 "13:30", ("percentage is a fraction from 0 to 1, not 80"), severity=Severity.WARNING
             ),
-            Report("16:26", "unknown encoding 'BGR8': cv_bridge raises an error; write 'bgr8'"),
-            Report("17:22", "step is in bytes: a row of 'bgr8' has 3 * width"),
-            Report(
-                "18:45",
-                "z of a quaternion is no angle: write z=sin(self.yaw / 2.0) and "
-                "w=cos(self.yaw / 2.0)",
-            ),
+            "16:26: unknown encoding 'BGR8': cv_bridge raises an error; write 'bgr8'",
+            "17:22: step is in bytes: a row of 'bgr8' has 3 * width",
+            "18:45: z of a quaternion is no angle: write z=sin(self.yaw / 2.0) and w=cos(self.yaw "
+            "/ 2.0)",
         ),
         Example(
             "a share times 100; an encoding of one's own; a color",
@@ -105,8 +102,8 @@ class ValueImplausible(MessageRule):
                 "    frame = bridge.imgmsg_to_cv2(image, desired_encoding='BGR8')\n"
                 "    return bridge.cv2_to_imgmsg(frame, 'bgr')\n",
             },
-            Report("7:58", "unknown encoding 'BGR8': CvBridgeError; write 'bgr8'"),
-            Report("8:40", "unknown encoding 'bgr': CvBridgeError; write 'bgr8'"),
+            "7:58: unknown encoding 'BGR8': CvBridgeError; write 'bgr8'",
+            "8:40: unknown encoding 'bgr': CvBridgeError; write 'bgr8'",
         ),
         Example(
             "yaws: of a quaternion, and for one",
@@ -124,17 +121,10 @@ class ValueImplausible(MessageRule):
                 "    half = math.atan2(pose.orientation.z, pose.orientation.w)\n"
                 "    return yaw, half\n"
             },
-            Report(
-                "10:24",
-                "a quaternion takes half the angle: write sin(yaw / 2.0) and cos(yaw / 2.0)",
-            ),
-            Report("15:11", "this is half of the angle: multiply by 2.0"),
-            Report(
-                "16:11",
-                "z of a quaternion is no angle: write 2.0 * "
-                "math.atan2(pose.orientation.z, pose.orientation.w), or "
-                "euler_from_quaternion()",
-            ),
+            "10:24: a quaternion takes half the angle: write sin(yaw / 2.0) and cos(yaw / 2.0)",
+            "15:11: this is half of the angle: multiply by 2.0",
+            "16:11: z of a quaternion is no angle: write 2.0 * math.atan2(pose.orientation.z, "
+            "pose.orientation.w), or euler_from_quaternion()",
         ),
         Example(
             "four angles of joints in a quaternion",
@@ -163,16 +153,10 @@ class ValueImplausible(MessageRule):
                 "        odometry.twist.covariance[i] = 0.0\n"
                 "    return odometry\n"
             },
-            Report(
-                "9:9",
-                "this fills the first row of the matrix; the variances are on its "
-                "diagonal: write [7 * i]",
-            ),
-            Report(
-                "12:9",
-                "this fills the first row of the matrix; the variances are on its "
-                "diagonal: write [4 * i]",
-            ),
+            "9:9: this fills the first row of the matrix; the variances are on its diagonal: "
+            "write [7 * i]",
+            "12:9: this fills the first row of the matrix; the variances are on its diagonal: "
+            "write [4 * i]",
         ),
         Example(
             "shapes of an image",
@@ -192,10 +176,8 @@ class ValueImplausible(MessageRule):
                 "    data = np.frombuffer(image.data, np.uint8)\n"
                 "    return data.reshape((image.width, image.height)).T\n"
             },
-            Report(
-                "7:25", "an image or a map has rows first: write reshape(image.height, image.width)"
-            ),
-            Report("17:5", "a shape has the height first: write height, width = ....shape[:2]"),
+            "7:25: an image or a map has rows first: write reshape(image.height, image.width)",
+            "17:5: a shape has the height first: write height, width = ....shape[:2]",
         ),
         Example(
             "a part of a map that is transposed; a layout of one's own",
@@ -256,12 +238,9 @@ class ValueImplausible(MessageRule):
                 "    imu.orientation_covariance[0] = -1.0\n"
                 "    return imu\n",
             },
-            Report("copy_pose.py:8:27", "z is copied from pose.position.y, which is for y"),
-            Report(
-                "grow.py:12:25",
-                "w of this quaternion stays 1.0: it is another rotation; set it as well",
-            ),
-            Report("zero.py:7:31", "a quaternion of zeros is no rotation: write w=1.0 for none"),
+            "copy_pose.py:8:27: z is copied from pose.position.y, which is for y",
+            "grow.py:12:25: w of this quaternion stays 1.0: it is another rotation; set it as well",
+            "zero.py:7:31: a quaternion of zeros is no rotation: write w=1.0 for none",
         ),
         Example(
             "one stamp for an image and its camera info, and two",
@@ -280,11 +259,8 @@ class ValueImplausible(MessageRule):
                     "two": "self.get_clock().now().to_msg()",
                 }.items()
             },
-            Report(
-                "two.py:10:29",
-                "a camera info has the stamp of its image: with another one, what "
-                "synchronizes them finds no pair; copy it",
-            ),
+            "two.py:10:29: a camera info has the stamp of its image: with another one, what "
+            "synchronizes them finds no pair; copy it",
         ),
         Example(
             "fractions of a second",
@@ -299,8 +275,8 @@ class ValueImplausible(MessageRule):
                 "    stamp.nanosec = int(now % 1000 * 1000000)\n"
                 "    yield stamp\n"
             },
-            Report("7:55", "a second has 1e9 nanoseconds, this multiplies by 1e6"),
-            Report("9:35", "a second has 1e9 nanoseconds, this multiplies by 1000"),
+            "7:55: a second has 1e9 nanoseconds, this multiplies by 1e6",
+            "9:35: a second has 1e9 nanoseconds, this multiplies by 1000",
         ),
         Example(
             "rows for columns",
@@ -313,9 +289,7 @@ class ValueImplausible(MessageRule):
                 "    info.width = grid.shape[0]\n    info.height = grid.shape[1]\n"
                 "    return info, grid.T\n"
             },
-            Report(
-                "6:18", "grid.shape[0] is the number of rows, the height; width is grid.shape[1]"
-            ),
+            "6:18: grid.shape[0] is the number of rows, the height; width is grid.shape[1]",
         ),
     )
 

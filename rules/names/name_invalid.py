@@ -94,13 +94,13 @@ class NameInvalid(RclpyRule):
         Example(
             "constants of another module, and the default of its dataclass",
             {"topics.py": _TOPICS, "talker.py": _OTHER.format("")},
-            Report("talker.py:9:39", "ROS 2 rejects the name 'front-scan': '-' is not allowed"),
-            Report("talker.py:11:39", "ROS 2 rejects the name 'back-scan': '-' is not allowed"),
+            "talker.py:9:39: ROS 2 rejects the name 'front-scan': '-' is not allowed",
+            "talker.py:11:39: ROS 2 rejects the name 'back-scan': '-' is not allowed",
         ),
         Example(
             "a dash",
             {"talker.py": _NODE.format("front-scan")},
-            Report("8:39", "ROS 2 rejects the name 'front-scan': '-' is not allowed"),
+            "8:39: ROS 2 rejects the name 'front-scan': '-' is not allowed",
         ),
         Example(
             "parts of names, between those that are filled in",
@@ -116,8 +116,8 @@ class NameInvalid(RclpyRule):
                     "        self.create_publisher(String, topic, 10)\n",
                 )
             },
-            Report("9:39", "ROS 2 refuses this name: '\\\\' is not allowed"),
-            Report("11:39", "ROS 2 refuses this name: whitespace is not allowed"),
+            "9:39: ROS 2 refuses this name: '\\\\' is not allowed",
+            "11:39: ROS 2 refuses this name: whitespace is not allowed",
         ),
         Example(
             "a program that is called like a test, and a test",
@@ -127,15 +127,12 @@ class NameInvalid(RclpyRule):
                 "talker/test_listener.py": _NODE.format("front-scan")
                 + "\n\ndef test_talker():\n    Talker()\n",
             },
-            Report(
-                "talker/test_talker.py:8:39",
-                "ROS 2 rejects the name 'front-scan': '-' is not allowed",
-            ),
+            "talker/test_talker.py:8:39: ROS 2 rejects the name 'front-scan': '-' is not allowed",
         ),
         Example(
             "a digit first",
             {"talker.py": _NODE.format("scan/2d")},
-            Report("8:39", "ROS 2 rejects the name 'scan/2d': '2d' begins with a digit"),
+            "8:39: ROS 2 rejects the name 'scan/2d': '2d' begins with a digit",
         ),
         Example(
             "names of nodes that are accepted",
@@ -144,12 +141,12 @@ class NameInvalid(RclpyRule):
         Example(
             "a namespace in the name of a node",
             {"talker.py": _NODE_NODES.format("'left/talker'")},
-            Report("6:26", "ROS 2 rejects the node name 'left/talker': '/' is not allowed"),
+            "6:26: ROS 2 rejects the node name 'left/talker': '/' is not allowed",
         ),
         Example(
             "a namespace with a dash",
             {"talker.py": _NODE_NODES.format("'talker', namespace='left-arm'")},
-            Report("6:26", "ROS 2 rejects the namespace 'left-arm': '-' is not allowed"),
+            "6:26: ROS 2 rejects the namespace 'left-arm': '-' is not allowed",
         ),
         Example(
             "two underscores in a row",

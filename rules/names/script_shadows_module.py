@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.catalog import ROS_PACKAGES
 from scaffold.api.cmake import programs
 
@@ -32,10 +32,8 @@ class ScriptShadowsModule(Rule):
         Example(
             "of the standard library",
             {"CMakeLists.txt": _LISTS.format("logging"), "talker/logging.py": ""},
-            Report(
-                "CMakeLists.txt:2:18",
-                "logging.py shadows the module 'logging' from every program next to it",
-            ),
+            "CMakeLists.txt:2:18: logging.py shadows the module 'logging' from every program next "
+            "to it",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -40,7 +40,7 @@ class ActionTypeWrong(RclpyRule):
         Example(
             "a part of the action",
             {"sender.py": _NODE.format("self, Fibonacci.Goal", _GOAL)},
-            Report("9:42", "this is only a part of an action; pass Fibonacci"),
+            "9:42: this is only a part of an action; pass Fibonacci",
         ),
         Example(
             "a message type",
@@ -48,7 +48,7 @@ class ActionTypeWrong(RclpyRule):
                 "sender.py": "from std_msgs.msg import String\n"
                 + _NODE.format("self, String", _GOAL)
             },
-            Report("10:42", "'String' is not an action type"),
+            "10:42: 'String' is not an action type",
         ),
     )
 

@@ -84,17 +84,14 @@ class ArgumentUnusable(RclpyRule):
         Example(
             "an object, a str, mixed types",
             {"talker.py": _NODE.format("String()", "'tick'", "[1, 2.0]")},
-            Report("8:31", "this is an instance, not the message type; remove the parentheses"),
-            Report("9:32", "the callback must be a function, but this is a str: TypeError"),
-            Report("10:41", "a list parameter cannot mix float, int: TypeError"),
+            "8:31: this is an instance, not the message type; remove the parentheses",
+            "9:32: the callback must be a function, but this is a str: TypeError",
+            "10:41: a list parameter cannot mix float, int: TypeError",
         ),
         Example(
             "a dictionary",
             {"talker.py": _NODE.format("String", "self.tick", "{'p': 1.0}")},
-            Report(
-                "10:41",
-                "a parameter cannot hold a dict: TypeError; declare a parameter for each key",
-            ),
+            "10:41: a parameter cannot hold a dict: TypeError; declare a parameter for each key",
         ),
         Example(
             "a name, a callback group, a service type",
@@ -102,14 +99,11 @@ class ArgumentUnusable(RclpyRule):
                 "asker.py": _ASKER.format("Trigger.Request", "'report'", "'alone'")
                 + _CLIENT.format("String", "7", "MutuallyExclusiveCallbackGroup")
             },
-            Report("10:28", "this is only a part of a service: RuntimeError; pass Trigger"),
-            Report(
-                "10:70",
-                "the callback group must be a CallbackGroup, but this is a str: AttributeError",
-            ),
-            Report("11:28", "'String' is not a service type: RuntimeError"),
-            Report("11:36", "the name must be a str, but this is an int: TypeError"),
-            Report("11:54", "this is a class, not a callback group; instantiate it"),
+            "10:28: this is only a part of a service: RuntimeError; pass Trigger",
+            "10:70: the callback group must be a CallbackGroup, but this is a str: AttributeError",
+            "11:28: 'String' is not a service type: RuntimeError",
+            "11:36: the name must be a str, but this is an int: TypeError",
+            "11:54: this is a class, not a callback group; instantiate it",
         ),
         Example(
             "types of topics in a bag",
@@ -124,11 +118,8 @@ class ArgumentUnusable(RclpyRule):
                 "    yield rosbag2_py.TopicMetadata(\n"
                 "        id=0, name='a', type='std_msgs/msg/String', serialization_format='cdr')\n"
             },
-            Report(
-                "10:30",
-                "'String' is not the full name of a type, such as "
-                "'std_msgs/msg/String': nothing can read the bag",
-            ),
+            "10:30: 'String' is not the full name of a type, such as 'std_msgs/msg/String': "
+            "nothing can read the bag",
         ),
         Example(
             "period and type in order",

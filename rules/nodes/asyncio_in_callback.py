@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile
 
 AWAITED = ("asyncio.sleep", "asyncio.wait", "asyncio.wait_for", "asyncio.gather")
@@ -39,11 +39,8 @@ class AsyncioInCallback(RclpyRule):
         Example(
             "asyncio",
             {"talker.py": _NODE.format("asyncio.sleep(0.1)")},
-            Report(
-                "12:9",
-                "asyncio.sleep() needs an asyncio event loop, which rclpy does not "
-                "run: RuntimeError",
-            ),
+            "12:9: asyncio.sleep() needs an asyncio event loop, which rclpy does not run: "
+            "RuntimeError",
         ),
     )
 

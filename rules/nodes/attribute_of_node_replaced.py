@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
@@ -49,10 +49,8 @@ class AttributeOfNodeReplaced(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format("publishers")},
-            Report(
-                "7:9",
-                "'publishers' is an attribute of rclpy's Node: AttributeError; choose another name",
-            ),
+            "7:9: 'publishers' is an attribute of rclpy's Node: AttributeError; choose another "
+            "name",
         ),
         Example(
             "a private attribute, and a method",
@@ -60,11 +58,9 @@ class AttributeOfNodeReplaced(RclpyRule):
                 "talker.py": _NODE.format("_timers").replace("[]", "{}")
                 + "\n    def timers(self):\n        return []\n"
             },
-            Report(
-                "7:9",
-                "'_timers' is an attribute of rclpy's Node: rclpy fails later; choose another name",
-            ),
-            Report("9:9", "'timers' overrides an attribute of rclpy's Node; choose another name"),
+            "7:9: '_timers' is an attribute of rclpy's Node: rclpy fails later; choose another "
+            "name",
+            "9:9: 'timers' overrides an attribute of rclpy's Node; choose another name",
         ),
     )
 

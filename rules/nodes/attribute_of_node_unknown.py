@@ -87,21 +87,15 @@ class AttributeOfNodeUnknown(RclpyRule):
                 "you mean 'destroy_node'?",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "worker.py:20:5",
-                "neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
-                "you mean 'destroy_node'?",
-            ),
+            "worker.py:20:5: neither Talker nor rclpy's Node has 'destroy': AttributeError; did "
+            "you mean 'destroy_node'?",
         ),
         Example(
             "misspelled",
             {"talker.py": _NODE.format("on_tick", "publisher")},
-            Report("10:32", "neither Talker nor rclpy's Node has 'on_tick': AttributeError"),
-            Report(
-                "13:9",
-                "neither Talker nor rclpy's Node has 'publisher': AttributeError; "
-                "did you mean 'publishers'?",
-            ),
+            "10:32: neither Talker nor rclpy's Node has 'on_tick': AttributeError",
+            "13:9: neither Talker nor rclpy's Node has 'publisher': AttributeError; did you mean "
+            "'publishers'?",
         ),
         Example(
             "a method that is indented too far",
@@ -110,11 +104,8 @@ class AttributeOfNodeUnknown(RclpyRule):
                     "    def on_timer(self):\n        ", "        def on_timer(self):\n            "
                 )
             },
-            Report(
-                "10:32",
-                "neither Talker nor rclpy's Node has 'on_timer': AttributeError; "
-                "the one of line 12 is inside another method: indent it less",
-            ),
+            "10:32: neither Talker nor rclpy's Node has 'on_timer': AttributeError; the one of "
+            "line 12 is inside another method: indent it less",
         ),
         Example(
             "of a node with a lifecycle",
@@ -128,11 +119,8 @@ class AttributeOfNodeUnknown(RclpyRule):
                 "        self.trigger_shutdown()\n\n"
                 "    def tick(self):\n        self.get_logger().info('runs')\n"
             },
-            Report(
-                "6:22",
-                "neither Pump nor rclpy's Node has 'create_lifecycle_timer': "
-                "AttributeError; did you mean 'create_lifecycle_publisher'?",
-            ),
+            "6:22: neither Pump nor rclpy's Node has 'create_lifecycle_timer': AttributeError; "
+            "did you mean 'create_lifecycle_publisher'?",
         ),
     )
 

@@ -84,7 +84,7 @@ class AttributeUsedBeforeSet(RclpyRule):
         Example(
             "used first",
             {"talker.py": _NODE.format(_USE + _MAKE)},
-            Report("8:9", "self.pub is used before it is set in line 9: AttributeError"),
+            "8:9: self.pub is used before it is set in line 9: AttributeError",
         ),
         Example(
             "in a method that the constructor of rclpy's Node calls",
@@ -92,11 +92,8 @@ class AttributeUsedBeforeSet(RclpyRule):
                 "talker.py": _NODE.format("        self.robot = 'robin'\n")
                 + "\n    def get_name(self):\n        return self.robot\n"
             },
-            Report(
-                "11:16",
-                "rclpy's Node calls get_name() while it is made, before self.robot "
-                "is set in line 8: AttributeError; rename the method",
-            ),
+            "11:16: rclpy's Node calls get_name() while it is made, before self.robot is set in "
+            "line 8: AttributeError; rename the method",
         ),
         Example(
             "in a method that the constructor calls, also before the one of the base class",
@@ -118,19 +115,10 @@ class AttributeUsedBeforeSet(RclpyRule):
                 )
                 + "\n    def setup(self):\n        self.create_publisher(String, 'a', 1)\n",
             },
-            Report(
-                "other.py:7:9",
-                "setup() uses self.create_publisher() before super().__init__() in "
-                "line 8: AttributeError",
-            ),
-            Report(
-                "talker.py:8:9",
-                "say() uses self.pub, which is set later, in line 9: AttributeError",
-            ),
-            Report(
-                "talker.py:23:9",
-                "say() uses self.pub, which is set later, in line 24: AttributeError",
-            ),
+            "other.py:7:9: setup() uses self.create_publisher() before super().__init__() in line "
+            "8: AttributeError",
+            "talker.py:8:9: say() uses self.pub, which is set later, in line 9: AttributeError",
+            "talker.py:23:9: say() uses self.pub, which is set later, in line 24: AttributeError",
         ),
         Example(
             "a timer that uses what a message brings",

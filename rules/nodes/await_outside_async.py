@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.python import PythonModule
 
 _NODE = (
@@ -34,7 +34,7 @@ class AwaitOutsideAsync(PythonRule):
         Example(
             "not async",
             {"caller.py": _NODE.format("")},
-            Report("6:9", "'await' outside an async function: SyntaxError"),
+            "6:9: 'await' outside an async function: SyntaxError",
         ),
     )
 

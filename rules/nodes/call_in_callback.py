@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.programs import (
     Executed,
     client_at,
@@ -93,68 +93,46 @@ class CallInCallback(RclpyRule):
         Example(
             "a call",
             {"caller.py": _NODE.format("        self.client.call(Trigger.Request())\n")},
-            Report(
-                "12:9",
-                "waits for a service response in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "12:9: waits for a service response in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "a call in a thread that nothing spins",
             {"caller.py": "import threading\n\n" + _CALL + _THREADS},
-            Report(
-                "17:9",
-                "waits for a service response in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "17:9: waits for a service response in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "several threads and one callback group",
             {"caller.py": _CALL + _MAIN},
-            Report(
-                "15:9",
-                "waits for a service response in callback 'ask', which shares its "
-                "callback group with the client: deadlock, no response is processed "
-                "meanwhile",
-            ),
+            "15:9: waits for a service response in callback 'ask', which shares its callback "
+            "group with the client: deadlock, no response is processed meanwhile",
         ),
         Example("several threads and a callback group for the client", {"caller.py": _OWN_GROUP}),
         Example(
             "a callback group for the client, and one thread",
             {"caller.py": _OWN_GROUP.replace("MultiThreaded", "SingleThreaded")},
-            Report(
-                "15:9",
-                "waits for a service response in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "15:9: waits for a service response in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "while a goal is worked on, in one thread",
             {"caller.py": _GOAL.replace("MultiThreaded", "SingleThreaded")},
-            Report(
-                "16:9",
-                "waits for a service response in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "16:9: waits for a service response in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "many threads that are not used",
             {"caller.py": _OWN_GROUP.replace("executor.spin()", "rclpy.spin(node)")},
-            Report(
-                "15:9",
-                "waits for a service response in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "15:9: waits for a service response in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example("while a goal is worked on, in many threads", {"caller.py": _GOAL}),
         Example(
             "when a future is done",
             {"caller.py": _DONE},
-            Report(
-                "17:9",
-                "waits for a service response in callback 'again': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "17:9: waits for a service response in callback 'again': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "when a future is done, in many threads",
@@ -176,11 +154,8 @@ class CallInCallback(RclpyRule):
                     "        ActionClient(self, Count, 'count').send_goal(Count.Goal())\n"
                 )
             },
-            Report(
-                "13:9",
-                "waits for an action result in callback 'ask': deadlock, no "
-                "response is processed meanwhile",
-            ),
+            "13:9: waits for an action result in callback 'ask': deadlock, no response is "
+            "processed meanwhile",
         ),
         Example(
             "a loop that ends with its first pass",
@@ -203,11 +178,8 @@ class CallInCallback(RclpyRule):
                     "        while rclpy.ok() and not future.done():\n            pass\n"
                 )
             },
-            Report(
-                "14:9",
-                "busy-waits for a future in callback 'ask': deadlock, no response "
-                "is processed meanwhile",
-            ),
+            "14:9: busy-waits for a future in callback 'ask': deadlock, no response is processed "
+            "meanwhile",
         ),
         Example(
             "a loop",
@@ -217,11 +189,8 @@ class CallInCallback(RclpyRule):
                     "        while not future.done():\n            pass\n"
                 )
             },
-            Report(
-                "13:9",
-                "busy-waits for a future in callback 'ask': deadlock, no response "
-                "is processed meanwhile",
-            ),
+            "13:9: busy-waits for a future in callback 'ask': deadlock, no response is processed "
+            "meanwhile",
         ),
     )
 

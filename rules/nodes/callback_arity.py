@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import (
     ActionServer,
     Callback,
@@ -107,12 +107,8 @@ class CallbackArity(RclpyRule):
         Example(
             "no parameter, two parameters",
             {"listener.py": _ASKING.format("", "", ", future, other")},
-            Report(
-                "10:34", "callback 'log' takes 0 arguments, but a future passes itself: TypeError"
-            ),
-            Report(
-                "11:34", "callback 'end' takes 3 arguments, but a future passes itself: TypeError"
-            ),
+            "10:34: callback 'log' takes 0 arguments, but a future passes itself: TypeError",
+            "11:34: callback 'end' takes 3 arguments, but a future passes itself: TypeError",
         ),
         Example(
             "chosen by a condition, or out of a table",
@@ -135,41 +131,26 @@ class CallbackArity(RclpyRule):
                     _TABLE + "    def log(self, message):\n        pass\n\n    def hear",
                 )
             },
-            Report(
-                "8:53",
-                "callback 'hear' takes 0 arguments, but a subscription passes the "
-                "message: RuntimeError",
-            ),
-            Report(
-                "10:39",
-                "callback 'hear' takes 0 arguments, but a subscription passes the "
-                "message: RuntimeError",
-            ),
+            "8:53: callback 'hear' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
+            "10:39: callback 'hear' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
         ),
         Example("the message", {"listener.py": _NODE.format(", message")}),
         Example(
             "no parameter",
             {"listener.py": _NODE.format("")},
-            Report(
-                "8:53",
-                "callback 'hear' takes 0 arguments, but a subscription passes the "
-                "message: RuntimeError",
-            ),
+            "8:53: callback 'hear' takes 0 arguments, but a subscription passes the message: "
+            "RuntimeError",
         ),
         Example(
             "a timer, a service, an action server",
             {"server.py": _SERVER},
-            Report("10:32", "callback 'tick' takes 1 argument, but a timer passes none: TypeError"),
-            Report(
-                "11:48",
-                "callback 'report' takes 1 argument, but a service passes the "
-                "request and the response: TypeError",
-            ),
-            Report(
-                "12:62",
-                "callback 'execute' takes 0 arguments, but an action server passes "
-                "the goal handle: the goal is aborted",
-            ),
+            "10:32: callback 'tick' takes 1 argument, but a timer passes none: TypeError",
+            "11:48: callback 'report' takes 1 argument, but a service passes the request and the "
+            "response: TypeError",
+            "12:62: callback 'execute' takes 0 arguments, but an action server passes the goal "
+            "handle: the goal is aborted",
         ),
         Example(
             "partial",
@@ -178,21 +159,15 @@ class CallbackArity(RclpyRule):
         Example(
             "partial with too much",
             {"lamps.py": _PARTIAL.format("request, response")},
-            Report(
-                "10:46",
-                "callback 'switch' takes 1 more argument, but a service passes the "
-                "request and the response: TypeError",
-            ),
+            "10:46: callback 'switch' takes 1 more argument, but a service passes the request and "
+            "the response: TypeError",
         ),
         Example("a message of each topic", {"viewer.py": _VIEWER.format(", image, info")}),
         Example(
             "a message of one topic",
             {"viewer.py": _VIEWER.format(", image")},
-            Report(
-                "12:36",
-                "callback 'view' takes 1 argument, but the synchronizer passes 2 "
-                "messages: TypeError",
-            ),
+            "12:36: callback 'view' takes 1 argument, but the synchronizer passes 2 messages: "
+            "TypeError",
         ),
     )
 

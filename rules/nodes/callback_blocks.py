@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.programs import (
     blocks_node,
     in_callbacks,
@@ -88,28 +88,20 @@ class CallbackBlocks(RclpyRule):
         Example(
             "a sleep",
             {"talker.py": _NODE.format("time.sleep(1.0)")},
-            Report(
-                "12:9",
-                "time.sleep(1) blocks callback 'tick', and with it all other callbacks of the node",
-            ),
+            "12:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of the "
+            "node",
         ),
         Example(
             "a server",
             {"talker.py": "import requests\n" + _NODE.format("requests.get('http://robot/state')")},
-            Report(
-                "13:9",
-                "requests.get() blocks callback 'tick', and with it all other "
-                "callbacks of the node",
-            ),
+            "13:9: requests.get() blocks callback 'tick', and with it all other callbacks of the "
+            "node",
         ),
         Example(
             "a key in a window",
             {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(0)")},
-            Report(
-                "13:9",
-                "cv2.waitKey(0) blocks callback 'tick', and with it all other "
-                "callbacks of the node",
-            ),
+            "13:9: cv2.waitKey(0) blocks callback 'tick', and with it all other callbacks of the "
+            "node",
         ),
         Example(
             "a moment for a window", {"talker.py": "import cv2\n" + _NODE.format("cv2.waitKey(1)")}
@@ -117,10 +109,7 @@ class CallbackBlocks(RclpyRule):
         Example(
             "user input",
             {"talker.py": _NODE.format("input()")},
-            Report(
-                "12:9",
-                "input() blocks callback 'tick', and with it all other callbacks of the node",
-            ),
+            "12:9: input() blocks callback 'tick', and with it all other callbacks of the node",
         ),
         Example(
             "several threads and a callback group of its own",
@@ -129,11 +118,8 @@ class CallbackBlocks(RclpyRule):
         Example(
             "several threads and a callback group that others share",
             {"talker.py": _GROUPS.format("slow", "MultiThreadedExecutor")},
-            Report(
-                "19:9",
-                "time.sleep(1) blocks callback 'tick', and with it all other "
-                "callbacks of its callback group",
-            ),
+            "19:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of its "
+            "callback group",
         ),
         Example(
             "a callback group of its own and one thread",
@@ -142,20 +128,15 @@ class CallbackBlocks(RclpyRule):
                     "MultiThreaded", "SingleThreaded"
                 )
             },
-            Report(
-                "19:9",
-                "time.sleep(1) blocks callback 'tick', and with it all other callbacks of the node",
-            ),
+            "19:9: time.sleep(1) blocks callback 'tick', and with it all other callbacks of the "
+            "node",
         ),
         Example("with a timeout", {"caller.py": _CALLER.format("timeout_sec=1.0")}),
         Example(
             "without a timeout",
             {"caller.py": _CALLER.format("")},
-            Report(
-                "9:9",
-                "wait_for_service() without timeout_sec blocks the constructor of "
-                "Caller until the server is available",
-            ),
+            "9:9: wait_for_service() without timeout_sec blocks the constructor of Caller until "
+            "the server is available",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api import Diagnostic, Example, MessageRule, Package
 from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
@@ -81,16 +81,10 @@ class CallbackResultWrong(MessageRule):
         Example(
             "a bool for the answer, nothing for the result",
             {"server.py": _NODE.format("return True", "")},
-            Report(
-                "13:9",
-                "returns True, not a GoalResponse for the action server of line 9: "
-                "it counts as a rejection",
-            ),
-            Report(
-                "15:9",
-                "work() does not return the result for the action server of line 9: "
-                "AttributeError when the result is sent",
-            ),
+            "13:9: returns True, not a GoalResponse for the action server of line 9: it counts as "
+            "a rejection",
+            "15:9: work() does not return the result for the action server of line 9: "
+            "AttributeError when the result is sent",
         ),
         Example(
             "the wrong answer, the feedback",
@@ -99,17 +93,10 @@ class CallbackResultWrong(MessageRule):
                     "return CancelResponse.ACCEPT", "return Fibonacci.Feedback()"
                 )
             },
-            Report(
-                "13:9",
-                "returns a CancelResponse, not a GoalResponse for the action server "
-                "of line 9: it counts as a rejection",
-            ),
-            Report(
-                "17:9",
-                "returns example_interfaces/action/Fibonacci.Feedback, not the "
-                "result for the action server of line 9: AttributeError when the "
-                "result is sent",
-            ),
+            "13:9: returns a CancelResponse, not a GoalResponse for the action server of line 9: "
+            "it counts as a rejection",
+            "17:9: returns example_interfaces/action/Fibonacci.Feedback, not the result for the "
+            "action server of line 9: AttributeError when the result is sent",
         ),
         Example(
             "on every path but the shutdown",
@@ -122,11 +109,8 @@ class CallbackResultWrong(MessageRule):
         Example(
             "the class of the result",
             {"server.py": _NODE.format(_JUDGED, "return Fibonacci.Result")},
-            Report(
-                "17:9",
-                "returns the class Fibonacci.Result, not the result for the action "
-                "server of line 9: AttributeError when the result is sent",
-            ),
+            "17:9: returns the class Fibonacci.Result, not the result for the action server of "
+            "line 9: AttributeError when the result is sent",
         ),
         Example(
             "a method that every class of the package replaces",
@@ -143,7 +127,7 @@ class CallbackResultWrong(MessageRule):
                 + "\n\nclass Server(Base):\n    def report(self, request, response):\n"
                 "        return response\n\n\nbase = Base()\n"
             },
-            Report("10:9", "report() does not return the response (service of line 8): TypeError"),
+            "10:9: report() does not return the response (service of line 8): TypeError",
         ),
         Example(
             "a response returned", {"server.py": _NODE_SERVICES.format("        return response\n")}
@@ -158,9 +142,7 @@ class CallbackResultWrong(MessageRule):
                 "b.py": _NODE_SERVICES.format("        return Trigger.Response(success=True)\n"),
                 "server.py": _NODE_SERVICES.format("        return Trigger.Response()\n"),
             },
-            Report(
-                "server.py:12:9", "returns a new response: what was set in the given one is lost"
-            ),
+            "server.py:12:9: returns a new response: what was set in the given one is lost",
         ),
         Example(
             "the result of a method, and of one that returns nothing",
@@ -168,15 +150,13 @@ class CallbackResultWrong(MessageRule):
                 "a.py": _NODE_SERVICES.format(_OTHER.format("        return response\n")),
                 "b.py": _NODE_SERVICES.format(_OTHER.format("")),
             },
-            Report(
-                "b.py:12:9",
-                "returns nothing from filled(), not the response (service of line 8): TypeError",
-            ),
+            "b.py:12:9: returns nothing from filled(), not the response (service of line 8): "
+            "TypeError",
         ),
         Example(
             "no response",
             {"server.py": _NODE_SERVICES.format("")},
-            Report("10:9", "report() does not return the response (service of line 8): TypeError"),
+            "10:9: report() does not return the response (service of line 8): TypeError",
         ),
         Example(
             "a response on one path only, and a bool",
@@ -186,30 +166,21 @@ class CallbackResultWrong(MessageRule):
                     "        for _ in range(3):\n            return response\n"
                 )
             },
-            Report(
-                "10:9",
-                "report() does not return the response on every path (service of "
-                "line 8): TypeError",
-            ),
-            Report("13:13", "returns a bool, not the response (service of line 8): TypeError"),
+            "10:9: report() does not return the response on every path (service of line 8): "
+            "TypeError",
+            "13:13: returns a bool, not the response (service of line 8): TypeError",
         ),
         Example(
             "a field of the response",
             {"server.py": _NODE_SERVICES.format("        return response.success\n")},
-            Report(
-                "12:9",
-                "returns the field response.success, not the response (service of "
-                "line 8): TypeError",
-            ),
+            "12:9: returns the field response.success, not the response (service of line 8): "
+            "TypeError",
         ),
         Example(
             "the request",
             {"server.py": _NODE_SERVICES.format("        return Trigger.Request()\n")},
-            Report(
-                "12:9",
-                "returns std_srvs/srv/Trigger.Request, not the response (service of "
-                "line 8): TypeError",
-            ),
+            "12:9: returns std_srvs/srv/Trigger.Request, not the response (service of line 8): "
+            "TypeError",
         ),
         Example(
             "the class instead of the response",
@@ -218,11 +189,8 @@ class CallbackResultWrong(MessageRule):
                     "        response = Trigger.Response\n        return response\n"
                 )
             },
-            Report(
-                "13:9",
-                "returns the class std_srvs/srv/Trigger.Response, not the response "
-                "(service of line 8): TypeError",
-            ),
+            "13:9: returns the class std_srvs/srv/Trigger.Response, not the response (service of "
+            "line 8): TypeError",
         ),
         Example(
             "a response of its own is filled, and the given one returned",
@@ -232,14 +200,12 @@ class CallbackResultWrong(MessageRule):
                     "        return response\n"
                 ).replace("        response.success = True\n", "")
             },
-            Report(
-                "11:18", "returns the given response as it came: what was set in this one is lost"
-            ),
+            "11:18: returns the given response as it came: what was set in this one is lost",
         ),
         Example(
             "a dict for the response",
             {"server.py": _NODE_SERVICES.format("        return {'success': True}\n")},
-            Report("12:9", "returns a dict, not the response (service of line 8): TypeError"),
+            "12:9: returns a dict, not the response (service of line 8): TypeError",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.distributions import target
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import RclpyFile
@@ -64,20 +64,14 @@ class CallbackWithoutSignature(PythonRule):
                 "        cls.heard = deque(maxlen=4)\n"
                 "        cls.node.create_subscription(String, 'chatter', cls.heard.append, 10)\n"
             },
-            Report(
-                "13:57",
-                "Python 3.12 knows no signature of 'collections.deque.append': "
-                "rclpy raises ValueError; pass lambda msg: cls.heard.append(msg)",
-            ),
+            "13:57: Python 3.12 knows no signature of 'collections.deque.append': rclpy raises "
+            "ValueError; pass lambda msg: cls.heard.append(msg)",
         ),
         Example(
             "a deque",
             {"listener.py": _NODE.format("deque()", "self.heard.append")},
-            Report(
-                "11:53",
-                "Python 3.12 knows no signature of 'collections.deque.append': "
-                "rclpy raises ValueError; pass lambda msg: self.heard.append(msg)",
-            ),
+            "11:53: Python 3.12 knows no signature of 'collections.deque.append': rclpy raises "
+            "ValueError; pass lambda msg: self.heard.append(msg)",
         ),
     )
 

@@ -78,12 +78,8 @@ class ClocksMixed(RclpyRule):
         Example(
             "begins with another clock",
             {"driver.py": _NODE.format("Time()", "")},
-            Report(
-                "13:20",
-                "times of the ROS clock and of the system clock cannot be "
-                "subtracted: TypeError; use Time(clock_type=ClockType.ROS_TIME) or "
-                "the clock of the node",
-            ),
+            "13:20: times of the ROS clock and of the system clock cannot be subtracted: "
+            "TypeError; use Time(clock_type=ClockType.ROS_TIME) or the clock of the node",
         ),
         Example(
             "asks first",
@@ -99,11 +95,8 @@ class ClocksMixed(RclpyRule):
                 "driver.py": "import time\n\n" + _NODE.format("time.time()", ""),
                 "other.py": _NODE.format("0.0", "if not self.last:\n            return\n        "),
             },
-            Report(
-                "driver.py:15:20",
-                "an rclpy Time and a number cannot be subtracted: TypeError; "
-                "begin with the clock of the node: self.get_clock().now()",
-            ),
+            "driver.py:15:20: an rclpy Time and a number cannot be subtracted: TypeError; begin "
+            "with the clock of the node: self.get_clock().now()",
         ),
         Example(
             "a stamp and the system clock",
@@ -113,12 +106,8 @@ class ClocksMixed(RclpyRule):
                 "    stamp = Time.from_msg(msg.header.stamp)\n"
                 "    return Clock().now() - stamp > limit\n"
             },
-            Report(
-                "7:12",
-                "times of the system clock and of the ROS clock cannot be "
-                "subtracted: TypeError; use Time(clock_type=ClockType.ROS_TIME) or "
-                "the clock of the node",
-            ),
+            "7:12: times of the system clock and of the ROS clock cannot be subtracted: "
+            "TypeError; use Time(clock_type=ClockType.ROS_TIME) or the clock of the node",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.python import PythonModule
 
 _NODE = (
@@ -38,9 +38,7 @@ class ComparisonWithoutEffect(PythonRule):
         Example(
             "compared",
             {"limiter.py": _NODE.format("self.limit == msg.data")},
-            Report(
-                "12:9", "self.limit is compared, and the result is dropped; write self.limit = ..."
-            ),
+            "12:9: self.limit is compared, and the result is dropped; write self.limit = ...",
         ),
         Example(
             "compared in a test, which TS043 reports",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -38,11 +38,8 @@ class DestroyNodeIncomplete(RclpyRule):
         Example(
             "incomplete",
             {"driver.py": _NODE.format("self.port = None")},
-            Report(
-                "8:9",
-                "super().destroy_node() is not called: publishers, timers and "
-                "subscriptions stay; call it at the end",
-            ),
+            "8:9: super().destroy_node() is not called: publishers, timers and subscriptions "
+            "stay; call it at the end",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
+from scaffold.api import Diagnostic, Example, Package, PythonRule
 from scaffold.api.python import PythonModule, is_generator, may_end, returned
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
@@ -49,12 +49,12 @@ class DiagnosticTaskResult(PythonRule):
         Example(
             "not returned",
             {"wheels.py": _NODE.format("stat.add('count', '4')")},
-            Report("12:9", "check() does not return its status: AttributeError"),
+            "12:9: check() does not return its status: AttributeError",
         ),
         Example(
             "not on every path",
             {"check.py": _TASK},
-            Report("5:9", "run() does not return its status on every path: AttributeError"),
+            "5:9: run() does not return its status on every path: AttributeError",
         ),
     )
 

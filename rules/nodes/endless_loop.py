@@ -72,7 +72,7 @@ class EndlessLoop(RclpyRule):
         Example(
             "a loop",
             {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n" + _LOOP)},
-            Report("9:9", "endless loop: the constructor of Talker never returns; use a timer"),
+            "9:9: endless loop: the constructor of Talker never returns; use a timer",
         ),
         Example(
             "a loop of a node without callbacks",
@@ -99,12 +99,12 @@ class EndlessLoop(RclpyRule):
                     "        self.create_timer(1, self.tick)\n" + _LOOP
                 ).replace("import rclpy", "import threading\n\nimport rclpy", 1)
             },
-            Report("12:9", "endless loop: the constructor of Talker never returns; use a timer"),
+            "12:9: endless loop: the constructor of Talker never returns; use a timer",
         ),
         Example(
             "a loop in a callback of one thread, whatever its group",
             {"talker.py": _CALLBACK.format("rclpy.spin(Talker())")},
-            Report("14:9", "endless loop: callback 'work' never returns; use a timer"),
+            "14:9: endless loop: callback 'work' never returns; use a timer",
         ),
         Example(
             "a loop in a callback of many threads",
@@ -113,7 +113,7 @@ class EndlessLoop(RclpyRule):
         Example(
             "a loop when a future is done, in one thread",
             {"caller.py": _DONE.format("rclpy.spin(Caller())")},
-            Report("15:9", "endless loop: callback 'work' never returns; use a timer"),
+            "15:9: endless loop: callback 'work' never returns; use a timer",
         ),
         Example(
             "a loop when a future is done, in many threads",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import NodeClass, RclpyFile
 
@@ -49,19 +49,17 @@ class EntitiesTakenForList(RclpyRule):
         Example(
             "appended to",
             _files("self.publishers.append(self.create_publisher(String, 'a', 1))"),
-            Report(
-                "8:9", "'publishers' is a property of Node that returns a generator: AttributeError"
-            ),
+            "8:9: 'publishers' is a property of Node that returns a generator: AttributeError",
         ),
         Example(
             "indexed",
             _files("self.clients['a'] = None"),
-            Report("8:9", "'clients' is a property of Node that returns a generator: TypeError"),
+            "8:9: 'clients' is a property of Node that returns a generator: TypeError",
         ),
         Example(
             "its length",
             _files("print(len(self.timers))"),
-            Report("8:19", "'timers' is a property of Node that returns a generator: TypeError"),
+            "8:19: 'timers' is a property of Node that returns a generator: TypeError",
         ),
     )
 

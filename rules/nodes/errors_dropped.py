@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import Callback, RclpyFile, Service, Subscription, Synchronizer, Timer
 
@@ -48,11 +48,8 @@ class ErrorsDropped(RclpyRule):
         Example(
             "everything",
             {"listener.py": _NODE.format("Exception", "pass")},
-            Report(
-                "13:9",
-                "callback 'hear' drops all errors: a mistake in it is never seen; "
-                "log the exception",
-            ),
+            "13:9: callback 'hear' drops all errors: a mistake in it is never seen; log the "
+            "exception",
         ),
     )
 

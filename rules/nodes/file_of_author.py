@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
 from scaffold.api.python import PathValue
 from scaffold.api.rclpy import RclpyFile
 
@@ -39,16 +39,13 @@ class FileOfAuthor(RclpyRule):
         Example(
             "in a home directory",
             {"talker.py": _NODE.format("'/home/dev/ws/words.txt'")},
-            Report("5:15", "'/home/dev/ws/words.txt' exists only on the author's machine"),
+            "5:15: '/home/dev/ws/words.txt' exists only on the author's machine",
         ),
         Example(
             "a relative path",
             {"talker.py": _NODE.format("'config/words.txt'"), "config/words.txt": ""},
-            Report(
-                "talker.py:5:15",
-                "'config/words.txt' is relative to the directory of the shell, not "
-                "the package; use get_package_share_directory()",
-            ),
+            "talker.py:5:15: 'config/words.txt' is relative to the directory of the shell, not "
+            "the package; use get_package_share_directory()",
         ),
         Example(
             "a bare file name; files that are written may be anywhere",
@@ -56,11 +53,8 @@ class FileOfAuthor(RclpyRule):
                 "talker.py": _NODE.format("'words.txt'") + "\n\nopen('words.txt', 'w')\n",
                 "config/words.txt": "",
             },
-            Report(
-                "talker.py:5:15",
-                "'words.txt' is relative to the directory of the shell, not the "
-                "package; use get_package_share_directory()",
-            ),
+            "talker.py:5:15: 'words.txt' is relative to the directory of the shell, not the "
+            "package; use get_package_share_directory()",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
+from scaffold.api import Diagnostic, Example, Package, PythonRule
 from scaffold.api.python import PythonModule, is_handled
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
@@ -41,9 +41,9 @@ class FloatAsIndex(PythonRule):
         Example(
             "divisions",
             {"front.py": _NODE.format("/", "/")},
-            Report("12:29", "a float cannot bound a slice: TypeError; divide with //"),
-            Report("12:40", "a float cannot bound a slice: TypeError; divide with //"),
-            Report("13:29", "range() takes no float: TypeError; divide with //"),
+            "12:29: a float cannot bound a slice: TypeError; divide with //",
+            "12:40: a float cannot bound a slice: TypeError; divide with //",
+            "13:29: range() takes no float: TypeError; divide with //",
         ),
         Example(
             "made whole later",

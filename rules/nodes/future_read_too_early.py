@@ -55,9 +55,7 @@ class FutureReadTooEarly(RclpyRule):
         Example(
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
-            Report(
-                "7:16", "'future' is not done here: result() returns None; use add_done_callback()"
-            ),
+            "7:16: 'future' is not done here: result() returns None; use add_done_callback()",
         ),
         Example(
             "after a wait with a timeout, asked and not asked",
@@ -82,9 +80,7 @@ class FutureReadTooEarly(RclpyRule):
         Example(
             "in the callback, called directly",
             {"caller.py": _NODE.format("self.answer(future)")},
-            Report(
-                "7:9", "'future' is not done here: result() returns None; use add_done_callback()"
-            ),
+            "7:9: 'future' is not done here: result() returns None; use add_done_callback()",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.programs import spins_in_one_thread
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import GOAL_HANDLE, ActionServer, RclpyFile, class_of
@@ -58,11 +58,8 @@ class GoalNeverCanceled(RclpyRule):
         Example(
             "one thread",
             {"server.py": _NODE.format(_CANCEL, "")},
-            Report(
-                "17:16",
-                "never true in time: the only thread works on the goal, and reads "
-                "requests to cancel afterwards; use a MultiThreadedExecutor",
-            ),
+            "17:16: never true in time: the only thread works on the goal, and reads requests to "
+            "cancel afterwards; use a MultiThreadedExecutor",
         ),
         Example(
             "a goal that nobody asked to cancel",
@@ -71,11 +68,8 @@ class GoalNeverCanceled(RclpyRule):
                     "if goal_handle.is_cancel_requested:", "if self.failed:"
                 )
             },
-            Report(
-                "18:17",
-                "nobody asked to cancel the goal: canceled() raises RCLError; check "
-                "is_cancel_requested, or call abort()",
-            ),
+            "18:17: nobody asked to cancel the goal: canceled() raises RCLError; check "
+            "is_cancel_requested, or call abort()",
         ),
         Example(
             "a goal that nobody asked to cancel, in a coroutine that awaits nothing",
@@ -84,11 +78,8 @@ class GoalNeverCanceled(RclpyRule):
                 .replace("if goal_handle.is_cancel_requested:", "if self.failed:")
                 .replace("    def work", "    async def work")
             },
-            Report(
-                "18:17",
-                "nobody asked to cancel the goal: canceled() raises RCLError; check "
-                "is_cancel_requested, or call abort()",
-            ),
+            "18:17: nobody asked to cancel the goal: canceled() raises RCLError; check "
+            "is_cancel_requested, or call abort()",
         ),
         Example(
             "a goal of which the cancel callback keeps that it is to be canceled",
@@ -113,20 +104,14 @@ class GoalNeverCanceled(RclpyRule):
                     "        goal_handle.canceled()\n        return CancelResponse",
                 )
             },
-            Report(
-                "25:9",
-                "the goal is canceled only after the cancel callback: canceled() "
-                "raises RCLError here; return CancelResponse.ACCEPT",
-            ),
+            "25:9: the goal is canceled only after the cancel callback: canceled() raises "
+            "RCLError here; return CancelResponse.ACCEPT",
         ),
         Example(
             "all requests are rejected",
             {"server.py": _NODE.format("", _THREADS)},
-            Report(
-                "17:16",
-                "no cancel_callback: rclpy rejects all requests to cancel, so this "
-                "is never true; pass cancel_callback",
-            ),
+            "17:16: no cancel_callback: rclpy rejects all requests to cancel, so this is never "
+            "true; pass cancel_callback",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.python import FunctionNode
 from scaffold.api.rclpy import ActionServer, RclpyFile
 
@@ -78,11 +78,8 @@ class GoalNeverSucceeds(RclpyRule):
                 + "\n    def end(self, goal_handle):\n"
                 "        self.order = goal_handle.request.order\n"
             },
-            Report(
-                "16:9",
-                "result returned without succeed(): goals of the action server of "
-                "line 9 end as aborted",
-            ),
+            "16:9: result returned without succeed(): goals of the action server of line 9 end as "
+            "aborted",
         ),
         Example(
             "canceled, and not so",
@@ -92,30 +89,21 @@ class GoalNeverSucceeds(RclpyRule):
                     "goal_handle.canceled()", "self.get_logger().info('canceled')"
                 ),
             },
-            Report(
-                "other.py:14:13",
-                "a canceled goal is returned without canceled(): it ends as "
-                "aborted; call goal_handle.canceled() before",
-            ),
+            "other.py:14:13: a canceled goal is returned without canceled(): it ends as aborted; "
+            "call goal_handle.canceled() before",
         ),
         Example(
             "sets no state",
             {"server.py": _NODE.format("")},
-            Report(
-                "15:9",
-                "result returned without succeed(): goals of the action server of "
-                "line 9 end as aborted",
-            ),
+            "15:9: result returned without succeed(): goals of the action server of line 9 end as "
+            "aborted",
         ),
         Example("executed at once", {"server.py": _NODE_ACCEPTED.format("goal_handle.execute()")}),
         Example(
             "accepted, and never executed",
             {"server.py": _NODE_ACCEPTED.format("self.goal = goal_handle")},
-            Report(
-                "10:75",
-                "'start' never calls execute(): goals are accepted, and nothing "
-                "happens; call goal_handle.execute()",
-            ),
+            "10:75: 'start' never calls execute(): goals are accepted, and nothing happens; call "
+            "goal_handle.execute()",
         ),
         Example(
             "executed elsewhere",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.distributions import target
 from scaffold.api.rclpy import RclpyFile, known_names
 
@@ -30,7 +30,7 @@ class InitAsContextManager(RclpyRule):
         Example(
             "a with statement",
             {"talker.py": _WITH},
-            Report("5:10", "rclpy.init() is not a context manager on Jazzy: TypeError at start"),
+            "5:10: rclpy.init() is not a context manager on Jazzy: TypeError at start",
         ),
     )
 

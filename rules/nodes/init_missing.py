@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError, fact
+from scaffold.api import Diagnostic, Example, Location, Package, Rule, ViewError, fact
 from scaffold.api.programs import (
     Execution,
     calls_others,
@@ -57,10 +57,8 @@ class InitMissing(Rule):
         Example(
             "never",
             {**_FILES, "demo/talker.py": _NODE.format("    node = Talker()\n" + _SPIN)},
-            Report(
-                "demo/talker.py:12:12",
-                "Talker is constructed without rclpy.init(): NotInitializedException",
-            ),
+            "demo/talker.py:12:12: Talker is constructed without rclpy.init(): "
+            "NotInitializedException",
         ),
         Example(
             "too late",
@@ -68,10 +66,8 @@ class InitMissing(Rule):
                 **_FILES,
                 "demo/talker.py": _NODE.format("    node = Talker()\n    rclpy.init()\n" + _SPIN),
             },
-            Report(
-                "demo/talker.py:12:12",
-                "Talker is constructed before rclpy.init() in line 13: NotInitializedException",
-            ),
+            "demo/talker.py:12:12: Talker is constructed before rclpy.init() in line 13: "
+            "NotInitializedException",
         ),
     )
 

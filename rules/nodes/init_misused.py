@@ -48,7 +48,7 @@ class InitMisused(RclpyRule):
         Example(
             "twice",
             {"talker.py": _MAIN.format("    rclpy.init()\n")},
-            Report("6:5", "rclpy.init() is already called in line 5: RuntimeError"),
+            "6:5: rclpy.init() is already called in line 5: RuntimeError",
         ),
         Example(
             "in the constructor of a node",
@@ -60,7 +60,7 @@ class InitMisused(RclpyRule):
                 "        rclpy.init()\n"
                 "        super().__init__('talker')\n"
             },
-            Report("13:9", "rclpy.init() is called before this node is constructed: RuntimeError"),
+            "13:9: rclpy.init() is called before this node is constructed: RuntimeError",
         ),
         Example("the command line", {"talker.py": _MAIN_ARGUMENTS.format("args=args")}),
         Example(

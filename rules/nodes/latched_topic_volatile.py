@@ -85,12 +85,8 @@ class LatchedTopicVolatile(RclpyRule):
         Example(
             "a map",
             {"viewer.py": _NODE.format("subscription(OccupancyGrid, '/map', print, 10)")},
-            Report(
-                "10:64",
-                "'map' is latched: a volatile subscription misses everything published before "
-                "it; use QoSProfile(depth=1, "
-                "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
-            ),
+            "10:64: 'map' is latched: a volatile subscription misses everything published before "
+            "it; use QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)",
         ),
         Example(
             "the description of a robot",
@@ -106,12 +102,9 @@ class LatchedTopicVolatile(RclpyRule):
         Example(
             "published as volatile",
             {"server.py": _NODE.format("publisher(OccupancyGrid, 'map', 1)")},
-            Report(
-                "10:53",
-                "'map' is transient local everywhere: subscriptions that request it do not "
-                "connect to this volatile publisher; use QoSProfile(depth=1, "
-                "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
-            ),
+            "10:53: 'map' is transient local everywhere: subscriptions that request it do not "
+            "connect to this volatile publisher; use QoSProfile(depth=1, "
+            "durability=DurabilityPolicy.TRANSIENT_LOCAL)",
         ),
         Example(
             "published by a constructor",
@@ -148,11 +141,8 @@ class LatchedTopicVolatile(RclpyRule):
         Example(
             "published once, and volatile",
             {"server.py": _NODE_ONCE.format("1")},
-            Report(
-                "11:9",
-                "the only message on 'map' is published in the constructor: later "
-                "subscribers miss it; use TRANSIENT_LOCAL",
-            ),
+            "11:9: the only message on 'map' is published in the constructor: later subscribers "
+            "miss it; use TRANSIENT_LOCAL",
         ),
         Example(
             "published for every key",
@@ -177,12 +167,9 @@ class LatchedTopicVolatile(RclpyRule):
                 "tell.py": _PROGRAM.format("pass"),
                 "later.py": _PROGRAM.format("time.sleep(2.0)"),
             },
-            Report(
-                "tell.py:12:9",
-                "the only message on 'joined' is published as soon as the publisher "
-                "is there, and the program ends: no subscriber is found by then; "
-                "wait for get_subscription_count()",
-            ),
+            "tell.py:12:9: the only message on 'joined' is published as soon as the publisher is "
+            "there, and the program ends: no subscriber is found by then; wait for "
+            "get_subscription_count()",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.rclpy import NodeClass, RclpyFile, is_used_elsewhere
 
 _NODE = (
@@ -52,11 +52,8 @@ class LocalForAttribute(RclpyRule):
         Example(
             "only logged",
             {"gate.py": _NODE.format("is_open", _LOGGED)},
-            Report(
-                "13:9",
-                "'is_open' is a local variable, which ends with on_open(): "
-                "self.is_open never changes; write self.is_open",
-            ),
+            "13:9: 'is_open' is a local variable, which ends with on_open(): self.is_open never "
+            "changes; write self.is_open",
         ),
     )
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import takewhile
 from typing import NamedTuple
 
-from scaffold.api import Diagnostic, Example, Package, PythonRule, Report
+from scaffold.api import Diagnostic, Example, Package, PythonRule
 from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
@@ -44,11 +44,8 @@ class LockTakenTwice(PythonRule):
         Example(
             "a plain lock",
             {"store.py": _NODE.format("Lock")},
-            Report(
-                "10:13",
-                "the lock of line 9 is taken again while it is held: the thread "
-                "waits for itself; use threading.RLock()",
-            ),
+            "10:13: the lock of line 9 is taken again while it is held: the thread waits for "
+            "itself; use threading.RLock()",
         ),
         Example(
             "returns with the lock",
@@ -71,11 +68,8 @@ class LockTakenTwice(PythonRule):
                 "    try:\n        return store.pop()\n"
                 "    finally:\n        LOCK.release()\n"
             },
-            Report(
-                "9:9",
-                "the lock of line 7 is not released on this path: the next one to "
-                "take it waits forever; write 'with' and the lock",
-            ),
+            "9:9: the lock of line 7 is not released on this path: the next one to take it waits "
+            "forever; write 'with' and the lock",
         ),
         Example(
             "called outside",

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
 from scaffold.api.interfaces import TEXTS
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import RclpyFile, log_calls
@@ -47,13 +47,13 @@ class LogFPrefixMissing(RclpyRule):
         Example(
             "a missing f prefix",
             {"talker.py": _NODE.format("'heard {text}'")},
-            Report("6:32", "{text} is logged literally: the string has no f prefix"),
+            "6:32: {text} is logged literally: the string has no f prefix",
         ),
         Example(
             "a missing f prefix in a field",
             {"talker.py": _FIELD.format("'{count:03d} heard'", "String(data='{count} heard')")},
-            Report("8:24", "{count} is sent literally: the string has no f prefix"),
-            Report("9:28", "{count} is sent literally: the string has no f prefix"),
+            "8:24: {count} is sent literally: the string has no f prefix",
+            "9:28: {count} is sent literally: the string has no f prefix",
         ),
         Example("an f-string in a field", {"talker.py": _FIELD.format("f'{count}'", "message")}),
         Example(

@@ -73,12 +73,12 @@ class LoggerMisused(RclpyRule):
         Example(
             "arguments to format",
             {"talker.py": _NODE.format("'%d', 42")},
-            Report("6:38", "loggers do not format arguments: TypeError; use an f-string"),
+            "6:38: loggers do not format arguments: TypeError; use an f-string",
         ),
         Example(
             "a number added",
             {"talker.py": _NODE.format("'heard ' + 1")},
-            Report("6:32", "a number is added to a str: TypeError; use an f-string"),
+            "6:32: a number is added to a str: TypeError; use an f-string",
         ),
         Example("a call for each severity", {"talker.py": _NODE_SEVERITY.format(_BRANCHES)}),
         Example(
@@ -96,7 +96,7 @@ class LoggerMisused(RclpyRule):
         Example(
             "a method that depends on a condition",
             {"talker.py": _NODE_SEVERITY.format(_CHOICE)},
-            Report("6:15", "log statement with two severities: ValueError; write two calls"),
+            "6:15: log statement with two severities: ValueError; write two calls",
         ),
         Example(
             "a severity for the level", {"talker.py": _NODE_LEVEL.format("LoggingSeverity.DEBUG")}
@@ -113,14 +113,14 @@ class LoggerMisused(RclpyRule):
         Example(
             "a str for the level",
             {"talker.py": _NODE_LEVEL.format("'debug'")},
-            Report("8:37", "'debug' is not a LoggingSeverity: ValueError"),
-            Report("9:36", "'debug' is not a LoggingSeverity: ValueError"),
+            "8:37: 'debug' is not a LoggingSeverity: ValueError",
+            "9:36: 'debug' is not a LoggingSeverity: ValueError",
         ),
         Example(
             "a number for the level",
             {"talker.py": _NODE_LEVEL.format("1")},
-            Report("8:37", "1 is not a LoggingSeverity: ValueError"),
-            Report("9:36", "1 is not a LoggingSeverity: ValueError"),
+            "8:37: 1 is not a LoggingSeverity: ValueError",
+            "9:36: 1 is not a LoggingSeverity: ValueError",
         ),
     )
 

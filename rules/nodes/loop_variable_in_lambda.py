@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -37,11 +37,8 @@ class LoopVariableInLambda(RclpyRule):
         Example(
             "not bound",
             {"listener.py": _NODE.format("lambda m: self.hear(m, name)")},
-            Report(
-                "9:52",
-                "'name' is read when the callback runs: all callbacks get the last "
-                "value; bind it: name=name",
-            ),
+            "9:52: 'name' is read when the callback runs: all callbacks get the last value; bind "
+            "it: name=name",
         ),
     )
 

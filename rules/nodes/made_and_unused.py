@@ -89,7 +89,7 @@ class MadeAndUnused(RclpyRule):
                     "        self.create_timer",
                 )
             },
-            Report("20:9", "callback 'right_callback' is never registered: it never runs"),
+            "20:9: callback 'right_callback' is never registered: it never runs",
         ),
         Example(
             "a publisher for each topic, and what is never called",
@@ -104,15 +104,9 @@ class MadeAndUnused(RclpyRule):
                 ),
                 "other.py": "def start(node):\n    node.add_lanes()\n",
             },
-            Report(
-                "talker.py:15:9",
-                "nothing calls add_joystick(): the subscription in it does not exist",
-            ),
-            Report(
-                "talker.py:20:29",
-                "each iteration of the loop replaces 'lane_pub': messages only go to the last "
-                "topic; keep the publishers in a list or a dict",
-            ),
+            "talker.py:15:9: nothing calls add_joystick(): the subscription in it does not exist",
+            "talker.py:20:29: each iteration of the loop replaces 'lane_pub': messages only go to "
+            "the last topic; keep the publishers in a list or a dict",
         ),
         Example(
             "a publisher that is used",
@@ -128,7 +122,7 @@ class MadeAndUnused(RclpyRule):
         Example(
             "a publisher that is never used",
             {"talker.py": _NODE.format("pass")},
-            Report("9:28", "publisher 'chatter_pub' is never used: no messages on 'chatter'"),
+            "9:28: publisher 'chatter_pub' is never used: no messages on 'chatter'",
         ),
         Example(
             "a group that is used",
@@ -137,11 +131,8 @@ class MadeAndUnused(RclpyRule):
         Example(
             "a group that is unused",
             {"talker.py": _NODE_GROUPS.format("")},
-            Report(
-                "8:22",
-                "callback group 'group' is never used: all callbacks run one at a time; pass "
-                "callback_group=",
-            ),
+            "8:22: callback group 'group' is never used: all callbacks run one at a time; pass "
+            "callback_group=",
         ),
         Example(
             "a window that is drawn",

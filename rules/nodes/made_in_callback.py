@@ -56,11 +56,8 @@ class MadeInCallback(RclpyRule):
         Example(
             "each time",
             {"talker.py": _NODE.format("")},
-            Report(
-                "11:21",
-                "callback 'tick' creates a publisher each time: messages published at once reach "
-                "nobody; create it in the constructor",
-            ),
+            "11:21: callback 'tick' creates a publisher each time: messages published at once "
+            "reach nobody; create it in the constructor",
         ),
         Example(
             "each time, and kept",
@@ -83,22 +80,16 @@ class MadeInCallback(RclpyRule):
                     "            self.other = self.create_timer(1.0, print)\n"
                 ),
             },
-            Report(
-                "once.py:13:21",
-                "callback 'tick' creates a publisher each time: messages published at once reach "
-                "nobody; create it in the constructor",
-            ),
+            "once.py:13:21: callback 'tick' creates a publisher each time: messages published at "
+            "once reach nobody; create it in the constructor",
             Report(
                 "talker.py:12:13",
                 "callback 'tick' creates a timer each time: all of them keep running; create it "
                 "in the constructor",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "talker.py:13:21",
-                "callback 'tick' creates a publisher each time: messages published at once reach "
-                "nobody; create it in the constructor",
-            ),
+            "talker.py:13:21: callback 'tick' creates a publisher each time: messages published "
+            "at once reach nobody; create it in the constructor",
         ),
         Example(
             "if there is none yet",

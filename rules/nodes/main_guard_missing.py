@@ -45,8 +45,8 @@ class MainGuardMissing(Rule):
                 "talker/node.py": _MAIN + _GUARD.replace("__main__", "main"),
                 "talker/other.py": _MAIN + _GUARD.replace("main()", "main"),
             },
-            Report("talker/node.py:9:4", "__name__ is never 'main'; did you mean '__main__'?"),
-            Report("talker/other.py:10:5", "'main' is not called here; write main()"),
+            "talker/node.py:9:4: __name__ is never 'main'; did you mean '__main__'?",
+            "talker/other.py:10:5: 'main' is not called here; write main()",
         ),
     )
 

@@ -61,14 +61,11 @@ class MethodNotCalled(RclpyRule):
         Example(
             "not called: for its result, as conditions, as a statement",
             {"talker.py": _NODE.format("", "", "", "", "")},
-            Report("10:22", "'get_clock' is a method that is not called; write get_clock()"),
-            Report("11:15", "rclpy.ok is a function: always true; write rclpy.ok()"),
-            Report(
-                "11:32",
-                "'service_is_ready' is a method that is not called; write service_is_ready()",
-            ),
-            Report("13:9", "'destroy_node' is a method that is not called; write destroy_node()"),
-            Report("14:9", "rclpy.shutdown is not called; add the parentheses"),
+            "10:22: 'get_clock' is a method that is not called; write get_clock()",
+            "11:15: rclpy.ok is a function: always true; write rclpy.ok()",
+            "11:32: 'service_is_ready' is a method that is not called; write service_is_ready()",
+            "13:9: 'destroy_node' is a method that is not called; write destroy_node()",
+            "14:9: rclpy.shutdown is not called; add the parentheses",
         ),
         Example(
             "at the end of a program",
@@ -98,7 +95,7 @@ class MethodNotCalled(RclpyRule):
                 "    def is_done(self):\n        return True\n\n"
                 "    @property\n    def on_done(self):\n        return None\n"
             },
-            Report("15:16", "'is_done' is a method that is not called; write is_done()"),
+            "15:16: 'is_done' is a method that is not called; write is_done()",
         ),
         Example(
             "a method of the node as a statement, and compared",
@@ -110,8 +107,8 @@ class MethodNotCalled(RclpyRule):
                 "    def stop(self):\n        return True\n\n"
                 "    def tick(self):\n        pass\n"
             },
-            Report("15:9", "'stop' is a method that is not called; write stop()"),
-            Report("18:16", "'stop' is a method that is not called; write stop()"),
+            "15:9: 'stop' is a method that is not called; write stop()",
+            "18:16: 'stop' is a method that is not called; write stop()",
         ),
         Example(
             "an event",
@@ -125,28 +122,16 @@ class MethodNotCalled(RclpyRule):
                 )
                 + "import threading\n"
             },
-            Report("12:9", "self.stopped.clear is not called; add the parentheses"),
-            Report(
-                "13:12",
-                "self.stopped is an Event, which is always true; write self.stopped.is_set()",
-            ),
+            "12:9: self.stopped.clear is not called; add the parentheses",
+            "13:12: self.stopped is an Event, which is always true; write self.stopped.is_set()",
         ),
         Example(
             "in parts of conditions",
             {"talker.py": _PARTS},
-            Report(
-                "8:16",
-                "'service_is_ready' is a method that is not called; write service_is_ready()",
-            ),
-            Report("9:9", "rclpy.ok is a function: always true; write rclpy.ok()"),
-            Report(
-                "9:21",
-                "'service_is_ready' is a method that is not called; write service_is_ready()",
-            ),
-            Report(
-                "10:27",
-                "'service_is_ready' is a method that is not called; write service_is_ready()",
-            ),
+            "8:16: 'service_is_ready' is a method that is not called; write service_is_ready()",
+            "9:9: rclpy.ok is a function: always true; write rclpy.ok()",
+            "9:21: 'service_is_ready' is a method that is not called; write service_is_ready()",
+            "10:27: 'service_is_ready' is a method that is not called; write service_is_ready()",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.python import PythonModule
 
 _REFUSED = {
@@ -38,11 +38,8 @@ class NameUnboundInHandler(PythonRule):
         Example(
             "what fails assigns the name",
             {"a.py": _CODE.format("int(text)", "        print(1)\n", "ValueError", "value")},
-            Report(
-                "7:15",
-                "'value' is not assigned when the first statement of `try` fails: "
-                "UnboundLocalError",
-            ),
+            "7:15: 'value' is not assigned when the first statement of `try` fails: "
+            "UnboundLocalError",
         ),
         Example(
             "a later statement may fail",

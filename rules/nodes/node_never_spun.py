@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.rclpy import (
     NodeClass,
     NodeDefinition,
@@ -48,16 +48,12 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "never spun",
             {"talker.py": _NODE.format("")},
-            Report(
-                "16:12", "nothing spins this Talker: its callbacks never run; call rclpy.spin()"
-            ),
+            "16:12: nothing spins this Talker: its callbacks never run; call rclpy.spin()",
         ),
         Example(
             "sleeping in a loop",
             {"talker.py": _NODE.format("    time.sleep(9)\n")},
-            Report(
-                "16:12", "nothing spins this Talker: its callbacks never run; call rclpy.spin()"
-            ),
+            "16:12: nothing spins this Talker: its callbacks never run; call rclpy.spin()",
         ),
         Example(
             "one of two nodes, and a node of a node",
@@ -69,10 +65,8 @@ class NodeNeverSpun(RclpyRule):
                     "        self.create_timer(1",
                 ).format("    other = Talker()\n    rclpy.spin(other)\n"),
             },
-            Report(
-                "8:22", "nothing spins what this rclpy.create_node makes: its callbacks never run"
-            ),
-            Report("18:12", "nothing spins what this Talker makes: its callbacks never run"),
+            "8:22: nothing spins what this rclpy.create_node makes: its callbacks never run",
+            "18:12: nothing spins what this Talker makes: its callbacks never run",
         ),
         Example(
             "spun in a loop",
@@ -89,7 +83,7 @@ class NodeNeverSpun(RclpyRule):
         Example(
             "spun once",
             {"talker.py": _NODE.format("    rclpy.spin_once(node)\n")},
-            Report("17:5", "spin_once() outside a loop runs at most one callback; use spin()"),
+            "17:5: spin_once() outside a loop runs at most one callback; use spin()",
         ),
     )
 

@@ -63,7 +63,7 @@ class NodeNotConstructed(RclpyRule):
         Example(
             "not called",
             {"talker.py": _NODE.format("self.count = 0")},
-            Report("5:9", "Talker.__init__() does not call super().__init__(): AttributeError"),
+            "5:9: Talker.__init__() does not call super().__init__(): AttributeError",
         ),
         Example(
             "a class that never is the node",
@@ -83,47 +83,42 @@ class NodeNotConstructed(RclpyRule):
         Example(
             "the class above Node",
             {"talker.py": _NODE.format("super(Node, self).__init__('talker')")},
-            Report("6:9", "this super() skips the constructor of Node; write super()"),
+            "6:9: this super() skips the constructor of Node; write super()",
         ),
         Example(
             "an unbound super",
             {"talker.py": _NODE.format("super(Talker).__init__('talker')")},
-            Report("6:9", "super() with only a class is unbound; write super()"),
+            "6:9: super() with only a class is unbound; write super()",
         ),
         Example(
             "self twice",
             {"talker.py": _NODE.format("super().__init__(self, 'talker')")},
-            Report("6:9", "super() already passes self; the first argument is the node name"),
+            "6:9: super() already passes self; the first argument is the node name",
         ),
         Example(
             "called without a name",
             {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("'talker'", ""))},
-            Report("6:9", "Node.__init__() is called without a node name: TypeError"),
+            "6:9: Node.__init__() is called without a node name: TypeError",
         ),
         Example(
             "super without parentheses",
             {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("super()", "super"))},
-            Report("6:9", "'super' is not called: TypeError; write super().__init__(...)"),
+            "6:9: 'super' is not called: TypeError; write super().__init__(...)",
         ),
         Example(
             "called too late",
             {"talker.py": _NODE_CONSTRUCTOR.format("__init__", "") + _INIT},
-            Report(
-                "6:9", "self.create_timer is used before Node.__init__() in line 7: AttributeError"
-            ),
+            "6:9: self.create_timer is used before Node.__init__() in line 7: AttributeError",
         ),
         Example(
             "__init__ misspelled",
             {"talker.py": _NODE_CONSTRUCTOR.format("_init_", _INIT)},
-            Report("5:9", "'_init_' is never called as a constructor; did you mean '__init__'?"),
+            "5:9: '_init_' is never called as a constructor; did you mean '__init__'?",
         ),
         Example(
             "__init__ without self",
             {"talker.py": _NODE_CONSTRUCTOR.format("__init__", _INIT.replace("super()", "Node"))},
-            Report(
-                "6:9",
-                "Node.__init__() is called without self: TypeError; write super().__init__(...)",
-            ),
+            "6:9: Node.__init__() is called without self: TypeError; write super().__init__(...)",
         ),
         Example(
             "a mixin for nodes",
@@ -132,12 +127,12 @@ class NodeNotConstructed(RclpyRule):
         Example(
             "a node without a base class",
             {"talker.py": _NODE_BASE.format("")},
-            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+            "4:7: class 'Talker' uses methods of Node; inherit from Node",
         ),
         Example(
             "object as base class",
             {"talker.py": _NODE_BASE.format("(object)")},
-            Report("4:7", "class 'Talker' uses methods of Node; inherit from Node"),
+            "4:7: class 'Talker' uses methods of Node; inherit from Node",
         ),
     )
 

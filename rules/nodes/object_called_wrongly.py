@@ -58,11 +58,8 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "a callback, a service",
             {"talker.py": _NODE.format("Trigger()", "self.done()")},
-            Report("12:9", "done() is called here; pass the function itself, without ()"),
-            Report(
-                "12:32",
-                "Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
-            ),
+            "12:9: done() is called here; pass the function itself, without ()",
+            "12:32: Trigger cannot be instantiated: NotImplementedError; write Trigger.Request()",
         ),
         Example(
             "a class of a module named action",
@@ -75,7 +72,7 @@ class ObjectCalledWrongly(RclpyRule):
         Example(
             "a property",
             {"talker.py": _NODE.format(*_RIGHT).replace("now()", "now().nanoseconds()")},
-            Report("11:22", "'nanoseconds' is a property, not a method: TypeError; remove the ()"),
+            "11:22: 'nanoseconds' is a property, not a method: TypeError; remove the ()",
         ),
         Example("a callback passed", {"talker.py": _NODE_CALLBACKS.format("self.tick")}),
         Example(

@@ -71,14 +71,12 @@ class ParameterCallbackMisused(RclpyRule):
         Example(
             "another name than declared",
             {"talker.py": _NODE.format("rates", "DOUBLE")},
-            Report(
-                "14:28", "never true: the node declares no parameter 'rates'; did you mean 'rate'?"
-            ),
+            "14:28: never true: the node declares no parameter 'rates'; did you mean 'rate'?",
         ),
         Example(
             "another type than declared",
             {"talker.py": _NODE.format("rate", "INTEGER")},
-            Report("14:52", "never true: 'rate' is declared as double, not INTEGER"),
+            "14:52: never true: 'rate' is declared as double, not INTEGER",
         ),
         Example("an item of the list", {"talker.py": _NODE_USE.format("self.on_set", "[0]")}),
         Example(
@@ -113,12 +111,12 @@ class ParameterCallbackMisused(RclpyRule):
         Example(
             "called",
             {"talker.py": _NODE_USE.format("self.on_set([])", "[0]")},
-            Report("9:45", "self.on_set([]) is called here: TypeError; pass it without ()"),
+            "9:45: self.on_set([]) is called here: TypeError; pass it without ()",
         ),
         Example(
             "a str",
             {"talker.py": _NODE_USE.format("'on_set'", "[0]")},
-            Report("9:45", "the callback must be a function, but this is a str: TypeError"),
+            "9:45: the callback must be a function, but this is a str: TypeError",
         ),
         Example(
             "the list as a parameter, as a dict",
@@ -126,14 +124,10 @@ class ParameterCallbackMisused(RclpyRule):
                 "attribute.py": _NODE_USE.format("self.on_set", ""),
                 "subscript.py": _NODE_USE.format("self.on_set", "['rate']"),
             },
-            Report(
-                "attribute.py:12:21",
-                "'parameters' is a list of parameters, without 'value': AttributeError",
-            ),
-            Report(
-                "subscript.py:12:21",
-                "'parameters' is a list of parameters, not a dict: ['rate'] is a TypeError",
-            ),
+            "attribute.py:12:21: 'parameters' is a list of parameters, without 'value': "
+            "AttributeError",
+            "subscript.py:12:21: 'parameters' is a list of parameters, not a dict: ['rate'] is a "
+            "TypeError",
         ),
         Example(
             "items of a dict, pairs",
@@ -145,8 +139,8 @@ class ParameterCallbackMisused(RclpyRule):
                     "        return",
                 )
             },
-            Report("13:22", "'parameters' is a list of parameters, not a dict: AttributeError"),
-            Report("14:28", "'parameters' is a list of parameters, not of pairs: TypeError"),
+            "13:22: 'parameters' is a list of parameters, not a dict: AttributeError",
+            "14:28: 'parameters' is a list of parameters, not of pairs: TypeError",
         ),
         Example(
             "the type of a parameter",
@@ -168,17 +162,10 @@ class ParameterCallbackMisused(RclpyRule):
                 "                continue\n"
                 "        return SetParametersResult(successful=True)\n"
             },
-            Report(
-                "16:16",
-                "type_ is a Parameter.Type, which never equals "
-                "ParameterType.PARAMETER_DOUBLE; compare with "
-                "Parameter.Type.DOUBLE, for instance",
-            ),
-            Report(
-                "18:41",
-                "type_ is a Parameter.Type, which never equals 'double'; compare "
-                "with Parameter.Type.DOUBLE, for instance",
-            ),
+            "16:16: type_ is a Parameter.Type, which never equals ParameterType.PARAMETER_DOUBLE; "
+            "compare with Parameter.Type.DOUBLE, for instance",
+            "18:41: type_ is a Parameter.Type, which never equals 'double'; compare with "
+            "Parameter.Type.DOUBLE, for instance",
         ),
     )
 

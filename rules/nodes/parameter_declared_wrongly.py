@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from itertools import chain
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import UNKNOWN, is_handled
 from scaffold.api.rclpy import DESCRIPTOR, PARAMETER, Parameter, RclpyFile, is_of_node, message_made
 
@@ -64,10 +64,8 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a str or four values for the descriptor",
             {"talker.py": _NODE.format("'rate'", "'Hz'", f", {_TEXT}, True")},
-            Report("8:45", "expected a ParameterDescriptor, not 'Hz': TypeError"),
-            Report(
-                "9:38", "expected name, default and descriptor, but this has 4 values: TypeError"
-            ),
+            "8:45: expected a ParameterDescriptor, not 'Hz': TypeError",
+            "9:38: expected name, default and descriptor, but this has 4 values: TypeError",
         ),
         Example(
             "a range that is not a list; the class",
@@ -78,10 +76,8 @@ class ParameterDeclaredWrongly(RclpyRule):
                     ", ParameterDescriptor",
                 )
             },
-            Report(
-                "8:45", "floating_point_range must be a list with one range, not a range: TypeError"
-            ),
-            Report("9:55", "expected a ParameterDescriptor object, not the class: TypeError"),
+            "8:45: floating_point_range must be a list with one range, not a range: TypeError",
+            "9:55: expected a ParameterDescriptor object, not the class: TypeError",
         ),
         Example(
             "a class that is not a node",
@@ -94,7 +90,7 @@ class ParameterDeclaredWrongly(RclpyRule):
         Example(
             "a number as descriptor",
             {"talker.py": _NODE.format("1.0", "None", "")},
-            Report("8:32", "the parameter name must be a str, not 1.0: TypeError"),
+            "8:32: the parameter name must be a str, not 1.0: TypeError",
         ),
         Example("pairs, a type with a value", {"talker.py": _NODE_MADE.format(*_RIGHT)}),
         Example(
@@ -104,8 +100,8 @@ class ParameterDeclaredWrongly(RclpyRule):
                     "'rate', 1.0", "[Parameter('a', Parameter.Type.STRING)]"
                 )
             },
-            Report("8:38", "expected a pair ('name', default): TypeError"),
-            Report("9:45", "type without a value: ValueError"),
+            "8:38: expected a pair ('name', default): TypeError",
+            "9:45: type without a value: ValueError",
         ),
         Example(
             "constructed with a value in place of the type, with another type",
@@ -115,8 +111,8 @@ class ParameterDeclaredWrongly(RclpyRule):
                     "[Parameter('rate', 2.0), Parameter('rate', Parameter.Type.DOUBLE, 'a')]",
                 )
             },
-            Report("9:48", "the second argument is the type: TypeError; write value=..."),
-            Report("9:95", "type is Parameter.Type.DOUBLE, but the value is a str: ValueError"),
+            "9:48: the second argument is the type: TypeError; write value=...",
+            "9:95: type is Parameter.Type.DOUBLE, but the value is a str: ValueError",
         ),
     )
 

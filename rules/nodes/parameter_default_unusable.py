@@ -79,17 +79,14 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "no default",
             {"talker.py": _NODE.format("None", "description='Hz'", "None")},
-            Report("9:40", "parameter 'rate' needs a default or a Parameter.Type: ValueError"),
-            Report("10:47", "parameter 'mode' needs a default or a Parameter.Type: ValueError"),
+            "9:40: parameter 'rate' needs a default or a Parameter.Type: ValueError",
+            "10:47: parameter 'mode' needs a default or a Parameter.Type: ValueError",
         ),
         Example(
             "a class; a constant of ParameterType",
             {"talker.py": _NODE.format("float", "", "ParameterType.PARAMETER_STRING")},
-            Report("9:40", "expected Parameter.Type.DOUBLE, not the class 'float': TypeError"),
-            Report(
-                "10:47",
-                "this constant makes the parameter an integer; expected Parameter.Type.STRING",
-            ),
+            "9:40: expected Parameter.Type.DOUBLE, not the class 'float': TypeError",
+            "10:47: this constant makes the parameter an integer; expected Parameter.Type.STRING",
         ),
         Example(
             "a Parameter, a set, NOT_SET, a type with dynamic_typing",
@@ -99,16 +96,16 @@ class ParameterDefaultUnusable(RclpyRule):
                     "Parameter.Type.DOUBLE", "dynamic_typing=True", "Parameter.Type.NOT_SET"
                 ),
             },
-            Report("a.py:9:40", "expected the default itself, not a Parameter: TypeError"),
-            Report("a.py:10:47", "a parameter cannot hold a set: TypeError"),
-            Report("b.py:9:40", "a type and dynamic_typing=True exclude each other: ValueError"),
-            Report("b.py:10:47", "a parameter of type NOT_SET cannot be declared: ValueError"),
+            "a.py:9:40: expected the default itself, not a Parameter: TypeError",
+            "a.py:10:47: a parameter cannot hold a set: TypeError",
+            "b.py:9:40: a type and dynamic_typing=True exclude each other: ValueError",
+            "b.py:10:47: a parameter of type NOT_SET cannot be declared: ValueError",
         ),
         Example("only a name and a default", {"talker.py": _PLAIN.format("'rate', 2.0")}),
         Example(
             "only a name",
             {"talker.py": _PLAIN.format("'rate'")},
-            Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
+            "7:32: parameter 'rate' has no default: its value is None until it is set",
         ),
         Example(
             "names whose values are only tested",
@@ -142,7 +139,7 @@ class ParameterDefaultUnusable(RclpyRule):
                 "            self.get_logger().info('fast')\n"
                 "        return 1.0 / self.rate\n",
             },
-            Report("7:32", "parameter 'rate' has no default: its value is None until it is set"),
+            "7:32: parameter 'rate' has no default: its value is None until it is set",
         ),
         Example(
             "names that a YAML file and a launch file set",
@@ -183,16 +180,13 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "an empty list",
             {"talker.py": _PLAIN.format("'names', []")},
-            Report(
-                "7:32",
-                "parameter 'names' becomes a byte array: the default is an empty "
-                "list; write its type instead, such as Parameter.Type.STRING_ARRAY",
-            ),
+            "7:32: parameter 'names' becomes a byte array: the default is an empty list; write "
+            "its type instead, such as Parameter.Type.STRING_ARRAY",
         ),
         Example(
             "a comma is missing",
             {"talker.py": _PLAIN.format("'stations', ['north' 'south']")},
-            Report("7:45", "missing comma after 'north': it is joined to 'south'"),
+            "7:45: missing comma after 'north': it is joined to 'south'",
         ),
         Example(
             "texts on two lines",
@@ -207,29 +201,20 @@ class ParameterDefaultUnusable(RclpyRule):
         Example(
             "too large for its range",
             {"talker.py": _NODE_RANGE.format("", "5.0")},
-            Report(
-                "10:40",
-                "default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
-                "InvalidParameterValueException",
-            ),
+            "10:40: default 5.0 is outside the range 0.0 to 1.0 of the descriptor: "
+            "InvalidParameterValueException",
         ),
         Example(
             "between two steps of its range",
             {"talker.py": _NODE_RANGE.format(", step=0.1", "0.25")},
-            Report(
-                "10:40",
-                "default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of "
-                "the descriptor: InvalidParameterValueException",
-            ),
+            "10:40: default 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of the "
+            "descriptor: InvalidParameterValueException",
         ),
         Example(
             "an integer with a range of doubles",
             {"talker.py": _NODE_RANGE.format("", "1")},
-            Report(
-                "10:40",
-                "default 1 is an integer: the double range of the descriptor is "
-                "ignored; use integer_range",
-            ),
+            "10:40: default 1 is an integer: the double range of the descriptor is ignored; use "
+            "integer_range",
         ),
     )
 

@@ -91,14 +91,12 @@ class ParameterObjectUsed(RclpyRule):
         Example(
             "the value called",
             {"talker.py": _NODE_CALL.format("value()")},
-            Report(
-                "8:21", "'value' is a property of Parameter, not a method: TypeError; remove the ()"
-            ),
+            "8:21: 'value' is a property of Parameter, not a method: TypeError; remove the ()",
         ),
         Example(
             "a field of the message called",
             {"talker.py": _NODE_CALL.format("get_parameter_value().double_value()")},
-            Report("8:21", "'double_value' is a field, not a method: TypeError; remove the ()"),
+            "8:21: 'double_value' is a field, not a method: TypeError; remove the ()",
         ),
         Example(
             "a field of the message", {"talker.py": _NODE_FIELD.format(".get_parameter_value()")}
@@ -106,7 +104,7 @@ class ParameterObjectUsed(RclpyRule):
         Example(
             "a field of the value",
             {"talker.py": _NODE_FIELD.format(".value")},
-            Report("8:21", "'.value' is the value itself, without 'double_value': AttributeError"),
+            "8:21: '.value' is the value itself, without 'double_value': AttributeError",
         ),
     )
 

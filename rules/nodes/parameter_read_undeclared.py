@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, closest_name
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, closest_name
 from scaffold.api.parameters import declared_alone, has_always
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import Parameter, ParameterRead, RclpyFile, names_used_by
@@ -61,43 +61,28 @@ class ParameterReadUndeclared(RclpyRule):
                 "a.py": _NODE.format(_LISTED.format("RATES"), ""),
                 "b.py": _NODE.format(_LISTED.format("GAINS"), ""),
             },
-            Report(
-                "b.py:10:21",
-                "parameter 'rate' is not declared: ParameterNotDeclaredException; "
-                "did you mean 'rates'?",
-            ),
+            "b.py:10:21: parameter 'rate' is not declared: ParameterNotDeclaredException; did you "
+            "mean 'rates'?",
         ),
         Example(
             "another parameter declared",
             {"talker.py": _NODE.format(_DECLARED.replace("rate", "rates"), "")},
-            Report(
-                "8:21",
-                "parameter 'rate' is not declared: ParameterNotDeclaredException; "
-                "did you mean 'rates'?",
-            ),
+            "8:21: parameter 'rate' is not declared: ParameterNotDeclaredException; did you mean "
+            "'rates'?",
         ),
         Example(
             "read in a list, undeclared",
             {"talker.py": _NODE.format(_DECLARED, _OTHERS)},
-            Report(
-                "9:46",
-                "parameter 'rats' is not declared: ParameterNotDeclaredException; "
-                "did you mean 'rate'?",
-            ),
-            Report(
-                "10:34",
-                "parameter 'rates' is not declared: ParameterNotDeclaredException; "
-                "did you mean 'rate'?",
-            ),
+            "9:46: parameter 'rats' is not declared: ParameterNotDeclaredException; did you mean "
+            "'rate'?",
+            "10:34: parameter 'rates' is not declared: ParameterNotDeclaredException; did you "
+            "mean 'rate'?",
         ),
         Example(
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
-            Report(
-                "7:21",
-                "parameter 'rate' is read before it is declared in line 8: "
-                "ParameterNotDeclaredException",
-            ),
+            "7:21: parameter 'rate' is read before it is declared in line 8: "
+            "ParameterNotDeclaredException",
         ),
     )
 

@@ -41,18 +41,13 @@ class ParameterRepeated(RclpyRule):
         Example(
             "one parameter twice",
             {"talker.py": _NODE.format("rate")},
-            Report(
-                "8:32",
-                "parameter 'rate' is already declared in line 7: ParameterAlreadyDeclaredException",
-            ),
+            "8:32: parameter 'rate' is already declared in line 7: "
+            "ParameterAlreadyDeclaredException",
         ),
         Example(
             "a parameter of every node",
             {"talker.py": _NODE.format("use_sim_time")},
-            Report(
-                "8:32",
-                "'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
-            ),
+            "8:32: 'use_sim_time' is already declared by rclpy: ParameterAlreadyDeclaredException",
         ),
         Example(
             "declared automatically, and set",
@@ -62,12 +57,8 @@ class ParameterRepeated(RclpyRule):
                 ),
                 "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
             },
-            Report(
-                "talker.py:7:32",
-                "parameter 'rate' is declared automatically when config/a.yaml sets "
-                "it: ParameterAlreadyDeclaredException; ask has_parameter() first, "
-                "or declare by hand",
-            ),
+            "talker.py:7:32: parameter 'rate' is declared automatically when config/a.yaml sets "
+            "it: ParameterAlreadyDeclaredException; ask has_parameter() first, or declare by hand",
             Report(
                 "talker.py:8:32",
                 "parameter 'period' is declared automatically when something sets "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import FunctionNode, is_generator, may_end_with_items, returned
 from scaffold.api.rclpy import CALLBACKS, Callback, RclpyFile, wrong_value
 
@@ -59,12 +59,10 @@ class ParameterResultMissing(RclpyRule):
         Example(
             "nothing, a bool, a rejection",
             {"talker.py": _NODE.format("parameters", _MIXED)},
-            Report("10:9", "on_set() does not return a SetParametersResult on every path"),
-            Report("12:13", "returns True, not a SetParametersResult: every change is rejected"),
-            Report(
-                "14:13",
-                "returns a SetParametersResult without successful=True: every change is rejected",
-            ),
+            "10:9: on_set() does not return a SetParametersResult on every path",
+            "12:13: returns True, not a SetParametersResult: every change is rejected",
+            "14:13: returns a SetParametersResult without successful=True: every change is "
+            "rejected",
         ),
         Example(
             "the truth that a method returns",
@@ -75,24 +73,18 @@ class ParameterResultMissing(RclpyRule):
                 + "    def accept(self, parameters):\n"
                 "        if not parameters:\n            return False\n        return True\n"
             },
-            Report(
-                "11:9",
-                "returns the result of self.accept(), which is True or False, not a "
-                "SetParametersResult: every change is rejected",
-            ),
+            "11:9: returns the result of self.accept(), which is True or False, not a "
+            "SetParametersResult: every change is rejected",
         ),
         Example(
             "never set",
             {"talker.py": _NODE.format("parameters", _VARIABLE.format(""))},
-            Report(
-                "12:9",
-                "returns a SetParametersResult without successful=True: every change is rejected",
-            ),
+            "12:9: returns a SetParametersResult without successful=True: every change is rejected",
         ),
         Example(
             "no argument",
             {"talker.py": _NODE.format("", _RIGHT)},
-            Report("10:9", "on_set() takes 0 arguments, but gets 1, the parameters: TypeError"),
+            "10:9: on_set() takes 0 arguments, but gets 1, the parameters: TypeError",
         ),
         Example(
             "a lambda, a coroutine, a generator",
@@ -103,17 +95,9 @@ class ParameterResultMissing(RclpyRule):
                 "waiting.py": _NODE.replace("def on", "async def on").format("parameters", _RIGHT),
                 "yielding.py": _NODE.format("parameters", _RIGHT.replace("return", "yield")),
             },
-            Report(
-                "quick.py:8:64", "returns True, not a SetParametersResult: every change is rejected"
-            ),
-            Report(
-                "waiting.py:10:15",
-                "on_set() is a coroutine: it does not return a SetParametersResult",
-            ),
-            Report(
-                "yielding.py:10:9",
-                "on_set() is a generator: it does not return a SetParametersResult",
-            ),
+            "quick.py:8:64: returns True, not a SetParametersResult: every change is rejected",
+            "waiting.py:10:15: on_set() is a coroutine: it does not return a SetParametersResult",
+            "yielding.py:10:9: on_set() is a generator: it does not return a SetParametersResult",
         ),
     )
 

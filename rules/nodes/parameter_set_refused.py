@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.parameters import Declared, a_type, declared_by
 from scaffold.api.rclpy import ParameterMade, RclpyFile, parameters_set
 
@@ -42,25 +42,19 @@ class ParameterSetRefused(RclpyRule):
         Example(
             "another type",
             {"talker.py": _NODE.format("", "value=2")},
-            Report(
-                "12:30",
-                "'rate' (talker.py:9) is declared as double, but this is an "
-                "integer: it keeps its value",
-            ),
+            "12:30: 'rate' (talker.py:9) is declared as double, but this is an integer: it keeps "
+            "its value",
         ),
         Example(
             "read-only",
             {"talker.py": _NODE.format(_FIXED, "value=2.0")},
-            Report("12:30", "'rate' (talker.py:9) is read-only: it keeps its value"),
+            "12:30: 'rate' (talker.py:9) is read-only: it keeps its value",
         ),
         Example(
             "no value",
             {"talker.py": _NODE.format("", "")},
-            Report(
-                "12:30",
-                "'rate' (talker.py:9) is declared as double, but this has no value: "
-                "it keeps its value",
-            ),
+            "12:30: 'rate' (talker.py:9) is declared as double, but this has no value: it keeps "
+            "its value",
         ),
         Example(
             "out of range, undeclared although read-only",
@@ -69,12 +63,10 @@ class ParameterSetRefused(RclpyRule):
                 "fixed.py": _NODE.format(_FIXED, "value=1.0")
                 + "        self.undeclare_parameter('rate')\n",
             },
-            Report(
-                "far.py:12:30",
-                "20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps its value",
-            ),
-            Report("fixed.py:12:30", "'rate' (fixed.py:9) is read-only: it keeps its value"),
-            Report("fixed.py:13:9", "parameter 'rate' is read-only: ParameterImmutableException"),
+            "far.py:12:30: 20.0 is outside the range 0.0 to 9.0 of 'rate' (far.py:9): it keeps "
+            "its value",
+            "fixed.py:12:30: 'rate' (fixed.py:9) is read-only: it keeps its value",
+            "fixed.py:13:9: parameter 'rate' is read-only: ParameterImmutableException",
         ),
     )
 

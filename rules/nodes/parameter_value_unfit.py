@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.parameters import declared_by
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import RclpyFile, parameter_read
@@ -62,7 +62,7 @@ class ParameterValueUnfit(RclpyRule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'2.0'")},
-            Report("11:27", "'rate' is declared as string, but 1.0 is a number: TypeError"),
+            "11:27: 'rate' is declared as string, but 1.0 is a number: TypeError",
         ),
         Example(
             "a double in range(), added to a str",
@@ -70,8 +70,8 @@ class ParameterValueUnfit(RclpyRule):
                 "talker.py": _NODE.format("2.0")
                 + "        for _ in range(self.rate):\n            print('Hz: ' + self.rate)\n"
             },
-            Report("15:24", "'rate' is declared as double, but range() takes integers: TypeError"),
-            Report("16:19", "'rate' is declared as double, but 'Hz: ' is a str: TypeError"),
+            "15:24: 'rate' is declared as double, but range() takes integers: TypeError",
+            "16:19: 'rate' is declared as double, but 'Hz: ' is a str: TypeError",
         ),
         Example(
             "a bool compared with text, a number with text, text with a number",
@@ -80,9 +80,9 @@ class ParameterValueUnfit(RclpyRule):
                 + "        return self.get_parameter('rate').value in ('fast', 'slow')\n",
                 "other.py": _COMPARED.format("'1'", "!= 1"),
             },
-            Report("other.py:9:19", "'on' is declared as string, which never equals 1"),
-            Report("talker.py:9:19", "'on' is declared as bool, which never equals 'true'"),
-            Report("talker.py:10:16", "'rate' is declared as double, which never equals 'fast'"),
+            "other.py:9:19: 'on' is declared as string, which never equals 1",
+            "talker.py:9:19: 'on' is declared as bool, which never equals 'true'",
+            "talker.py:10:16: 'rate' is declared as double, which never equals 'fast'",
         ),
         Example(
             "values of the types",

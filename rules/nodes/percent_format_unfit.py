@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Report
+from scaffold.api import Diagnostic, Example, MessageRule
 from scaffold.api.messages import MessageTypes, ValueTypes
 from scaffold.api.python import is_handled
 
@@ -42,12 +42,12 @@ class PercentFormatUnfit(MessageRule):
         Example(
             "two placeholders",
             {"listener.py": _NODE.format("%d: %s")},
-            Report("11:32", "format string with 2 placeholders gets 1 value: TypeError"),
+            "11:32: format string with 2 placeholders gets 1 value: TypeError",
         ),
         Example(
             "no placeholder",
             {"listener.py": _NODE.format("heard 5 %%")},
-            Report("11:32", "format string with no placeholder gets 1 value: TypeError"),
+            "11:32: format string with no placeholder gets 1 value: TypeError",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _TERMINAL = frozenset({"argparse", "click", "cmd", "curses", "getpass", "msvcrt", "optparse"})
@@ -40,7 +40,7 @@ class PrintInNode(RclpyRule):
         Example(
             "a print",
             {"talker.py": _NODE.format("print")},
-            Report("6:9", "Talker prints: /rosout gets nothing; use get_logger()"),
+            "6:9: Talker prints: /rosout gets nothing; use get_logger()",
         ),
         Example("a command line tool", {"talker.py": "import argparse\n" + _NODE.format("print")}),
     )

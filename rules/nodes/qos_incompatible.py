@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.parameters import keeps_default_name
 from scaffold.api.programs import NamedEndpoint, topics_of
 from scaffold.api.rclpy import conflict_of
@@ -54,16 +54,10 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
             },
-            Report(
-                "a.py:9:50",
-                "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
-                "requests RELIABLE: nothing arrives",
-            ),
-            Report(
-                "b.py:9:60",
-                "subscription 'chatter' requests RELIABLE, but the publisher in "
-                "a.py:9 is BEST_EFFORT: nothing arrives",
-            ),
+            "a.py:9:50: publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
+            "requests RELIABLE: nothing arrives",
+            "b.py:9:60: subscription 'chatter' requests RELIABLE, but the publisher in a.py:9 is "
+            "BEST_EFFORT: nothing arrives",
         ),
         Example(
             "a topic that is the default of a parameter, and set to the same",
@@ -72,16 +66,10 @@ class QosIncompatible(Rule):
                 "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
                 "config/a.yaml": "talker:\n  ros__parameters:\n    topic: chatter\n",
             },
-            Report(
-                "a.py:10:46",
-                "publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
-                "requests RELIABLE: nothing arrives",
-            ),
-            Report(
-                "b.py:9:60",
-                "subscription 'chatter' requests RELIABLE, but the publisher in "
-                "a.py:10 is BEST_EFFORT: nothing arrives",
-            ),
+            "a.py:10:46: publisher 'chatter' is BEST_EFFORT, but the subscription in b.py:9 "
+            "requests RELIABLE: nothing arrives",
+            "b.py:9:60: subscription 'chatter' requests RELIABLE, but the publisher in a.py:10 is "
+            "BEST_EFFORT: nothing arrives",
         ),
         Example(
             "a parameter that is set to another topic",
@@ -97,16 +85,10 @@ class QosIncompatible(Rule):
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
                 "b.py": _NODE.format(f"subscription(String, 'chatter', print, {_LATCHED})"),
             },
-            Report(
-                "a.py:9:50",
-                "publisher 'chatter' is VOLATILE, but the subscription in b.py:9 "
-                "requests TRANSIENT_LOCAL: nothing arrives",
-            ),
-            Report(
-                "b.py:9:60",
-                "subscription 'chatter' requests TRANSIENT_LOCAL, but the publisher "
-                "in a.py:9 is VOLATILE: nothing arrives",
-            ),
+            "a.py:9:50: publisher 'chatter' is VOLATILE, but the subscription in b.py:9 requests "
+            "TRANSIENT_LOCAL: nothing arrives",
+            "b.py:9:60: subscription 'chatter' requests TRANSIENT_LOCAL, but the publisher in "
+            "a.py:9 is VOLATILE: nothing arrives",
         ),
     )
 

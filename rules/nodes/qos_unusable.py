@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.python import kind_of
 from scaffold.api.rclpy import Endpoint, Publisher, RclpyFile, Subscription
 
@@ -61,21 +61,18 @@ class QosUnusable(RclpyRule):
         Example(
             "a str",
             {"talker.py": _NODE.format("'10'")},
-            Report("9:50", "expected a depth or a QoSProfile, not a str: TypeError"),
+            "9:50: expected a depth or a QoSProfile, not a str: TypeError",
         ),
         Example(
             "a negative depth",
             {"talker.py": _NODE.format("QoSProfile(depth=-1)")},
-            Report("9:67", "the depth is -1, but must not be negative: ValueError"),
+            "9:67: the depth is -1, but must not be negative: ValueError",
         ),
         Example(
             "only a policy",
             {"talker.py": _NODE.format("DurabilityPolicy.TRANSIENT_LOCAL")},
-            Report(
-                "9:50",
-                "DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the "
-                "depth; write QoSProfile(depth=10, ...)",
-            ),
+            "9:50: DurabilityPolicy.TRANSIENT_LOCAL is a policy, but taken as the depth; write "
+            "QoSProfile(depth=10, ...)",
         ),
         Example(
             "a policy of another kind",
@@ -84,11 +81,8 @@ class QosUnusable(RclpyRule):
                     "QoSProfile(depth=1, reliability=DurabilityPolicy.TRANSIENT_LOCAL)"
                 )
             },
-            Report(
-                "9:82",
-                "reliability must be a ReliabilityPolicy, not a DurabilityPolicy: "
-                "another policy takes effect",
-            ),
+            "9:82: reliability must be a ReliabilityPolicy, not a DurabilityPolicy: another "
+            "policy takes effect",
         ),
         Example(
             "a negative number, a class, a function",
@@ -98,20 +92,16 @@ class QosUnusable(RclpyRule):
                 "function.py": _NODE.format("profile")
                 + "\n\ndef profile():\n    return QoSProfile(depth=10)\n",
             },
-            Report(
-                "class.py:9:50",
-                "QoSProfile is a class, not a profile: TypeError; write QoSProfile(depth=10)",
-            ),
-            Report(
-                "function.py:9:50", "expected a depth or a QoSProfile, not a function: TypeError"
-            ),
-            Report("negative.py:9:50", "the depth is -1, but must not be negative: ValueError"),
+            "class.py:9:50: QoSProfile is a class, not a profile: TypeError; write "
+            "QoSProfile(depth=10)",
+            "function.py:9:50: expected a depth or a QoSProfile, not a function: TypeError",
+            "negative.py:9:50: the depth is -1, but must not be negative: ValueError",
         ),
         Example(
             "str values in a profile",
             {"talker.py": _NODE.format("QoSProfile(depth='10', reliability='reliable')")},
-            Report("9:67", "the depth must be an int, not a str: AssertionError"),
-            Report("9:85", "reliability must be a ReliabilityPolicy, not a str: AssertionError"),
+            "9:67: the depth must be an int, not a str: AssertionError",
+            "9:85: reliability must be a ReliabilityPolicy, not a str: AssertionError",
         ),
         Example("a depth", {"talker.py": _NODE_MISSING.format("", ", 10")}),
         Example(
@@ -121,12 +111,12 @@ class QosUnusable(RclpyRule):
         Example(
             "no argument",
             {"talker.py": _NODE_MISSING.format("", "")},
-            Report("8:9", "create_publisher() is missing a depth or a QoS profile: TypeError"),
+            "8:9: create_publisher() is missing a depth or a QoS profile: TypeError",
         ),
         Example(
             "a profile without a depth",
             {"talker.py": _NODE_MISSING.format(_QOS, ", QoSProfile()")},
-            Report("9:9", "QoS profile without a depth: InvalidQoSProfileException"),
+            "9:9: QoS profile without a depth: InvalidQoSProfileException",
         ),
     )
 

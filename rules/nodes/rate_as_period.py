@@ -58,9 +58,7 @@ class RateAsPeriod(RclpyRule):
         Example(
             "milliseconds of a rate",
             {"talker.py": _NODE.format("1000.0 / rate")},
-            Report(
-                "9:40", "1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate"
-            ),
+            "9:40: 1000 / rate are milliseconds; a period is in seconds: write 1.0 / rate",
         ),
         Example(
             "a rate",
@@ -87,7 +85,7 @@ class RateAsPeriod(RclpyRule):
         Example(
             "milliseconds",
             {"talker.py": _NODE.format("self.timer_ms")},
-            Report("9:40", "milliseconds where seconds are expected; divide by 1000"),
+            "9:40: milliseconds where seconds are expected; divide by 1000",
         ),
         Example("in seconds", {"talker.py": _NODE.format("self.timer_ms / 1000")}),
         Example(
@@ -110,7 +108,7 @@ class RateAsPeriod(RclpyRule):
                 "        period = 0.1\n"
                 "        self.rate = self.create_rate(period)\n"
             },
-            Report("8:38", "a period where the rate belongs; write 1.0 / period"),
+            "8:38: a period where the rate belongs; write 1.0 / period",
         ),
         Example(
             "a period that is called a rate",

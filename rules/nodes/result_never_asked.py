@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _NODE = (
@@ -51,11 +51,8 @@ class ResultNeverAsked(RclpyRule):
         Example(
             "does not ask",
             {"caller.py": _NODE.format("self.handle = future.result()")},
-            Report(
-                "19:9",
-                "nothing calls 'on_result': the result is never requested; call "
-                "goal_handle.get_result_async().add_done_callback(self.on_result)",
-            ),
+            "19:9: nothing calls 'on_result': the result is never requested; call "
+            "goal_handle.get_result_async().add_done_callback(self.on_result)",
         ),
     )
 

@@ -98,11 +98,8 @@ class SentBeforeKnown(RclpyRule):
         Example(
             "at once",
             {"caller.py": _NODE.format("")},
-            Report(
-                "9:23",
-                "the request is sent before the server is known: it is lost, and "
-                "the future is never done; call wait_for_service() first",
-            ),
+            "9:23: the request is sent before the server is known: it is lost, and the future is "
+            "never done; call wait_for_service() first",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.launch import Reference, meant_package
 from scaffold.api.manifest import name_used_elsewhere
 from scaffold.api.python import is_handled
@@ -48,11 +48,8 @@ class ShareOfMisspelledPackage(RclpyRule):
         Example(
             "a missing letter",
             {"package.xml": _MANIFEST, "talker_py/node.py": _NODE.format("taker_py")},
-            Report(
-                "talker_py/node.py:8:53",
-                "no package 'taker_py': PackageNotFoundError; did you mean "
-                "'talker_py' (this package)?",
-            ),
+            "talker_py/node.py:8:53: no package 'taker_py': PackageNotFoundError; did you mean "
+            "'talker_py' (this package)?",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyCall, RclpyFile
 
 _IMPORTS = "import rclpy\nfrom rclpy.executors import ExternalShutdownException\n\n\n"
@@ -46,11 +46,8 @@ class ShutdownUnhandled(RclpyRule):
         Example(
             "none caught",
             {"talker.py": _IMPORTS + _BARE},
-            Report(
-                "8:5",
-                "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
-                "catch KeyboardInterrupt and ExternalShutdownException",
-            ),
+            "8:5: Ctrl-C and SIGTERM end this with a traceback and exit code 1; catch "
+            "KeyboardInterrupt and ExternalShutdownException",
         ),
         Example(
             "a loop of single steps",
@@ -60,11 +57,8 @@ class ShutdownUnhandled(RclpyRule):
                     "    rclpy.spin(node)", "    while rclpy.ok():\n        rclpy.spin_once(node)"
                 )
             },
-            Report(
-                "9:9",
-                "Ctrl-C and SIGTERM end this with a traceback and exit code 1; "
-                "catch KeyboardInterrupt and ExternalShutdownException",
-            ),
+            "9:9: Ctrl-C and SIGTERM end this with a traceback and exit code 1; catch "
+            "KeyboardInterrupt and ExternalShutdownException",
         ),
         Example(
             "a loop that waits for a result",
@@ -88,11 +82,8 @@ class ShutdownUnhandled(RclpyRule):
         Example(
             "SIGTERM not caught",
             {"talker.py": _IMPORTS + _HANDLED.format("KeyboardInterrupt")},
-            Report(
-                "9:9",
-                "SIGTERM ends this with a traceback and exit code 1; catch "
-                "ExternalShutdownException",
-            ),
+            "9:9: SIGTERM ends this with a traceback and exit code 1; catch "
+            "ExternalShutdownException",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity
 from scaffold.api.rclpy import RclpyFile
 
 _PARAMETERS = frozenset({"rclpy.parameter.Parameter", "rclpy.Parameter"})
@@ -51,11 +51,8 @@ class SimTimeForced(RclpyRule):
         Example(
             "always on",
             {"driver.py": _NODE.format("", "True")},
-            Report(
-                "8:13",
-                "use_sim_time is always on: without /clock, no timer ever fires; "
-                "set it where the simulation is started",
-            ),
+            "8:13: use_sim_time is always on: without /clock, no timer ever fires; set it where "
+            "the simulation is started",
         ),
         Example(
             "as an argument",
@@ -63,11 +60,8 @@ class SimTimeForced(RclpyRule):
                 "driver.py": "import rclpy\n\n\ndef main():\n"
                 "    rclpy.init(args=['--ros-args', '-p', 'use_sim_time:=true'])\n"
             },
-            Report(
-                "5:42",
-                "use_sim_time is always on: without /clock, no timer ever fires; "
-                "set it where the simulation is started",
-            ),
+            "5:42: use_sim_time is always on: without /clock, no timer ever fires; set it where "
+            "the simulation is started",
         ),
         Example("in a node of a simulation", {"sim_driver.py": _NODE.format("", "True")}),
     )

@@ -105,11 +105,8 @@ class SpinInCallback(RclpyRule):
         Example(
             "a spin",
             {"caller.py": _NODE.format("rclpy.spin_until_future_complete(self, future)")},
-            Report(
-                "12:9",
-                "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
-                "the same node: no callback runs after that",
-            ),
+            "12:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
+            "node: no callback runs after that",
         ),
         Example(
             "a spin, after which the program ends",
@@ -127,11 +124,8 @@ class SpinInCallback(RclpyRule):
                     "        if not future.done():\n            rclpy.shutdown()"
                 )
             },
-            Report(
-                "12:9",
-                "rclpy.spin_until_future_complete(self) runs in callback 'ask' of "
-                "the same node: no callback runs after that",
-            ),
+            "12:9: rclpy.spin_until_future_complete(self) runs in callback 'ask' of the same "
+            "node: no callback runs after that",
         ),
         Example(
             "a spin when a future is done",
@@ -146,11 +140,8 @@ class SpinInCallback(RclpyRule):
                     "        self.create_timer",
                 )
             },
-            Report(
-                "16:9",
-                "rclpy.spin_until_future_complete(self) runs in callback 'answer' of "
-                "the same node: no callback runs after that",
-            ),
+            "16:9: rclpy.spin_until_future_complete(self) runs in callback 'answer' of the same "
+            "node: no callback runs after that",
         ),
         Example(
             "a constructor that spins",
@@ -166,12 +157,8 @@ class SpinInCallback(RclpyRule):
         Example(
             "a constructor that spins, and main() as well",
             {"talker.py": _SPINNING.format("\n\ndef main():\n    rclpy.spin(Talker())\n")},
-            Report(
-                "9:9",
-                "spin() runs in the constructor of Talker, which returns only at "
-                "the shutdown: the code after it runs too late; spin the node in "
-                "main()",
-            ),
+            "9:9: spin() runs in the constructor of Talker, which returns only at the shutdown: "
+            "the code after it runs too late; spin the node in main()",
         ),
     )
 

@@ -56,12 +56,12 @@ class SpunWrongly(RclpyRule):
         Example(
             "a class for a node",
             {"talker.py": _NODE.format("    rclpy.spin(Talker)\n")},
-            Report("14:5", "'Talker' is a class, not a node: TypeError; write Talker()"),
+            "14:5: 'Talker' is a class, not a node: TypeError; write Talker()",
         ),
         Example(
             "a node after the shutdown",
             {"talker.py": _NODE.format("    rclpy.shutdown()\n    rclpy.spin(node)\n")},
-            Report("15:5", "rclpy is already shut down in line 14: nothing is spun"),
+            "15:5: rclpy is already shut down in line 14: nothing is spun",
         ),
         Example(
             "an executor",
@@ -71,16 +71,13 @@ class SpunWrongly(RclpyRule):
                     "    rclpy.spin(executor)\n"
                 ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
             },
-            Report("17:5", "this is an executor, not a node: AttributeError; call its spin()"),
+            "17:5: this is an executor, not a node: AttributeError; call its spin()",
         ),
         Example(
             "two nodes, one after the other",
             {"talker.py": _NODE.format("    rclpy.spin(node)\n    rclpy.spin(Talker())\n")},
-            Report(
-                "15:5",
-                "the spin of line 14 returns only at the shutdown: this node is "
-                "never spun; add both to an executor",
-            ),
+            "15:5: the spin of line 14 returns only at the shutdown: this node is never spun; add "
+            "both to an executor",
         ),
         Example(
             "a node that a thread spins",
@@ -91,11 +88,8 @@ class SpunWrongly(RclpyRule):
                     "    rclpy.spin_until_future_complete(node, node.ask())\n"
                 )
             },
-            Report(
-                "16:5",
-                "the thread of line 15 spins 'node' already: ValueError: generator "
-                "already executing; wait for the future in another way",
-            ),
+            "16:5: the thread of line 15 spins 'node' already: ValueError: generator already "
+            "executing; wait for the future in another way",
         ),
         Example(
             "an executor with a node, spun", {"talker.py": _NODE_EXECUTORS.format(_ADD + _SPIN)}
@@ -103,17 +97,17 @@ class SpunWrongly(RclpyRule):
         Example(
             "a class added to an executor",
             {"talker.py": _NODE_EXECUTORS.format(_ADD.replace("node)", "Talker)") + _SPIN)},
-            Report("16:23", "'Talker' is a class, not a node: TypeError; write Talker()"),
+            "16:23: 'Talker' is a class, not a node: TypeError; write Talker()",
         ),
         Example(
             "an executor without a node",
             {"talker.py": _NODE_EXECUTORS.format(_SPIN)},
-            Report("16:5", "executor without nodes: no callback ever runs; call add_node() first"),
+            "16:5: executor without nodes: no callback ever runs; call add_node() first",
         ),
         Example(
             "an executor that is not spun",
             {"talker.py": _NODE_EXECUTORS.format(_ADD)},
-            Report("15:16", "executor is never spun: the callbacks of its nodes never run"),
+            "15:16: executor is never spun: the callbacks of its nodes never run",
         ),
         Example(
             "one of many threads",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile, class_of
 
 _SPANS = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
@@ -44,9 +44,7 @@ class StampComputedWith(RclpyRule):
         Example(
             "not converted",
             {"viewer.py": _NODE.format("msg.header.stamp")},
-            Report(
-                "12:15", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-            ),
+            "12:15: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
         ),
         Example(
             "two stamps, and a number",
@@ -55,12 +53,8 @@ class StampComputedWith(RclpyRule):
                 "        stamp = msg.header.stamp\n"
                 "        return stamp < other.header.stamp or stamp - 0.1\n"
             },
-            Report(
-                "17:16", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-            ),
-            Report(
-                "17:46", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-            ),
+            "17:16: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+            "17:46: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
         ),
         Example(
             "kept in attributes",
@@ -72,12 +66,8 @@ class StampComputedWith(RclpyRule):
                 "    def start(self):\n"
                 "        self.started = self.get_clock().now()\n"
             },
-            Report(
-                "12:15", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-            ),
-            Report(
-                "18:24", "message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)"
-            ),
+            "12:15: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
+            "18:24: message stamp is not an rclpy Time: TypeError; use Time.from_msg(...)",
         ),
         Example(
             "converted when it is kept",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.rclpy import RclpyFile, unit_problems
 
 _PARTS = ("sec", "nanosec")
@@ -60,25 +60,16 @@ class StepWithoutFraction(RclpyRule):
                 "    writer.write('chatter', data, int(time.time()))\n"
                 "    writer.write('chatter', data, int(time.time() * 1e9))\n"
             },
-            Report(
-                "11:35",
-                "the time of a message in a bag is all its nanoseconds; write "
-                "self.get_clock().now().nanoseconds",
-            ),
-            Report(
-                "12:35",
-                "the time of a message in a bag is all its nanoseconds; write "
-                "self.get_clock().now().nanoseconds",
-            ),
+            "11:35: the time of a message in a bag is all its nanoseconds; write "
+            "self.get_clock().now().nanoseconds",
+            "12:35: the time of a message in a bag is all its nanoseconds; write "
+            "self.get_clock().now().nanoseconds",
         ),
         Example(
             "whole seconds",
             {"odometry.py": _NODE.format("float(now.sec - self.last.sec)")},
-            Report(
-                "14:24",
-                "time step from 'sec' alone: it has no fraction, and is 0 within a second; "
-                "use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
-            ),
+            "14:24: time step from 'sec' alone: it has no fraction, and is 0 within a second; use "
+            "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
         ),
         Example(
             "whole seconds, each of which is counted once",
@@ -99,11 +90,8 @@ class StepWithoutFraction(RclpyRule):
         Example(
             "nanoseconds",
             {"odometry.py": _NODE.format("(now.nanosec - self.last.nanosec) * 1e-9")},
-            Report(
-                "14:19",
-                "time step from 'nanosec' alone: it is negative whenever a second "
-                "ends; use (Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
-            ),
+            "14:19: time step from 'nanosec' alone: it is negative whenever a second ends; use "
+            "(Time.from_msg(a) - Time.from_msg(b)).nanoseconds / 1e9",
         ),
         Example(
             "the sum of both parts",
@@ -112,7 +100,7 @@ class StepWithoutFraction(RclpyRule):
                     "now.sec + now.nanosec / 1e9\n            dt -= now.sec + now.nanosec"
                 )
             },
-            Report("15:19", "nanoseconds are added to seconds: divide 'nanosec' by 1e9"),
+            "15:19: nanoseconds are added to seconds: divide 'nanosec' by 1e9",
         ),
         Example(
             "another factor, or no zeros in front of the nanoseconds",
@@ -127,9 +115,9 @@ class StepWithoutFraction(RclpyRule):
                     "            late = float(f'{now.sec}.{now.nanosec}')"
                 )
             },
-            Report("17:20", "'nanosec' is added in another unit than 'sec': multiply it by 1e-09"),
-            Report("18:20", "'nanosec' is added in another unit than 'sec': multiply it by 1e-09"),
-            Report("20:26", "'nanosec' has no zeros in front: 5 becomes .5; divide it by 1e9"),
+            "17:20: 'nanosec' is added in another unit than 'sec': multiply it by 1e-09",
+            "18:20: 'nanosec' is added in another unit than 'sec': multiply it by 1e-09",
+            "20:26: 'nanosec' has no zeros in front: 5 becomes .5; divide it by 1e9",
         ),
         Example(
             "seconds to wait",
@@ -146,10 +134,7 @@ class StepWithoutFraction(RclpyRule):
                     "(Time.from_msg(now) - self.last).nanoseconds / 1e6"
                 ).replace("from sensor", "from rclpy.time import Time\nfrom sensor")
             },
-            Report(
-                "16:50",
-                "dt is in milliseconds, a speed is per second: multiply nanoseconds by 1e-9",
-            ),
+            "16:50: dt is in milliseconds, a speed is per second: multiply nanoseconds by 1e-9",
         ),
         Example(
             "nanoseconds compared with seconds, and with all of a time",
@@ -161,12 +146,9 @@ class StepWithoutFraction(RclpyRule):
                     "                return late"
                 )
             },
-            Report(
-                "15:20",
-                "'nanosec' is only the part of a time below a second, 'nanoseconds' "
-                "is all of it; use Time.from_msg(stamp).nanoseconds",
-            ),
-            Report("16:16", "nanoseconds are compared with 0.5: divide by 1e9 to compare seconds"),
+            "15:20: 'nanosec' is only the part of a time below a second, 'nanoseconds' is all of "
+            "it; use Time.from_msg(stamp).nanoseconds",
+            "16:16: nanoseconds are compared with 0.5: divide by 1e9 to compare seconds",
         ),
         Example(
             "a time of whole seconds",
@@ -175,7 +157,7 @@ class StepWithoutFraction(RclpyRule):
                     "Time(seconds=now.sec) - Time(seconds=now.sec, nanoseconds=now.nanosec)"
                 ).replace("from sensor", "from rclpy.time import Time\nfrom sensor")
             },
-            Report("15:18", "the fraction in 'nanosec' is ignored: use Time.from_msg()"),
+            "15:18: the fraction in 'nanosec' is ignored: use Time.from_msg()",
         ),
     )
 

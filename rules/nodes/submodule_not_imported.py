@@ -6,7 +6,7 @@ import ast
 import sys
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, PythonRule, Report
+from scaffold.api import Diagnostic, Example, PythonRule
 from scaffold.api.python import PythonModule
 from scaffold.api.rclpy import PLACES
 
@@ -47,13 +47,13 @@ class SubmoduleNotImported(PythonRule):
         Example(
             "a module not imported",
             {"talker.py": _NODE.format("")},
-            Report("4:14", "'import rclpy' does not load rclpy.node: AttributeError"),
+            "4:14: 'import rclpy' does not load rclpy.node: AttributeError",
         ),
         Example("a name from its module", {"talker.py": "from rclpy.node import Node\n"}),
         Example(
             "a name from the package",
             {"talker.py": "from rclpy import Node\n"},
-            Report("1:19", "rclpy has no 'Node': ImportError; import it from rclpy.node"),
+            "1:19: rclpy has no 'Node': ImportError; import it from rclpy.node",
         ),
     )
 

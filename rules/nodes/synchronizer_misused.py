@@ -52,11 +52,8 @@ class SynchronizerMisused(MessageRule):
         Example(
             "no callback",
             {"viewer.py": _NODE.format("Image", "10, 0.1", "\n")},
-            Report(
-                "12:21",
-                "no callback is registered: the matched messages are dropped; call "
-                "registerCallback()",
-            ),
+            "12:21: no callback is registered: the matched messages are dropped; call "
+            "registerCallback()",
         ),
         Example(
             "a filter that nobody reads",
@@ -68,11 +65,8 @@ class SynchronizerMisused(MessageRule):
                 "        super().__init__('viewer')\n"
                 "        self.image = Subscriber(self, Image, 'image')\n"
             },
-            Report(
-                "9:22",
-                "no callback is registered, and no synchronizer gets this filter: "
-                "its messages are dropped; call registerCallback()",
-            ),
+            "9:22: no callback is registered, and no synchronizer gets this filter: its messages "
+            "are dropped; call registerCallback()",
         ),
         Example(
             "a filter that nobody reads, next to others",
@@ -92,12 +86,8 @@ class SynchronizerMisused(MessageRule):
         Example(
             "messages without a header",
             {"viewer.py": _NODE.format("String", "10, 0.1", _REGISTER)},
-            Report(
-                "11:39",
-                "std_msgs/msg/String has no header, so no stamp: it is never "
-                "matched; use a type with a header, or ApproximateTimeSynchronizer "
-                "with allow_headerless=True",
-            ),
+            "11:39: std_msgs/msg/String has no header, so no stamp: it is never matched; use a "
+            "type with a header, or ApproximateTimeSynchronizer with allow_headerless=True",
         ),
         Example(
             "messages without a header, which are matched by the time they arrive",
@@ -116,7 +106,7 @@ class SynchronizerMisused(MessageRule):
         Example(
             "no slop",
             {"viewer.py": _NODE.format("Image", "10, slop=0.0", _REGISTER)},
-            Report("12:84", "a slop of 0 matches nothing: the callback never runs"),
+            "12:84: a slop of 0 matches nothing: the callback never runs",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.python import is_guarded_by
 from scaffold.api.rclpy import RclpyFile, Timer, is_used_elsewhere
 
@@ -67,9 +67,9 @@ class ThreadTargetCalled(RclpyRule):
         Example(
             "called, zero, not awaited",
             {"talker.py": _NODE.format("()", "0.0", "")},
-            Report("9:33", "work() is called here, not in the thread; pass it without ()"),
-            Report("10:27", "timer with period 0 uses all CPU time"),
-            Report("19:9", "coroutine ask() is not awaited: it never runs"),
+            "9:33: work() is called here, not in the thread; pass it without ()",
+            "10:27: timer with period 0 uses all CPU time",
+            "19:9: coroutine ask() is not awaited: it never runs",
         ),
         Example(
             "a coroutine as a condition",
@@ -80,7 +80,7 @@ class ThreadTargetCalled(RclpyRule):
                     "        await task\n",
                 )
             },
-            Report("19:16", "coroutine ask() is not awaited: it is always true"),
+            "19:16: coroutine ask() is not awaited: it is always true",
         ),
         Example(
             "kept, and awaited later",
@@ -94,12 +94,12 @@ class ThreadTargetCalled(RclpyRule):
         Example(
             "kept, and nothing else",
             {"talker.py": "import rclpy\n" + _NODE.format("", "0.1", "self.asked = ") + _MAIN},
-            Report("20:22", "coroutine ask() is not awaited: it never runs"),
+            "20:22: coroutine ask() is not awaited: it never runs",
         ),
         Example(
             "an argument in parentheses",
             {"talker.py": _NODE.format(", args=(self)", "0.1", "await ")},
-            Report("9:50", "(self) is not a tuple: TypeError in the thread; write (self,)"),
+            "9:50: (self) is not a tuple: TypeError in the thread; write (self,)",
         ),
         Example(
             "never started, and started elsewhere",
@@ -110,7 +110,7 @@ class ThreadTargetCalled(RclpyRule):
                 "        second = threading.Thread(target=self.work)\n"
                 "        return second\n"
             },
-            Report("22:17", "nothing starts this thread: its target never runs; call start()"),
+            "22:17: nothing starts this thread: its target never runs; call start()",
         ),
         Example(
             "spun immediately",
@@ -118,7 +118,7 @@ class ThreadTargetCalled(RclpyRule):
                 "talker.py": "import rclpy\n"
                 + _NODE.format("", "0.1", "await ").replace("self.work)", "rclpy.spin(self))")
             },
-            Report("10:33", "spins here, not in the thread; write target=rclpy.spin, args=(node,)"),
+            "10:33: spins here, not in the thread; write target=rclpy.spin, args=(node,)",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, Package, RclpyRule
 from scaffold.api.programs import in_constructors, phases_of, spins_elsewhere
 from scaffold.api.python import caught_around
 from scaffold.api.rclpy import (
@@ -52,20 +52,14 @@ class TransformBufferEmpty(RclpyRule):
         Example(
             "no listener",
             {"follower.py": _NODE.format("")},
-            Report(
-                "9:23",
-                "no TransformListener fills this buffer: every lookup fails; add "
-                "TransformListener(buffer, node)",
-            ),
+            "9:23: no TransformListener fills this buffer: every lookup fails; add "
+            "TransformListener(buffer, node)",
         ),
         Example(
             "asked in the constructor",
             {"follower.py": _NODE.format(_LISTEN + "        self.tick()\n")},
-            Report(
-                "14:9",
-                "lookup_transform() in the constructor of Follower: no transform is "
-                "received before the node is spun; look it up in a callback",
-            ),
+            "14:9: lookup_transform() in the constructor of Follower: no transform is received "
+            "before the node is spun; look it up in a callback",
         ),
         Example(
             "made in a callback",
@@ -81,11 +75,8 @@ class TransformBufferEmpty(RclpyRule):
                 "        TransformListener(buffer, self)\n"
                 "        self.at = buffer.lookup_transform('map', 'base_link', Time())\n"
             },
-            Report(
-                "12:18",
-                "this buffer is new in every call, so it is empty: every lookup "
-                "fails; create buffer and listener in the constructor",
-            ),
+            "12:18: this buffer is new in every call, so it is empty: every lookup fails; create "
+            "buffer and listener in the constructor",
         ),
         Example(
             "given to another", {"follower.py": _NODE.format("        self.fill(self.buffer)\n")}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.programs import phases_of
 from scaffold.api.python import FunctionNode, caught_around, conditions_on
 from scaffold.api.rclpy import Lookup, RclpyFile, lookups_in
@@ -50,21 +50,14 @@ class TransformErrorUncaught(RclpyRule):
         Example(
             "one of them",
             {"follower.py": _NODE.format("LookupException")},
-            Report(
-                "17:13",
-                "lookup_transform() may raise ConnectivityException or "
-                "ExtrapolationException, which nothing catches: the node ends; "
-                "catch TransformException",
-            ),
+            "17:13: lookup_transform() may raise ConnectivityException or ExtrapolationException, "
+            "which nothing catches: the node ends; catch TransformException",
         ),
         Example(
             "another error",
             {"follower.py": _NODE.format("ValueError")},
-            Report(
-                "17:13",
-                "lookup_transform() may raise TransformException, which nothing "
-                "catches: the node ends; catch TransformException",
-            ),
+            "17:13: lookup_transform() may raise TransformException, which nothing catches: the "
+            "node ends; catch TransformException",
         ),
     )
 

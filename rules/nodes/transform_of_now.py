@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
+from scaffold.api import Diagnostic, Example, RclpyRule, Severity
 from scaffold.api.programs import in_callbacks, may_run_meanwhile
 from scaffold.api.rclpy import Lookup, RclpyFile, is_spun_by_listener, lookups_in
 
@@ -46,20 +46,14 @@ class TransformOfNow(RclpyRule):
         Example(
             "for now",
             {"follower.py": _NODE.format("", "now")},
-            Report(
-                "16:58",
-                "lookup_transform() for now: the transform arrives later, so there "
-                "is none yet; use Time() for the latest, or a timeout",
-            ),
+            "16:58: lookup_transform() for now: the transform arrives later, so there is none "
+            "yet; use Time() for the latest, or a timeout",
         ),
         Example(
             "waits in the only thread",
             {"follower.py": _NODE.format("", "now, Duration(seconds=0.5)")},
-            Report(
-                "16:58",
-                "lookup_transform() for now waits in the thread that would receive "
-                "the transform: always a timeout; use Time(), or spin_thread=True",
-            ),
+            "16:58: lookup_transform() for now waits in the thread that would receive the "
+            "transform: always a timeout; use Time(), or spin_thread=True",
         ),
         Example(
             "waits while another thread receives",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.programs import phases_of
 from scaffold.api.python import returned
 from scaffold.api.rclpy import RclpyFile
@@ -59,11 +59,8 @@ class TransformSentOnce(RclpyRule):
         Example(
             "sent once",
             {"mount.py": _NODE.format("")},
-            Report(
-                "10:9",
-                "the transform is sent once, by the constructor: later subscribers "
-                "never get it; use StaticTransformBroadcaster",
-            ),
+            "10:9: the transform is sent once, by the constructor: later subscribers never get "
+            "it; use StaticTransformBroadcaster",
         ),
         Example(
             "sent by a timer",
@@ -76,11 +73,8 @@ class TransformSentOnce(RclpyRule):
         Example(
             "one frame sent once, another by a timer",
             {"base.py": _TWO_FRAMES.format("'base_link'")},
-            Report(
-                "13:9",
-                "the transform of 'laser' is sent once, by the constructor: later "
-                "subscribers never get it; use StaticTransformBroadcaster",
-            ),
+            "13:9: the transform of 'laser' is sent once, by the constructor: later subscribers "
+            "never get it; use StaticTransformBroadcaster",
         ),
         Example(
             "one that a method makes, another by a timer",
@@ -95,11 +89,8 @@ class TransformSentOnce(RclpyRule):
                     "    def mount(self):\n        mount = Tr",
                 )
             },
-            Report(
-                "11:9",
-                "the transform of 'laser' is sent once, by the constructor: later "
-                "subscribers never get it; use StaticTransformBroadcaster",
-            ),
+            "11:9: the transform of 'laser' is sent once, by the constructor: later subscribers "
+            "never get it; use StaticTransformBroadcaster",
         ),
         Example("the same frame once more", {"base.py": _TWO_FRAMES.format("'laser'")}),
         Example("a frame that is not known", {"base.py": _TWO_FRAMES.format("self.get_name()")}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package, Report
+from scaffold.api import Diagnostic, Example, MessageRule, Package
 from scaffold.api.messages import MessageTypes
 from scaffold.api.rclpy import lookups_in
 
@@ -45,11 +45,8 @@ class TransformTypeNotLoaded(MessageRule):
         Example(
             "not imported",
             {"follower.py": _NODE.format("")},
-            Report(
-                "13:16",
-                "tf2_geometry_msgs is not imported: buffer.transform() raises "
-                "TypeException; add `import tf2_geometry_msgs`",
-            ),
+            "13:16: tf2_geometry_msgs is not imported: buffer.transform() raises TypeException; "
+            "add `import tf2_geometry_msgs`",
         ),
         Example(
             "imported by another module",
@@ -61,11 +58,8 @@ class TransformTypeNotLoaded(MessageRule):
         Example(
             "imported by another program",
             {"follower.py": _NODE.format(""), "other.py": "import tf2_geometry_msgs\n"},
-            Report(
-                "follower.py:13:16",
-                "tf2_geometry_msgs is not imported: buffer.transform() raises "
-                "TypeException; add `import tf2_geometry_msgs`",
-            ),
+            "follower.py:13:16: tf2_geometry_msgs is not imported: buffer.transform() raises "
+            "TypeException; add `import tf2_geometry_msgs`",
         ),
     )
 

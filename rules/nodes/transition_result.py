@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.programs import publish_calls
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned
 from scaffold.api.rclpy import NodeClass, RclpyFile
@@ -58,11 +58,8 @@ class TransitionResult(RclpyRule):
                 "talker.py": _NODE.format("on_configure(self, state)", "return self.open()")
                 + "\n    def open(self):\n        return True\n"
             },
-            Report(
-                "11:9",
-                "returns True from open(), not a TransitionCallbackReturn: "
-                "AttributeError at the transition",
-            ),
+            "11:9: returns True from open(), not a TransitionCallbackReturn: AttributeError at "
+            "the transition",
         ),
         Example(
             "a result that another method returns",
@@ -74,22 +71,14 @@ class TransitionResult(RclpyRule):
         Example(
             "nothing",
             {"talker.py": _NODE.format("on_configure(self, state)", "self.count = 0")},
-            Report(
-                "10:9",
-                "on_configure() returns nothing, not a TransitionCallbackReturn: "
-                "AttributeError at the transition",
-            ),
+            "10:9: on_configure() returns nothing, not a TransitionCallbackReturn: AttributeError "
+            "at the transition",
         ),
         Example(
             "a bool, no state",
             {"talker.py": _NODE.format("on_configure(self)", "return True")},
-            Report(
-                "10:9", "on_configure() takes 0 arguments, but gets the state: the transition fails"
-            ),
-            Report(
-                "11:9",
-                "returns True, not a TransitionCallbackReturn: AttributeError at the transition",
-            ),
+            "10:9: on_configure() takes 0 arguments, but gets the state: the transition fails",
+            "11:9: returns True, not a TransitionCallbackReturn: AttributeError at the transition",
         ),
         Example(
             "a publisher that stays inactive",
@@ -98,10 +87,8 @@ class TransitionResult(RclpyRule):
                     "on_activate(self, state)", "return TransitionCallbackReturn.SUCCESS"
                 )
             },
-            Report(
-                "10:9",
-                "super().on_activate(state) is not called: the publisher of line 8 stays inactive",
-            ),
+            "10:9: super().on_activate(state) is not called: the publisher of line 8 stays "
+            "inactive",
         ),
         Example(
             "published before the publisher is active",
@@ -115,16 +102,13 @@ class TransitionResult(RclpyRule):
                 "        self.pub.publish(String())\n        return result\n\n"
                 "    def say(self):\n        self.pub.publish(String())\n"
             },
-            Report(
-                "20:9",
-                "the publisher of line 8 is not active yet: it drops this message; "
-                "publish after super().on_activate(state)",
-            ),
+            "20:9: the publisher of line 8 is not active yet: it drops this message; publish "
+            "after super().on_activate(state)",
         ),
         Example(
             "another name",
             {"talker.py": _NODE.format("on_activated(self, state)", _RIGHT)},
-            Report("10:9", "rclpy never calls 'on_activated'; did you mean 'on_activate'?"),
+            "10:9: rclpy never calls 'on_activated'; did you mean 'on_activate'?",
         ),
         Example(
             "a plain node",
@@ -134,12 +118,8 @@ class TransitionResult(RclpyRule):
                 "    def on_configure(self, state):\n        return True\n\n"
                 "    def on_activate(self, state):\n        return True\n"
             },
-            Report(
-                "5:9",
-                "Talker is a plain Node: rclpy never calls 'on_configure', and "
-                "there are no transitions; inherit from "
-                "rclpy.lifecycle.LifecycleNode",
-            ),
+            "5:9: Talker is a plain Node: rclpy never calls 'on_configure', and there are no "
+            "transitions; inherit from rclpy.lifecycle.LifecycleNode",
         ),
     )
 

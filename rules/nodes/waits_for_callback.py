@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report
+from scaffold.api import Diagnostic, Example, RclpyRule
 from scaffold.api.programs import (
     Executed,
     in_callbacks,
@@ -77,11 +77,8 @@ class WaitsForCallback(RclpyRule):
                     "        while self.last is None:\n            time.sleep(0.1)\n"
                 )
             },
-            Report(
-                "22:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
+            "22:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
         ),
         Example(
             "loops over what is true, a sum, a number of messages, a result",
@@ -104,26 +101,14 @@ class WaitsForCallback(RclpyRule):
                     "    def has_come(self):\n        return self.last is not None\n\n    def hear",
                 )
             },
-            Report(
-                "25:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
-            Report(
-                "27:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
-            Report(
-                "29:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
-            Report(
-                "31:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
+            "25:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
+            "27:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
+            "29:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
+            "31:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
         ),
         Example(
             "a loop over a field of the message",
@@ -132,11 +117,8 @@ class WaitsForCallback(RclpyRule):
                     "        while self.last.data != 'ready':\n            pass\n"
                 )
             },
-            Report(
-                "22:9",
-                "callback 'answer' waits for self.last, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
+            "22:9: callback 'answer' waits for self.last, which another callback sets: that one "
+            "never runs meanwhile, and the node hangs",
         ),
         Example(
             "a loop that ends after some time",
@@ -159,11 +141,8 @@ class WaitsForCallback(RclpyRule):
         Example(
             "an event",
             {"relay.py": _NODE.format("        self.arrived.wait()\n")},
-            Report(
-                "22:9",
-                "callback 'answer' waits for self.arrived, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
+            "22:9: callback 'answer' waits for self.arrived, which another callback sets: that "
+            "one never runs meanwhile, and the node hangs",
         ),
         Example(
             "an event that must come in time",
@@ -172,20 +151,14 @@ class WaitsForCallback(RclpyRule):
                     "        if not self.arrived.wait(timeout=1.0):\n            return response\n"
                 )
             },
-            Report(
-                "22:16",
-                "callback 'answer' waits for self.arrived, which another callback "
-                "sets: that one never runs meanwhile, and this waits in vain",
-            ),
+            "22:16: callback 'answer' waits for self.arrived, which another callback sets: that "
+            "one never runs meanwhile, and this waits in vain",
         ),
         Example(
             "an event, with many threads and one callback group",
             {"relay.py": _WAITS},
-            Report(
-                "24:9",
-                "callback 'answer' waits for self.arrived, which another callback "
-                "sets: that one never runs meanwhile, and the node hangs",
-            ),
+            "24:9: callback 'answer' waits for self.arrived, which another callback sets: that "
+            "one never runs meanwhile, and the node hangs",
         ),
         Example(
             "an event, with many threads and a callback group for the other",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, fact
+from scaffold.api import Diagnostic, Example, Package, Rule, fact
 from scaffold.api.programs import Waits, in_callbacks, in_constructors, waits_alone, waits_in
 from scaffold.api.rclpy import RclpyFile
 
@@ -69,10 +69,8 @@ class WaitsUnspun(Rule):
         Example(
             "a rate, never spun",
             {**_FILES, "demo/talker.py": _ALONE},
-            Report(
-                "demo/talker.py:9:9",
-                "sleep() never returns: the thread that would wake it is blocked in this call",
-            ),
+            "demo/talker.py:9:9: sleep() never returns: the thread that would wake it is blocked "
+            "in this call",
         ),
         Example(
             "a rate, and a thread that does not spin",
@@ -83,20 +81,15 @@ class WaitsUnspun(Rule):
                     "    process_group = [node]\n"
                 ),
             },
-            Report(
-                "demo/talker.py:13:9",
-                "sleep() never returns: the thread that would wake it is blocked in this call",
-            ),
+            "demo/talker.py:13:9: sleep() never returns: the thread that would wake it is blocked "
+            "in this call",
         ),
         Example("an asynchronous call", {**_FILES_CALLS, "demo/caller.py": _CODE.format(_FUTURE)}),
         Example(
             "a call, never spun",
             {**_FILES_CALLS, "demo/caller.py": _CODE.format("client.call(Trigger.Request())")},
-            Report(
-                "demo/caller.py:10:5",
-                "call() never returns: the thread that would receive the response "
-                "is blocked in this call",
-            ),
+            "demo/caller.py:10:5: call() never returns: the thread that would receive the "
+            "response is blocked in this call",
         ),
         Example(
             "a call, spun in a thread",
@@ -118,11 +111,8 @@ class WaitsUnspun(Rule):
                     "threading.Thread(target=print).start()\n    client.call(Trigger.Request())"
                 ),
             },
-            Report(
-                "demo/caller.py:12:5",
-                "call() never returns: the thread that would receive the response "
-                "is blocked in this call",
-            ),
+            "demo/caller.py:12:5: call() never returns: the thread that would receive the "
+            "response is blocked in this call",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.catalog import BUILD_TOOLS
 
 KINDS = ("depend", "exec_depend", "build_export_depend")
@@ -30,7 +30,7 @@ class BuildToolMisplaced(Rule):
         Example(
             "needed to run",
             {"package.xml": _MANIFEST.format("depend")},
-            Report("2:11", "'ament_cmake' builds the package: write <buildtool_depend>"),
+            "2:11: 'ament_cmake' builds the package: write <buildtool_depend>",
         ),
     )
 

@@ -98,10 +98,8 @@ class BuildTypeWrong(Rule):
                 "setup.py": "",
                 "CMakeLists.txt": "project(talker)\n",
             },
-            Report(
-                "package.xml:4:5",
-                "a second build type, after the one in line 3: colcon ignores the package",
-            ),
+            "package.xml:4:5: a second build type, after the one in line 3: colcon ignores the "
+            "package",
         ),
         Example(
             "a setup.py and ament_python",

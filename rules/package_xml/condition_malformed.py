@@ -41,7 +41,7 @@ class ConditionMalformed(Rule):
         Example(
             "one sign",
             {"package.xml": _MANIFEST.format("$ROS_VERSION = 2")},
-            Report("2:22", "condition '$ROS_VERSION = 2': '=' is not expected"),
+            "2:22: condition '$ROS_VERSION = 2': '=' is not expected",
         ),
         Example(
             "a distribution that ended, a variable of whoever builds",

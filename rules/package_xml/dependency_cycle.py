@@ -35,7 +35,7 @@ class DependencyCycle(Rule):
         Example(
             "both ways",
             {"package.xml": _TALKER},
-            Report("3:11", "dependency cycle: talker needs listener needs talker"),
+            "3:11: dependency cycle: talker needs listener needs talker",
             neighbours={
                 "listener": {"package.xml": _LISTENER.format("  <depend>talker</depend>\n")}
             },

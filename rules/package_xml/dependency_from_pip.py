@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 
 class DependencyFromPip(Rule):
@@ -36,7 +36,7 @@ class DependencyFromPip(Rule):
                 "package.xml": "<package>\n  <exec_depend>python3-trimesh-pip</exec_depend>\n"
                 "</package>\n"
             },
-            Report("2:16", "pip installs 'python3-trimesh-pip': the package cannot be released"),
+            "2:16: pip installs 'python3-trimesh-pip': the package cannot be released",
         ),
     )
 

@@ -47,32 +47,24 @@ class DependencyMalformed(Rule):
         Example(
             "a module",
             {"package.xml": _MANIFEST.format("std_msgs.msg")},
-            Report("3:16", "'std_msgs.msg' is a module; the package is 'std_msgs'"),
+            "3:16: 'std_msgs.msg' is a module; the package is 'std_msgs'",
         ),
         Example(
             "a version",
             {"package.xml": _MANIFEST.format("numpy&gt;=1.2")},
-            Report(
-                "3:16",
-                "'numpy>=1.2' contains a version, which rosdep treats as part of the name; use "
-                "version_gte='...'",
-            ),
+            "3:16: 'numpy>=1.2' contains a version, which rosdep treats as part of the name; use "
+            "version_gte='...'",
         ),
         Example(
             "a package of Debian",
             {"package.xml": _MANIFEST.format("ros-jazzy-std-msgs")},
-            Report(
-                "3:16", "'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'"
-            ),
+            "3:16: 'ros-jazzy-std-msgs' is a Debian package; its rosdep key is 'std_msgs'",
         ),
         Example(
             "a build type",
             {"package.xml": _MANIFEST.format("ament_python")},
-            Report(
-                "3:16",
-                "'ament_python' is a build type, not a package: rosdep cannot "
-                "resolve it; remove it",
-            ),
+            "3:16: 'ament_python' is a build type, not a package: rosdep cannot resolve it; "
+            "remove it",
         ),
         Example(
             "empty",
@@ -89,9 +81,9 @@ class DependencyMalformed(Rule):
                     "  <exec_depend>python-numpy"
                 )
             },
-            Report("3:16", "'rclpy std_msgs' is more than one name: write an element for each"),
-            Report("4:16", "rosdep keys have dashes: use 'python3-numpy'"),
-            Report("5:16", "'python-numpy' belongs to Python 2; closest: 'python3-numpy'"),
+            "3:16: 'rclpy std_msgs' is more than one name: write an element for each",
+            "4:16: rosdep keys have dashes: use 'python3-numpy'",
+            "5:16: 'python-numpy' belongs to Python 2; closest: 'python3-numpy'",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.catalog import ROS1_PACKAGES
 from scaffold.api.cmake import is_built_for_ros1
 from scaffold.api.distributions import target
@@ -57,13 +57,13 @@ class DependencyOfRos1(Rule):
                 "  <depend>rospy</depend>\n"
                 "</package>\n"
             },
-            Report("2:21", "'catkin' belongs to ROS 1; use ament_cmake"),
-            Report("3:11", "'rospy' belongs to ROS 1; use rclpy"),
+            "2:21: 'catkin' belongs to ROS 1; use ament_cmake",
+            "3:11: 'rospy' belongs to ROS 1; use rclpy",
         ),
         Example(
             "Gazebo classic, which other distributions lack",
             {"package.xml": "<package><exec_depend>gazebo_ros</exec_depend></package>\n"},
-            Report("1:23", "'gazebo_ros' belongs to Gazebo classic, which Jazzy lacks; use ros_gz"),
+            "1:23: 'gazebo_ros' belongs to Gazebo classic, which Jazzy lacks; use ros_gz",
         ),
     )
 

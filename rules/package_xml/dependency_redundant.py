@@ -80,7 +80,7 @@ class DependencyRedundant(Rule):
         Example(
             "the group that it is a member of",
             {"package.xml": _MANIFEST.format("drivers")},
-            Report("3:3", "member of the group 'drivers', which line 2 depends on"),
+            "3:3: member of the group 'drivers', which line 2 depends on",
         ),
     )
 

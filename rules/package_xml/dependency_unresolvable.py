@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.catalog import (
     OTHER_NAMES,
     ROS1_PACKAGES,
@@ -61,32 +61,22 @@ class DependencyUnresolvable(Rule):
         Example(
             "a package from elsewhere",
             {"package.xml": _MANIFEST.format("robot_serial")},
-            Report(
-                "3:11",
-                "rosdep's cache has no rule for 'robot_serial', and no package of "
-                "the workspace or of AMENT_PREFIX_PATH has the name",
-            ),
+            "3:11: rosdep's cache has no rule for 'robot_serial', and no package of the workspace "
+            "or of AMENT_PREFIX_PATH has the name",
             rosdep_keys=_KEYS,
         ),
         Example(
             "neither",
             {"package.xml": _MANIFEST.format("pyserial-3")},
-            Report(
-                "3:11",
-                "rosdep's cache has no rule for 'pyserial-3', and no package of the "
-                "workspace or of AMENT_PREFIX_PATH has the name",
-            ),
+            "3:11: rosdep's cache has no rule for 'pyserial-3', and no package of the workspace "
+            "or of AMENT_PREFIX_PATH has the name",
             rosdep_keys=_KEYS,
         ),
         Example(
             "another spelling",
             {"package.xml": _MANIFEST.format("Serial")},
-            Report(
-                "3:11",
-                "rosdep's cache has no rule for 'Serial', and no package of the "
-                "workspace or of AMENT_PREFIX_PATH has the name; it has "
-                "'python3-serial'",
-            ),
+            "3:11: rosdep's cache has no rule for 'Serial', and no package of the workspace or of "
+            "AMENT_PREFIX_PATH has the name; it has 'python3-serial'",
             rosdep_keys=_KEYS,
         ),
     )

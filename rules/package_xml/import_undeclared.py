@@ -256,12 +256,9 @@ class ImportUndeclared(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
             },
-            Report(
-                "talker/node.py:2:1",
-                "imports 'std_msgs', and line 4 of package.xml declares it only if "
-                "$ROS_DISTRO == humble, which excludes Jazzy; change the "
-                "condition, or guard the import",
-            ),
+            "talker/node.py:2:1: imports 'std_msgs', and line 4 of package.xml declares it only "
+            "if $ROS_DISTRO == humble, which excludes Jazzy; change the condition, or guard the "
+            "import",
         ),
         Example(
             "declared for this distribution and for another one",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 
 _TEXTS: Mapping[str, tuple[str, ...]] = {
     "apache": ("apache license", "version 2.0"),
@@ -44,9 +44,7 @@ class LicenseDiffers(Rule):
         Example(
             "another",
             {**_FILE, "package.xml": _MANIFEST.format("MIT")},
-            Report(
-                "package.xml:3:3", "'MIT' is declared, but LICENSE contains the Apache License 2.0"
-            ),
+            "package.xml:3:3: 'MIT' is declared, but LICENSE contains the Apache License 2.0",
         ),
     )
 

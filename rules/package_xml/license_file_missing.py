@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 
 _MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package>\n'
 
@@ -26,7 +26,7 @@ class LicenseFileMissing(Rule):
         Example(
             "not there",
             {"package.xml": _MANIFEST.format("LICENCE"), "LICENSE": "..."},
-            Report("package.xml:2:18", "there is no file 'LICENCE' next to package.xml"),
+            "package.xml:2:18: there is no file 'LICENCE' next to package.xml",
         ),
     )
 

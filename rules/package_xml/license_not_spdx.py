@@ -49,12 +49,12 @@ class LicenseNotSpdx(Rule):
         Example(
             "this version alone, or later ones as well?",
             {"package.xml": "<package>\n  <license>GPLv3</license>\n</package>\n"},
-            Report("2:12", "'GPLv3' may be any of GPL-3.0-only, GPL-3.0-or-later"),
+            "2:12: 'GPLv3' may be any of GPL-3.0-only, GPL-3.0-or-later",
         ),
         Example(
             "which BSD?",
             {"package.xml": "<package>\n  <license>BSD</license>\n</package>\n"},
-            Report("2:12", "'BSD' may be any of BSD-2-Clause, BSD-3-Clause"),
+            "2:12: 'BSD' may be any of BSD-2-Clause, BSD-3-Clause",
         ),
     )
 

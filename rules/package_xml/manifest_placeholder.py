@@ -52,8 +52,8 @@ class ManifestPlaceholder(Rule):
                 "  <license>TODO: License declaration</license>\n"
                 "</package>\n"
             },
-            Report("2:3", "the description is a placeholder, 'TODO: Package description'"),
-            Report("3:22", "maintainer email 'root@todo.todo' is a placeholder"),
+            "2:3: the description is a placeholder, 'TODO: Package description'",
+            "3:22: maintainer email 'root@todo.todo' is a placeholder",
             Report(
                 "4:12",
                 "the license is a placeholder, 'TODO: License declaration': nobody "
@@ -81,12 +81,12 @@ class ManifestPlaceholder(Rule):
         Example(
             "no name",
             {"package.xml": _PERSON.format("ada@example.com", "")},
-            Report("2:3", "<maintainer> has no name"),
+            "2:3: <maintainer> has no name",
         ),
         Example(
             "a placeholder for a name",
             {"package.xml": _PERSON.format("ada@example.com", "TODO")},
-            Report("2:3", "the name of <maintainer> is a placeholder"),
+            "2:3: the name of <maintainer> is a placeholder",
         ),
     )
 

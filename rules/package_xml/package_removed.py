@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Location, Package, Rule, ViewError
 from scaffold.api.cmake import is_built_for_ros1
 from scaffold.api.distributions import removed_package
 from scaffold.api.interfaces import interface_files
@@ -79,30 +79,14 @@ class PackageRemoved(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "from actionlib_msgs.msg import GoalStatus\n",
             },
-            Report(
-                "CMakeLists.txt:2:14",
-                "actionlib_msgs was removed in Lyrical: CMake stops; use "
-                "action_msgs, whose GoalStatus and GoalInfo have other fields "
-                "(common_interfaces 280)",
-            ),
-            Report(
-                "msg/Beat.msg:2:1",
-                "actionlib_msgs was removed in Lyrical: the build stops; use "
-                "action_msgs, whose GoalStatus and GoalInfo have other fields "
-                "(common_interfaces 280)",
-            ),
-            Report(
-                "package.xml:3:11",
-                "actionlib_msgs was removed in Lyrical: rosdep finds no rule; use "
-                "action_msgs, whose GoalStatus and GoalInfo have other fields "
-                "(common_interfaces 280)",
-            ),
-            Report(
-                "talker/node.py:1:1",
-                "actionlib_msgs was removed in Lyrical: ModuleNotFoundError; use "
-                "action_msgs, whose GoalStatus and GoalInfo have other fields "
-                "(common_interfaces 280)",
-            ),
+            "CMakeLists.txt:2:14: actionlib_msgs was removed in Lyrical: CMake stops; use "
+            "action_msgs, whose GoalStatus and GoalInfo have other fields (common_interfaces 280)",
+            "msg/Beat.msg:2:1: actionlib_msgs was removed in Lyrical: the build stops; use "
+            "action_msgs, whose GoalStatus and GoalInfo have other fields (common_interfaces 280)",
+            "package.xml:3:11: actionlib_msgs was removed in Lyrical: rosdep finds no rule; use "
+            "action_msgs, whose GoalStatus and GoalInfo have other fields (common_interfaces 280)",
+            "talker/node.py:1:1: actionlib_msgs was removed in Lyrical: ModuleNotFoundError; use "
+            "action_msgs, whose GoalStatus and GoalInfo have other fields (common_interfaces 280)",
             distro="lyrical",
         ),
     )

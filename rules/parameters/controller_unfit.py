@@ -8,7 +8,6 @@ from scaffold.api import (
     Diagnostic,
     Example,
     Package,
-    Report,
     Rule,
     ViewError,
     closest_name,
@@ -140,25 +139,17 @@ class ControllerUnfit(Rule):
         Example(
             "a rate with a point, and a type of ROS 1",
             _files("50.0", "position_controllers/JointTrajectoryController"),
-            Report(
-                "config/controllers.yaml:3:18",
-                "update_rate is an integer: with a double the controller manager ends",
-            ),
-            Report(
-                "config/controllers.yaml:5:13",
-                "Jazzy has no controller "
-                "'position_controllers/JointTrajectoryController': use "
-                "'joint_trajectory_controller/JointTrajectoryController'",
-            ),
+            "config/controllers.yaml:3:18: update_rate is an integer: with a double the "
+            "controller manager ends",
+            "config/controllers.yaml:5:13: Jazzy has no controller "
+            "'position_controllers/JointTrajectoryController': use "
+            "'joint_trajectory_controller/JointTrajectoryController'",
         ),
         Example(
             "a joint that the robot does not have",
             _files(joint="right_wheel_joint"),
-            Report(
-                "config/controllers.yaml:10:25",
-                "the robot has no joint 'right_wheel_joint': the controller fails; "
-                "closest: 'right_joint'",
-            ),
+            "config/controllers.yaml:10:25: the robot has no joint 'right_wheel_joint': the "
+            "controller fails; closest: 'right_joint'",
         ),
         Example(
             "parameters of a controller among those of the manager",
@@ -167,26 +158,16 @@ class ControllerUnfit(Rule):
                 f"    base_controller:\n      type: {_DRIVE}\n      left_wheel_names: [left]\n"
                 "      right_wheel_names: [right]\n"
             },
-            Report(
-                "5:7",
-                "'base_controller' does not read 'left_wheel_names' here: it is a "
-                "node of its own; write base_controller: and ros__parameters: on "
-                "the first level",
-            ),
+            "5:7: 'base_controller' does not read 'left_wheel_names' here: it is a node of its "
+            "own; write base_controller: and ros__parameters: on the first level",
         ),
         Example(
             "spawned under other names",
             _files(words="'joint_broadcaster', 'base_controller'", loaded="diff_controller"),
-            Report(
-                "launch/robot.launch.py:13:25",
-                "no file gives the controller manager a type of "
-                "'joint_broadcaster': it is not loaded; known: base_controller",
-            ),
-            Report(
-                "launch/robot.launch.py:15:29",
-                "no file gives the controller manager a type of 'diff_controller': "
-                "it is not loaded; known: base_controller",
-            ),
+            "launch/robot.launch.py:13:25: no file gives the controller manager a type of "
+            "'joint_broadcaster': it is not loaded; known: base_controller",
+            "launch/robot.launch.py:15:29: no file gives the controller manager a type of "
+            "'diff_controller': it is not loaded; known: base_controller",
         ),
         Example(
             "a manager with a file of another package",
@@ -197,11 +178,8 @@ class ControllerUnfit(Rule):
                 "config/controllers.yaml": _FILE.format("50", _DRIVE, "right_joint"),
                 "package.xml": "<package><name>base</name></package>\n",
             },
-            Report(
-                "launch/robot.launch.py:15:29",
-                "no file gives the controller manager a type of 'base_controler': "
-                "it is not loaded; known: base_controller",
-            ),
+            "launch/robot.launch.py:15:29: no file gives the controller manager a type of "
+            "'base_controler': it is not loaded; known: base_controller",
         ),
         Example(
             "types that are given otherwise, names that are not known",

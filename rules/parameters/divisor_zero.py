@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Location, Package, Rule
 from scaffold.api.launch import started_nodes, values_in_files
 from scaffold.api.parameters import (
     Declared,
@@ -56,15 +56,12 @@ class DivisorZero(Rule):
         Example(
             "zero in a parameter file",
             {"talker.py": _NODE.format("2.0", "1.0 / self.rate"), "a.yaml": _FILE.format("0.0")},
-            Report(
-                "a.yaml:3:11",
-                "'rate' is 0, and the node (talker.py:7) divides by it: ZeroDivisionError",
-            ),
+            "a.yaml:3:11: 'rate' is 0, and the node (talker.py:7) divides by it: ZeroDivisionError",
         ),
         Example(
             "zero as default",
             {"talker.py": _NODE.format("0.0", "1.0 / self.rate")},
-            Report("7:21", "'rate' is 0 by default, and the node divides by it: ZeroDivisionError"),
+            "7:21: 'rate' is 0 by default, and the node divides by it: ZeroDivisionError",
         ),
     )
 

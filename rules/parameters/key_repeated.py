@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, ParseError, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, ParseError, Rule, Severity
 from scaffold.api.formats import Mapping, Scalar, Sequence, YamlNode, yaml_tree
 from scaffold.api.parameters import parameter_paths
 
@@ -30,10 +30,7 @@ class KeyRepeated(Rule):
         Example(
             "twice",
             {"a.yaml": _FILE.format("rate")},
-            Report(
-                "4:5",
-                "'rate' is already set in line 3: the first value is ignored; remove one of them",
-            ),
+            "4:5: 'rate' is already set in line 3: the first value is ignored; remove one of them",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, Rule, closest_name
 from scaffold.api.launch import MarkupNode, code_of, is_known, markup_files
 from scaffold.api.parameters import declared_by, place_of
 from scaffold.api.programs import KnownNode
@@ -67,24 +67,16 @@ class MarkupParameterDiffers(Rule):
                 "launch/a.launch.xml": _LAUNCH.format("rate", "2"),
                 "launch/b.launch.yaml": _YAML.format("2"),
             },
-            Report(
-                "launch/a.launch.xml:3:31",
-                "'rate' is declared as double (demo/talk.py:7), but this is an "
-                "integer: InvalidParameterTypeException",
-            ),
-            Report(
-                "launch/b.launch.yaml:7:14",
-                "'rate' is declared as double (demo/talk.py:7), but this is an "
-                "integer: InvalidParameterTypeException",
-            ),
+            "launch/a.launch.xml:3:31: 'rate' is declared as double (demo/talk.py:7), but this is "
+            "an integer: InvalidParameterTypeException",
+            "launch/b.launch.yaml:7:14: 'rate' is declared as double (demo/talk.py:7), but this "
+            "is an integer: InvalidParameterTypeException",
         ),
         Example(
             "another name",
             {**_FILES, "launch/a.launch.xml": _LAUNCH.format("rates", "2.0")},
-            Report(
-                "launch/a.launch.xml:3:18",
-                "node declares no parameter 'rates': the value is ignored; did you mean 'rate'?",
-            ),
+            "launch/a.launch.xml:3:18: node declares no parameter 'rates': the value is ignored; "
+            "did you mean 'rate'?",
         ),
     )
 

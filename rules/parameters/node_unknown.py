@@ -72,10 +72,8 @@ class NodeUnknown(Rule):
         Example(
             "the name of the executable",
             {"talker.py": _NODE, "config/a.yaml": _FILE.format("talker_node")},
-            Report(
-                "config/a.yaml:1:1",
-                "no node of this package is named 'talker_node'; did you mean 'talker'?",
-            ),
+            "config/a.yaml:1:1: no node of this package is named 'talker_node'; did you mean "
+            "'talker'?",
         ),
         Example(
             "a section for a node that is gone",
@@ -118,11 +116,8 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH.replace("eyes", "demo").replace("'eye'", "'talk'"),
                 "config/demo.yaml": _FILE.format("talker"),
             },
-            Report(
-                "config/demo.yaml:1:1",
-                "no node is named 'talker': the section is ignored; "
-                "launch/a.launch.py:10 starts camera",
-            ),
+            "config/demo.yaml:1:1: no node is named 'talker': the section is ignored; "
+            "launch/a.launch.py:10 starts camera",
         ),
         Example(
             "not the name in the launch file",
@@ -131,21 +126,16 @@ class NodeUnknown(Rule):
                 "launch/a.launch.py": _LAUNCH,
                 "config/demo.yaml": _FILE.format("eye"),
             },
-            Report(
-                "config/demo.yaml:1:1",
-                "no node is named 'eye': the section is ignored; "
-                "launch/a.launch.py:10 starts camera",
-            ),
+            "config/demo.yaml:1:1: no node is named 'eye': the section is ignored; "
+            "launch/a.launch.py:10 starts camera",
         ),
         Example("a section without a namespace", _files("camera")),
         Example("a section for any namespace", _files("/**/camera")),
         Example(
             "a section for another namespace",
             _files("/front/camera"),
-            Report(
-                "config/demo.yaml:1:1",
-                "section for '/front/camera' is ignored: launch/a.launch.py:10 starts '/camera'",
-            ),
+            "config/demo.yaml:1:1: section for '/front/camera' is ignored: launch/a.launch.py:10 "
+            "starts '/camera'",
         ),
         Example(
             "a namespace that a group has by default",
@@ -165,10 +155,8 @@ class NodeUnknown(Rule):
                 )
                 .replace("import Node", "import Node, PushRosNamespace"),
             },
-            Report(
-                "config/demo.yaml:1:1",
-                "section for '/camera' is ignored: launch/a.launch.py:13 starts '/robot1/camera'",
-            ),
+            "config/demo.yaml:1:1: section for '/camera' is ignored: launch/a.launch.py:13 starts "
+            "'/robot1/camera'",
         ),
     )
 

@@ -9,7 +9,6 @@ from scaffold.api import (
     Effect,
     Example,
     Package,
-    Report,
     Rule,
     closest_name,
     listed_names,
@@ -86,16 +85,10 @@ class ParameterUndeclared(Rule):
                 "talker.py": _NODE.format(""),
                 "a.yaml": _FILE.format("limits:\n      hihg: 4\n    text: hello"),
             },
-            Report(
-                "a.yaml:6:7",
-                "node 'talker' declares no parameter 'limits.hihg': the value is "
-                "ignored; did you mean 'limits.high'?",
-            ),
-            Report(
-                "a.yaml:7:5",
-                "node 'talker' declares no parameter 'text': the value is ignored; "
-                "it has limits.high, rate",
-            ),
+            "a.yaml:6:7: node 'talker' declares no parameter 'limits.hihg': the value is ignored; "
+            "did you mean 'limits.high'?",
+            "a.yaml:7:5: node 'talker' declares no parameter 'text': the value is ignored; it has "
+            "limits.high, rate",
         ),
     )
 

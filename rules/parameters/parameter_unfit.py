@@ -101,20 +101,14 @@ class ParameterUnfit(Rule):
         Example(
             "a string for a double",
             {"talker.py": _NODE, "a.yaml": _FILE.format("'2.0'", "fast")},
-            Report(
-                "a.yaml:3:11",
-                "'rate' (talker.py:7) is a double, but this is a string: "
-                "InvalidParameterTypeException",
-            ),
+            "a.yaml:3:11: 'rate' (talker.py:7) is a double, but this is a string: "
+            "InvalidParameterTypeException",
         ),
         Example(
             "for a node of another package of the workspace",
             {"package.xml": _MANIFEST.format("demo_bringup"), "launch/demo.launch.py": _LAUNCH},
-            Report(
-                "launch/demo.launch.py:8:22",
-                "'rate' (demo/talker.py:7 of demo) is a double, but 2 is an "
-                "integer: InvalidParameterTypeException",
-            ),
+            "launch/demo.launch.py:8:22: 'rate' (demo/talker.py:7 of demo) is a double, but 2 is "
+            "an integer: InvalidParameterTypeException",
             neighbours={
                 "demo": {
                     "package.xml": _MANIFEST.format("demo"),
@@ -127,30 +121,21 @@ class ParameterUnfit(Rule):
         Example(
             "a string for a parameter of every node",
             {"a.yaml": "camera:\n  ros__parameters:\n    use_sim_time: 'true'\n"},
-            Report(
-                "3:19",
-                "'use_sim_time' (declared by rclpy) is a bool, but this is a "
-                "string: InvalidParameterTypeException",
-            ),
+            "3:19: 'use_sim_time' (declared by rclpy) is a bool, but this is a string: "
+            "InvalidParameterTypeException",
         ),
         Example("doubles as default and value", _files("1.0", "2.5")),
         Example(
             "an integer as default of a double",
             _files("1", "2.5"),
-            Report(
-                "talker.py:7:9",
-                "default is an integer, but a.yaml:3 sets a double: "
-                "InvalidParameterTypeException; declare a double",
-            ),
+            "talker.py:7:9: default is an integer, but a.yaml:3 sets a double: "
+            "InvalidParameterTypeException; declare a double",
         ),
         Example(
             "a quoted number as default",
             _files("'1'", "2"),
-            Report(
-                "talker.py:7:9",
-                "default is a string, but a.yaml:3 sets an integer: "
-                "InvalidParameterTypeException; declare an integer",
-            ),
+            "talker.py:7:9: default is a string, but a.yaml:3 sets an integer: "
+            "InvalidParameterTypeException; declare an integer",
         ),
         Example(
             "in the range, on a step",
@@ -163,16 +148,10 @@ class ParameterUnfit(Rule):
                 "a.yaml": _FILE_RANGE.format("1.5"),
                 "b.yaml": _FILE_RANGE.format("0.25"),
             },
-            Report(
-                "a.yaml:3:11",
-                "1.5 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
-                "(talker.py:10): InvalidParameterValueException",
-            ),
-            Report(
-                "b.yaml:3:11",
-                "0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
-                "(talker.py:10): InvalidParameterValueException",
-            ),
+            "a.yaml:3:11: 1.5 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+            "(talker.py:10): InvalidParameterValueException",
+            "b.yaml:3:11: 0.25 is outside the range 0.0 to 1.0 in steps of 0.1 of 'gain' "
+            "(talker.py:10): InvalidParameterValueException",
         ),
     )
 

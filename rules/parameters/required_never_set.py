@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Severity, ViewError
 from scaffold.api.parameters import parameter_file, parameter_paths
 from scaffold.api.python import is_handled
 from scaffold.api.rclpy import NodeDefinition, RclpyFile
@@ -76,11 +76,8 @@ class RequiredNeverSet(RclpyRule):
                 "talker.py": _NODE.format("Parameter.Type.DOUBLE"),
                 "config/a.yaml": "listener:\n  ros__parameters:\n    rate: 3.0\n",
             },
-            Report(
-                "talker.py:9:21",
-                "parameter 'rate' has a type but no default (line 8), and no file of the "
-                "package sets it: ParameterUninitializedException; give a default",
-            ),
+            "talker.py:9:21: parameter 'rate' has a type but no default (line 8), and no file of "
+            "the package sets it: ParameterUninitializedException; give a default",
         ),
     )
 

@@ -56,14 +56,9 @@ class ValueRefused(Rule):
                 "b.yaml": _FILE.format("&rate 2.0\n    more: *rate"),
                 "c.yaml": _FILE.format("[[1.0, 2.0], [3.0]]"),
             },
-            Report(
-                "a.yaml:3:5",
-                "'rate' has no value: rcl rejects the file; write '' for an empty string",
-            ),
-            Report(
-                "b.yaml:4:11", "'more' is the alias *rate: rcl rejects the file; write the value"
-            ),
-            Report("c.yaml:3:12", "'rate' is a list of lists: rcl rejects the file; flatten it"),
+            "a.yaml:3:5: 'rate' has no value: rcl rejects the file; write '' for an empty string",
+            "b.yaml:4:11: 'more' is the alias *rate: rcl rejects the file; write the value",
+            "c.yaml:3:12: 'rate' is a list of lists: rcl rejects the file; flatten it",
         ),
         Example(
             "no node; no parameters",
@@ -71,8 +66,8 @@ class ValueRefused(Rule):
                 "a.yaml": "ros__parameters:\n  rate: 2.0\n",
                 "b.yaml": "talker:\n  ros__parameters:\n",
             },
-            Report("a.yaml:1:1", "no node name above 'ros__parameters': rcl rejects the file"),
-            Report("b.yaml:2:3", "no parameters under 'ros__parameters': rcl rejects the file"),
+            "a.yaml:1:1: no node name above 'ros__parameters': rcl rejects the file",
+            "b.yaml:2:3: no parameters under 'ros__parameters': rcl rejects the file",
         ),
         Example("items of the same type", {"config/a.yaml": _FILE_LISTS.format("[1.0, 2.5]")}),
         Example(
@@ -88,7 +83,7 @@ class ValueRefused(Rule):
         Example(
             "a word that YAML reads as a boolean",
             {"config/a.yaml": _FILE_LISTS.format("[left, right, off]")},
-            Report("3:26", "list 'gains' mixes string (left) and bool (off): rcl rejects the file"),
+            "3:26: list 'gains' mixes string (left) and bool (off): rcl rejects the file",
         ),
         Example(
             "a list with items",
@@ -110,11 +105,8 @@ class ValueRefused(Rule):
                 "talker.py": _NODE.format("get_parameter('names')"),
                 "a.yaml": _FILE_EMPTY.format("[]"),
             },
-            Report(
-                "a.yaml:3:12",
-                "empty list leaves 'names' unset, and talker.py:8 reads it: "
-                "ParameterUninitializedException",
-            ),
+            "a.yaml:3:12: empty list leaves 'names' unset, and talker.py:8 reads it: "
+            "ParameterUninitializedException",
         ),
     )
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Container, Iterator
 from contextlib import suppress
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.launch import is_loaded, markup_paths, use_of
 from scaffold.api.parameters import mistake, parameter_paths
 
@@ -46,12 +46,10 @@ class YamlMalformed(Rule):
                 "config/b.yaml": _FILE.format("    rates: [1.0, 2.0\n    next: 1\n"),
                 "config/c.yaml": _FILE.format("    rate: 2.0: 3\n"),
             },
-            Report("config/a.yaml:3:1", "line is indented with a tab; YAML allows only spaces"),
-            Report(
-                "config/b.yaml:4:1",
-                "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
-            ),
-            Report("config/c.yaml:3:1", "not YAML: mapping values are not allowed in this context"),
+            "config/a.yaml:3:1: line is indented with a tab; YAML allows only spaces",
+            "config/b.yaml:4:1: not YAML: did not find expected ',' or ']' while parsing a flow "
+            "sequence",
+            "config/c.yaml:3:1: not YAML: mapping values are not allowed in this context",
         ),
         Example(
             "what nobody reads; a template; a file of OpenCV",
@@ -66,10 +64,8 @@ class YamlMalformed(Rule):
         Example(
             "a file that code loads",
             {"config/points.yaml": _POINTS, "talker/read.py": _LOADING},
-            Report(
-                "config/points.yaml:3:1",
-                "not YAML: did not find expected ',' or ']' while parsing a flow sequence",
-            ),
+            "config/points.yaml:3:1: not YAML: did not find expected ',' or ']' while parsing a "
+            "flow sequence",
         ),
         Example(
             "launch files",
@@ -77,10 +73,8 @@ class YamlMalformed(Rule):
                 "launch/a.launch.yaml": _LAUNCH.format("}"),
                 "launch/b.launch.yaml": _LAUNCH.format(""),
             },
-            Report(
-                "launch/b.launch.yaml:3:1",
-                "not YAML: did not find expected ',' or '}' while parsing a flow mapping",
-            ),
+            "launch/b.launch.yaml:3:1: not YAML: did not find expected ',' or '}' while parsing a "
+            "flow mapping",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.launch import DATA_DIRECTORIES
 from scaffold.api.python import Glob
 from scaffold.api.setup_py import DataFile
@@ -51,24 +51,19 @@ class DataDestinationDiffers(Rule):
         Example(
             "without the package",
             {**_FILES, "setup.py": _SETUP.format("'share/launch'", _GLOB)},
-            Report(
-                "setup.py:6:10",
-                "installs launch/talk.launch.py to share/launch; ROS 2 looks in share/talker/",
-            ),
+            "setup.py:6:10: installs launch/talk.launch.py to share/launch; ROS 2 looks in "
+            "share/talker/",
         ),
         Example(
             "absolute",
             {**_FILES, "setup.py": _SETUP.format("'/share/talker/launch'", _GLOB)},
-            Report(
-                "setup.py:6:10",
-                "installs to /share/talker/launch: an absolute path leaves the "
-                "workspace; write share/talker/...",
-            ),
+            "setup.py:6:10: installs to /share/talker/launch: an absolute path leaves the "
+            "workspace; write share/talker/...",
         ),
         Example(
             "no list",
             {**_FILES, "setup.py": _SETUP.format("'share/talker'", "'package.xml'")},
-            Report("setup.py:6:9", "the files are a string, not a list: the build stops"),
+            "setup.py:6:9: the files are a string, not a list: the build stops",
         ),
         Example(
             "no comma",
@@ -78,7 +73,7 @@ class DataDestinationDiffers(Rule):
                     "]),", f"])\n        ('share/talker/launch', {_GLOB}),"
                 ),
             },
-            Report("setup.py:6:9", "missing comma after this: 'tuple' object is not callable"),
+            "setup.py:6:9: missing comma after this: 'tuple' object is not callable",
         ),
     )
 

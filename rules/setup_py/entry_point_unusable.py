@@ -73,16 +73,13 @@ class EntryPointUnusable(Rule):
                     "        'listener = listener.node:main',\n"
                 )
             },
-            Report("5:9", "missing comma after this console script: it is joined to the next"),
+            "5:9: missing comma after this console script: it is joined to the next",
         ),
         Example(
             "no function",
             {"setup.py": _SETUP.format("        'talker = talker.node',\n")},
-            Report(
-                "5:9",
-                "console script 'talker = talker.node': no function is named: name "
-                "= module:function",
-            ),
+            "5:9: console script 'talker = talker.node': no function is named: name = "
+            "module:function",
         ),
         Example(
             "no function, of a module that runs when it is imported",
@@ -102,7 +99,7 @@ class EntryPointUnusable(Rule):
         Example(
             "two scripts of one name",
             {"setup.py": _SETUP_NAMES.format("talker")},
-            Report("8:9", "'talker' is the name of another entry point: only one is installed"),
+            "8:9: 'talker' is the name of another entry point: only one is installed",
         ),
         Example(
             "another function, another module",
@@ -113,11 +110,9 @@ class EntryPointUnusable(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            Report("setup.py:5:9", "`ros2 run` of 'talker' fails: talker/node.py has no 'run'"),
-            Report(
-                "setup.py:6:9",
-                "`ros2 run` of 'other' fails: there is no talker/nodes.py; closest: talker/node.py",
-            ),
+            "setup.py:5:9: `ros2 run` of 'talker' fails: talker/node.py has no 'run'",
+            "setup.py:6:9: `ros2 run` of 'other' fails: there is no talker/nodes.py; closest: "
+            "talker/node.py",
         ),
         Example(
             "a coroutine",
@@ -126,11 +121,8 @@ class EntryPointUnusable(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "async def main():\n    pass\n",
             },
-            Report(
-                "setup.py:5:9",
-                "`ros2 run` of 'talker' fails: talker/node.py has an async main(), which nothing "
-                "awaits; use asyncio.run()",
-            ),
+            "setup.py:5:9: `ros2 run` of 'talker' fails: talker/node.py has an async main(), "
+            "which nothing awaits; use asyncio.run()",
         ),
         Example(
             "a module in another directory",
@@ -140,10 +132,8 @@ class EntryPointUnusable(Rule):
                 "talker/walk.py": "",
                 "scripts/talk.py": "",
             },
-            Report(
-                "setup.py:5:9",
-                "`ros2 run` of 'talk' fails: there is no talker/talk.py; closest: scripts/talk.py",
-            ),
+            "setup.py:5:9: `ros2 run` of 'talk' fails: there is no talker/talk.py; closest: "
+            "scripts/talk.py",
         ),
         Example(
             "packages that do not exist",
@@ -154,11 +144,9 @@ class EntryPointUnusable(Rule):
                 ),
                 "talker/__init__.py": "",
             },
-            Report(
-                "setup.py:5:9",
-                "`ros2 run` of 'a' fails: the package has no module 'talkr'; closest: talker",
-            ),
-            Report("setup.py:6:9", "`ros2 run` of 'b' fails: there is no directory listener/"),
+            "setup.py:5:9: `ros2 run` of 'a' fails: the package has no module 'talkr'; closest: "
+            "talker",
+            "setup.py:6:9: `ros2 run` of 'b' fails: there is no directory listener/",
         ),
         Example(
             "a module of another package here",
@@ -167,7 +155,7 @@ class EntryPointUnusable(Rule):
                 "talker/__init__.py": "",
                 "talker/node.py": "def main():\n    pass\n",
             },
-            Report("setup.py:5:9", "no module 'talkr.node' is installed; closest: 'talker.node'"),
+            "setup.py:5:9: no module 'talkr.node' is installed; closest: 'talker.node'",
         ),
         Example(
             "a function of a module that is there",
@@ -176,14 +164,12 @@ class EntryPointUnusable(Rule):
         Example(
             "without the package",
             {"setup.py": _SETUP_USE.format("node"), **_FILES},
-            Report("setup.py:6:39", "no module 'node' is installed; closest: 'talker.node'"),
+            "setup.py:6:39: no module 'node' is installed; closest: 'talker.node'",
         ),
         Example(
             "another package",
             {"setup.py": _SETUP_USE.format("my_package.node"), **_FILES},
-            Report(
-                "setup.py:6:39", "no module 'my_package.node' is installed; closest: 'talker.node'"
-            ),
+            "setup.py:6:39: no module 'my_package.node' is installed; closest: 'talker.node'",
         ),
         Example(
             "an argument",
@@ -192,11 +178,8 @@ class EntryPointUnusable(Rule):
                 **_FILES,
                 "talker/node.py": "def main(args):\n    pass\n",
             },
-            Report(
-                "talker/node.py:1:5",
-                "the entry point 'node' of setup.py calls main() without arguments: "
-                "TypeError; give args a default",
-            ),
+            "talker/node.py:1:5: the entry point 'node' of setup.py calls main() without "
+            "arguments: TypeError; give args a default",
         ),
         Example(
             "a node class",
@@ -206,9 +189,7 @@ class EntryPointUnusable(Rule):
                 "talker/node.py": "from rclpy.node import Node\n\n\n"
                 "class Talker(Node):\n    pass\n",
             },
-            Report(
-                "setup.py:6:39", "Talker is a node class: a program needs a function that spins it"
-            ),
+            "setup.py:6:39: Talker is a node class: a program needs a function that spins it",
         ),
     )
 

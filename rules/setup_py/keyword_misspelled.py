@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 
 _KNOWN = frozenset(
     """
@@ -48,17 +48,13 @@ class KeywordMisspelled(Rule):
         Example(
             "the keyword",
             {"setup.py": _SETUP.format("entry_point", _GROUP)},
-            Report(
-                "6:5", "setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'"
-            ),
+            "6:5: setup() ignores the unknown keyword 'entry_point'; closest: 'entry_points'",
         ),
         Example(
             "the group",
             {"setup.py": _SETUP.format("entry_points", "console_script")},
-            Report(
-                "7:9",
-                "setuptools ignores the unknown group 'console_script'; closest: 'console_scripts'",
-            ),
+            "7:9: setuptools ignores the unknown group 'console_script'; closest: "
+            "'console_scripts'",
         ),
     )
 

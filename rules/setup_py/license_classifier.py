@@ -57,11 +57,8 @@ class LicenseClassifier(Rule):
         Example(
             "nothing else names the license",
             {"setup.py": _SETUP.format("", f"        '{_APACHE}',\n")},
-            Report(
-                "7:9",
-                "setuptools 78.1.1 of Lyrical warns of license classifiers; write "
-                "license='...' instead",
-            ),
+            "7:9: setuptools 78.1.1 of Lyrical warns of license classifiers; write license='...' "
+            "instead",
             distro="lyrical",
         ),
     )

@@ -78,7 +78,7 @@ class MarkerMissing(Rule):
                 "setup.py": _SETUP.format(_BOTH.replace("resource/talker", "resource/listener")),
                 "resource/listener": "",
             },
-            Report("setup.py:5:18", "installs listener as marker, but the package is 'talker'"),
+            "setup.py:5:18: installs listener as marker, but the package is 'talker'",
         ),
     )
 

@@ -66,8 +66,8 @@ class MetadataDiffers(Rule):
         Example(
             "another version and another license",
             {"package.xml": _MANIFEST, "setup.py": _SETUP.format("0.1.0", "MIT")},
-            Report("setup.py:5:13", "version is '0.1.0', but '0.2.0' in package.xml, line 3"),
-            Report("setup.py:9:13", "license is 'MIT', but 'Apache-2.0' in package.xml, line 6"),
+            "setup.py:5:13: version is '0.1.0', but '0.2.0' in package.xml, line 3",
+            "setup.py:9:13: license is 'MIT', but 'Apache-2.0' in package.xml, line 6",
         ),
         Example(
             "long descriptions that begin with the same words",
@@ -79,11 +79,8 @@ class MetadataDiffers(Rule):
                     "Talks.", "Publishes greetings on a topic, ten times a minute."
                 ),
             },
-            Report(
-                "setup.py:8:17",
-                "description is '...c, ten times a minute.', but '...c, ten times a "
-                "second.' in package.xml, line 4",
-            ),
+            "setup.py:8:17: description is '...c, ten times a minute.', but '...c, ten times a "
+            "second.' in package.xml, line 4",
         ),
         Example(
             "one name",

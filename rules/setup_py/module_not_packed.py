@@ -59,7 +59,7 @@ class ModuleNotPacked(Rule):
         Example(
             "none",
             {"setup.py": _SETUP.format(""), **_FILES},
-            Report("setup.py:3:1", "packages leaves out 'talker', which the entry points start"),
+            "setup.py:3:1: packages leaves out 'talker', which the entry points start",
         ),
         Example(
             "excluded",
@@ -67,18 +67,13 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
                 **_FILES,
             },
-            Report(
-                "setup.py:5:14", "find_packages leaves out 'talker', which the entry points start"
-            ),
+            "setup.py:5:14: find_packages leaves out 'talker', which the entry points start",
         ),
         Example(
             "another name",
             {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
-            Report("setup.py:5:14", "packages leaves out 'talker', which the entry points start"),
-            Report(
-                "setup.py:5:14",
-                "packages names 'demo', but there is no such directory: the build stops",
-            ),
+            "setup.py:5:14: packages leaves out 'talker', which the entry points start",
+            "setup.py:5:14: packages names 'demo', but there is no such directory: the build stops",
         ),
         Example(
             "no __init__.py",
@@ -86,18 +81,13 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(),\n"),
                 "talker/node.py": "def main():\n    pass\n",
             },
-            Report(
-                "talker/__init__.py:1:1",
-                "missing: find_packages does not install talker/ without it",
-            ),
+            "talker/__init__.py:1:1: missing: find_packages does not install talker/ without it",
         ),
         Example(
             "no directory src",
             {"setup.py": _SETUP.format("    packages=find_packages(where='src'),\n"), **_FILES},
-            Report(
-                "setup.py:5:14",
-                "find_packages looks in src/, which does not exist: nothing is installed",
-            ),
+            "setup.py:5:14: find_packages looks in src/, which does not exist: nothing is "
+            "installed",
         ),
         Example(
             "a sub-package that CMake installs",
@@ -122,10 +112,8 @@ class ModuleNotPacked(Rule):
                     "setup", "['talker', 'talker/' + 'text', 'talker/models']"
                 ),
             },
-            Report(
-                "setup.py:5:14",
-                "packages names 'talker.models', but there is no talker/models/: the build stops",
-            ),
+            "setup.py:5:14: packages names 'talker.models', but there is no talker/models/: the "
+            "build stops",
         ),
         Example(
             "a sub-package left out with its tests",
@@ -162,10 +150,7 @@ class ModuleNotPacked(Rule):
         Example(
             "a directory of package_dir that is not there",
             {"setup.py": _SETUP_PLACES.format("    package_dir={'': 'lib'},\n"), **_FILES_PLACES},
-            Report(
-                "setup.py:5:17",
-                "package_dir names lib/, which does not exist: nothing is installed",
-            ),
+            "setup.py:5:17: package_dir names lib/, which does not exist: nothing is installed",
         ),
         Example(
             "a package among py_modules",
@@ -173,9 +158,7 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP_PLACES.format("    py_modules=['talker'],\n"),
                 "talker/__init__.py": "",
             },
-            Report(
-                "setup.py:5:16", "talker/ is a package: it belongs in packages, not in py_modules"
-            ),
+            "setup.py:5:16: talker/ is a package: it belongs in packages, not in py_modules",
         ),
     )
 

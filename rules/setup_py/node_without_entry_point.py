@@ -74,11 +74,8 @@ class NodeWithoutEntryPoint(Rule):
                 **_FILES,
                 "README.md": "Run it:\n\n    ros2 run talker other\n",
             },
-            Report(
-                "setup.py:6:18",
-                "talker/other.py is a node with a main function, but no entry point "
-                "starts it; add 'other = talker.other:main'",
-            ),
+            "setup.py:6:18: talker/other.py is a node with a main function, but no entry point "
+            "starts it; add 'other = talker.other:main'",
         ),
     )
 

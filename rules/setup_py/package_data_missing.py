@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.install import own_files
 from scaffold.api.setup_py import matches, package_data
 
@@ -53,11 +53,8 @@ class PackageDataMissing(Rule):
         Example(
             "excluded",
             {**_FILES, "setup.py": _SETUP.format("")},
-            Report(
-                "setup.py:5:14",
-                "talker/text.py:3 reads talker/words.txt, which is not installed; "
-                "add package_data={'talker': ['words.txt']}",
-            ),
+            "setup.py:5:14: talker/text.py:3 reads talker/words.txt, which is not installed; add "
+            "package_data={'talker': ['words.txt']}",
         ),
         Example(
             "read as a resource; another file is installed",
@@ -67,11 +64,8 @@ class PackageDataMissing(Rule):
                 "WORDS = files('talker').joinpath('words.txt').read_text()\n",
                 "setup.py": _SETUP.format("    package_data={'talker': ['*.json']},\n"),
             },
-            Report(
-                "setup.py:6:18",
-                "talker/text.py:3 reads talker/words.txt, which is not installed; "
-                "add package_data={'talker': ['words.txt']}",
-            ),
+            "setup.py:6:18: talker/text.py:3 reads talker/words.txt, which is not installed; add "
+            "package_data={'talker': ['words.txt']}",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import Glob
 from scaffold.api.setup_py import matches
 
@@ -72,11 +72,8 @@ class SetupFileMissing(Rule):
                 "maps/small/map.yaml": "",
                 "maps/map.yaml": "",
             },
-            Report(
-                "setup.py:9:33",
-                "the pattern config/* matches the directory config/arm, which "
-                "cannot be copied: the build stops; list it separately",
-            ),
+            "setup.py:9:33: the pattern config/* matches the directory config/arm, which cannot "
+            "be copied: the build stops; list it separately",
         ),
         Example(
             "no such file, and files with another ending",
@@ -88,11 +85,9 @@ class SetupFileMissing(Rule):
                 "package.xml": "<package/>\n",
                 "launch/talk.launch.py": "",
             },
-            Report("setup.py:8:42", "data_files names LICENCE, which is not there"),
-            Report(
-                "setup.py:9:33",
-                "the pattern launch/*_launch.py matches no file; closest: launch/talk.launch.py",
-            ),
+            "setup.py:8:42: data_files names LICENCE, which is not there",
+            "setup.py:9:33: the pattern launch/*_launch.py matches no file; closest: "
+            "launch/talk.launch.py",
         ),
         Example(
             "a file that is read",
@@ -109,12 +104,12 @@ class SetupFileMissing(Rule):
         Example(
             "a file to read is missing",
             {"setup.py": _SETUP_READ.format(_READ)},
-            Report("5:27", "setup.py opens README.md, which does not exist: the build stops"),
+            "5:27: setup.py opens README.md, which does not exist: the build stops",
         ),
         Example(
             "a script is missing",
             {"setup.py": _SETUP_READ.format("scripts=['scripts/talk']")},
-            Report("5:13", "scripts names scripts/talk, which does not exist: the build stops"),
+            "5:13: scripts names scripts/talk, which does not exist: the build stops",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 
 _MANIFEST = (
     "<package format='3'><name>talker</name><export><build_type>{}</build_type></export>"
@@ -43,11 +43,8 @@ class SetupOfCatkin(Rule):
         Example(
             "for ament_python",
             {"package.xml": _MANIFEST.format("ament_python"), "setup.py": _SETUP},
-            Report(
-                "setup.py:2:1",
-                "generate_distutils_setup() belongs to catkin: the build type "
-                "ament_python needs setup() with data_files and entry_points",
-            ),
+            "setup.py:2:1: generate_distutils_setup() belongs to catkin: the build type "
+            "ament_python needs setup() with data_files and entry_points",
         ),
     )
 

@@ -53,10 +53,8 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "config/talker.yaml": "",
             },
-            Report(
-                "setup.py:7:16",
-                "data_files does not install launch/talk.launch.py: `ros2 launch` does not find it",
-            ),
+            "setup.py:7:16: data_files does not install launch/talk.launch.py: `ros2 launch` does "
+            "not find it",
             Report(
                 "setup.py:7:16",
                 "data_files installs nothing of config/, for instance config/talker.yaml",
@@ -83,9 +81,7 @@ class ShareFileNotInstalled(Rule):
                 "data_files installs nothing of config/, for instance config/talker.yaml",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "setup.py:7:16", "data_files installs nothing of maps/, for instance maps/hall.pgm"
-            ),
+            "setup.py:7:16: data_files installs nothing of maps/, for instance maps/hall.pgm",
             Report(
                 "setup.py:7:16",
                 "data_files installs nothing of rviz/, for instance rviz/view.rviz",
@@ -130,10 +126,8 @@ class ShareFileNotInstalled(Rule):
                 "launch/talk.launch.py": _LAUNCH,
                 "launch/talk_all.py": _LAUNCH,
             },
-            Report(
-                "setup.py:7:16",
-                "data_files does not install launch/talk_all.py: `ros2 launch` does not find it",
-            ),
+            "setup.py:7:16: data_files does not install launch/talk_all.py: `ros2 launch` does "
+            "not find it",
         ),
     )
 

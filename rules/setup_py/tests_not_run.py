@@ -144,11 +144,8 @@ class TestsNotRun(Rule):
                     "    tests_require='pytest',\n    extras_require={'dev': ['black']},\n"
                 )
             },
-            Report(
-                "5:19",
-                "setuptools of Lyrical ignores tests_require: colcon runs 0 tests; add 'test': "
-                "['pytest'] to extras_require",
-            ),
+            "5:19: setuptools of Lyrical ignores tests_require: colcon runs 0 tests; add 'test': "
+            "['pytest'] to extras_require",
             distro="lyrical",
         ),
         Example(

@@ -81,11 +81,8 @@ class AssertMethodMisused(TestRule):
         Example(
             "gone, and no other has its arguments",
             {"test/test_text.py": _TEST.format("assertDictContainsSubset")},
-            Report(
-                "6:9",
-                "assertDictContainsSubset was removed in Python 3.12: "
-                "AttributeError; use assertLessEqual(part.items(), whole.items())",
-            ),
+            "6:9: assertDictContainsSubset was removed in Python 3.12: AttributeError; use "
+            "assertLessEqual(part.items(), whole.items())",
         ),
         Example(
             "of Python 2",
@@ -109,7 +106,7 @@ class AssertMethodMisused(TestRule):
         Example(
             "not compared",
             {"test/test_text.py": _TEST.format("assertTrue").replace("'A'", "['A']")},
-            Report("6:9", "assertTrue checks one value, the second is a message; use assertEqual"),
+            "6:9: assertTrue checks one value, the second is a message; use assertEqual",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Severity, TestRule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Severity, TestRule, ViewError
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import test_functions
 
@@ -48,8 +48,8 @@ class AssertionWithoutEffect(TestRule):
                     "    1 == ready()\n    pytest.raises(ValueError)\n"
                 )
             },
-            Report("9:5", "the result of this comparison is ignored: write assert before it"),
-            Report("10:5", "nothing is called here: write `with pytest.raises(...):`"),
+            "9:5: the result of this comparison is ignored: write assert before it",
+            "10:5: nothing is called here: write `with pytest.raises(...):`",
         ),
         Example(
             "an error that is dropped",
@@ -58,18 +58,18 @@ class AssertionWithoutEffect(TestRule):
                     "    try:\n        assert ready()\n    except Exception:\n        pass\n"
                 )
             },
-            Report("11:5", "this discards the AssertionError: the test always passes"),
+            "11:5: this discards the AssertionError: the test always passes",
         ),
         Example("a function that is called", {"test/test_text.py": _ASSERTION.format("ready()")}),
         Example(
             "a function that is not called",
             {"test/test_text.py": _ASSERTION.format("ready")},
-            Report("6:5", "ready is a function, which is always true: call it"),
+            "6:5: ready is a function, which is always true: call it",
         ),
         Example(
             "a text next to a comparison",
             {"test/test_text.py": _ASSERTION.format("ready() == 'a' or 'b'")},
-            Report("6:5", "one side of this `or` is always true: compare with it as well"),
+            "6:5: one side of this `or` is always true: compare with it as well",
         ),
         Example(
             "values for who reads the failure",
@@ -78,9 +78,7 @@ class AssertionWithoutEffect(TestRule):
         Example(
             "a comma for a comparison",
             {"test/test_text.py": _ASSERTION.format("len('ab'), 2\n    assert ready(), 'b'")},
-            Report(
-                "6:5", "what follows the comma is only the message: write == to compare with it"
-            ),
+            "6:5: what follows the comma is only the message: write == to compare with it",
         ),
         Example(
             "calls without parentheses, a mock, a string",
@@ -90,14 +88,11 @@ class AssertionWithoutEffect(TestRule):
                 "test/test_c.py": _ASSERTION.format("ready.called_once()"),
                 "test/test_d.py": _ASSERTION.format("'ready'"),
             },
-            Report("test/test_a.py:9:5", "pytest.skip is not called: missing parentheses"),
-            Report("test/test_b.py:9:5", "rclpy.ok is a function, which is always true: call it"),
-            Report(
-                "test/test_c.py:6:5",
-                "a mock has no called_once(): it fails, or is always true; use "
-                "assert_called_once()",
-            ),
-            Report("test/test_d.py:6:5", "a non-empty string is always true: nothing is asserted"),
+            "test/test_a.py:9:5: pytest.skip is not called: missing parentheses",
+            "test/test_b.py:9:5: rclpy.ok is a function, which is always true: call it",
+            "test/test_c.py:6:5: a mock has no called_once(): it fails, or is always true; use "
+            "assert_called_once()",
+            "test/test_d.py:6:5: a non-empty string is always true: nothing is asserted",
         ),
         Example(
             "a method of a class of the package, called and named",
@@ -113,7 +108,7 @@ class AssertionWithoutEffect(TestRule):
                 "    assert not talker.is_done()\n"
                 "    assert talker.is_done\n",
             },
-            Report("test/test_talker.py:8:5", "is_done is a method, which is always true: call it"),
+            "test/test_talker.py:8:5: is_done is a method, which is always true: call it",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api import Diagnostic, Example, TestRule
 from scaffold.api.python import PythonModule
 
 _TEST = (
@@ -48,11 +48,8 @@ class CallbackAssertionLost(TestRule):
         Example(
             "asserted in the other thread",
             {"test/test_a.py": _TEST.format(_THREAD, "assert msg.data == 'hello'")},
-            Report(
-                "12:9",
-                "another thread runs this callback: a failure ends that thread, and "
-                "the test passes; collect what arrives and assert in the test",
-            ),
+            "12:9: another thread runs this callback: a failure ends that thread, and the test "
+            "passes; collect what arrives and assert in the test",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import (
     LAUNCH,
@@ -58,20 +58,18 @@ class FixtureMisused(Rule):
         Example(
             "called",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text()")},
-            Report("10:12", "text is a fixture: take it as an argument instead of calling it"),
+            "10:12: text is a fixture: take it as an argument instead of calling it",
         ),
         Example(
             "another name",
             {"test/test_text.py": _TEST.format("return 'a'", "txt", "txt")},
-            Report("9:5", "there is no fixture 'txt'; closest: 'text'"),
+            "9:5: there is no fixture 'txt'; closest: 'text'",
         ),
         Example(
             "not asked for, and used all the same",
             {"test/test_text.py": _TEST.format("return 'a'", "", "text")},
-            Report(
-                "10:12",
-                "text is the fixture itself here, a function: take it as an argument of the test",
-            ),
+            "10:12: text is the fixture itself here, a function: take it as an argument of the "
+            "test",
         ),
         Example(
             "a function without the decorator",
@@ -80,39 +78,33 @@ class FixtureMisused(Rule):
                     "@pytest.fixture\n", ""
                 )
             },
-            Report(
-                "8:5",
-                ("text() is not a fixture: pytest finds none with this name; add @pytest.fixture"),
-            ),
+            "8:5: text() is not a fixture: pytest finds none with this name; add @pytest.fixture",
         ),
         Example(
             "nothing returned",
             {"test/test_text.py": _TEST.format("print('a')", "text", "text.lower()")},
-            Report("10:12", "the fixture text returns nothing, so this is None"),
+            "10:12: the fixture text returns nothing, so this is None",
         ),
         Example(
             "self outside of a class",
             {"test/test_text.py": _TEST.format("return 'a'", "self", "'a'")},
-            Report("9:5", "test_text is not a method: pytest finds no fixture 'self'"),
+            "9:5: test_text is not a method: pytest finds no fixture 'self'",
         ),
         Example("a fixture for one test", {"test/test_text.py": _TEST_MADE.format("function", "")}),
         Example(
             "a scope that does not exist",
             {"test/test_text.py": _TEST_MADE.format("modul", "")},
-            Report(
-                "9:2",
-                "unknown scope 'modul'; choose from function, class, module, package, session",
-            ),
+            "9:2: unknown scope 'modul'; choose from function, class, module, package, session",
         ),
         Example(
             "a wider scope than that of what it takes",
             {"test/test_text.py": _TEST_MADE.format("module", "")},
-            Report("9:2", "a fixture of scope 'module' cannot use word of scope 'function'"),
+            "9:2: a fixture of scope 'module' cannot use word of scope 'function'",
         ),
         Example(
             "two values",
             {"test/test_text.py": _TEST_MADE.format("function", "    yield 'b'\n")},
-            Report("9:2", "the fixture text yields twice: pytest takes one value"),
+            "9:2: the fixture text yields twice: pytest takes one value",
         ),
     )
 

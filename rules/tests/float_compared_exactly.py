@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Severity, TestRule
+from scaffold.api import Diagnostic, Example, Package, Severity, TestRule
 from scaffold.api.python import PythonModule
 
 _CODE = (
@@ -51,25 +51,16 @@ class FloatComparedExactly(TestRule):
                 "test/test_a.py": _TEST.format("w == 0.0"),
                 "test/test_b.py": _TEST.format("math.sqrt(2.0) ** 2 == 2.0"),
             },
-            Report(
-                "test/test_a.py:9:12",
-                "w is computed: it may differ by rounding, and the test fails; "
-                "compare with pytest.approx(...)",
-            ),
-            Report(
-                "test/test_b.py:9:12",
-                "math.sqrt(2.0) ** 2 is computed: it may differ by rounding, and "
-                "the test fails; compare with pytest.approx(...)",
-            ),
+            "test/test_a.py:9:12: w is computed: it may differ by rounding, and the test fails; "
+            "compare with pytest.approx(...)",
+            "test/test_b.py:9:12: math.sqrt(2.0) ** 2 is computed: it may differ by rounding, and "
+            "the test fails; compare with pytest.approx(...)",
         ),
         Example(
             "a sum",
             {"test/test_a.py": _TEST.format("0.1 + 0.2 == 0.3")},
-            Report(
-                "9:12",
-                "0.1 + 0.2 is computed: it may differ by rounding, and the test "
-                "fails; compare with pytest.approx(...)",
-            ),
+            "9:12: 0.1 + 0.2 is computed: it may differ by rounding, and the test fails; compare "
+            "with pytest.approx(...)",
         ),
     )
 

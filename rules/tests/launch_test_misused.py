@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import (
     FunctionNode,
     PythonModule,
@@ -63,42 +63,28 @@ class LaunchTestMisused(Rule):
                 "launch/b.launch.py": "from launch import LaunchDescription\n\n\n"
                 "def generate_test_description():\n    return LaunchDescription([])\n",
             },
-            Report(
-                "test/test_a.py:8:5",
-                "generate_test_description has no ReadyToTest() in its list: "
-                "launch_testing rejects it",
-            ),
+            "test/test_a.py:8:5: generate_test_description has no ReadyToTest() in its list: "
+            "launch_testing rejects it",
         ),
         Example(
             "never ready",
             {"setup.py": "", "test/test_talker.py": _TEST.format(*_RIGHT[:2], "", _RIGHT[3])},
-            Report(
-                "test/test_talker.py:9:5",
-                "generate_test_description has no ReadyToTest() in its list: "
-                "launch_testing rejects it",
-            ),
+            "test/test_talker.py:9:5: generate_test_description has no ReadyToTest() in its list: "
+            "launch_testing rejects it",
         ),
         Example(
             "no mark",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", *_RIGHT[1:])},
-            Report(
-                "test/test_talker.py:8:5",
-                "@pytest.mark.launch_test is missing: pytest does not start what "
-                "generate_test_description describes",
-            ),
+            "test/test_talker.py:8:5: @pytest.mark.launch_test is missing: pytest does not start "
+            "what generate_test_description describes",
         ),
         Example(
             "nothing returned, no TestCase",
             {"setup.py": "", "test/test_talker.py": _TEST.format("", "", _RIGHT[2], "object")},
-            Report(
-                "test/test_talker.py:8:5",
-                "generate_test_description returns nothing: launch_testing needs a "
-                "LaunchDescription",
-            ),
-            Report(
-                "test/test_talker.py:12:7",
-                "launch_testing does not run TestTalker: it is not a TestCase",
-            ),
+            "test/test_talker.py:8:5: generate_test_description returns nothing: launch_testing "
+            "needs a LaunchDescription",
+            "test/test_talker.py:12:7: launch_testing does not run TestTalker: it is not a "
+            "TestCase",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api import Diagnostic, Example, TestRule
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import keywords, marks, test_functions
 
@@ -48,7 +48,7 @@ class MarkMisused(TestRule):
         Example(
             "misspelled",
             {"test/test_text.py": _TEST.format("parameterize", "[('a', 1)]")},
-            Report("4:2", "pytest has no mark 'parameterize'; closest: 'parametrize'"),
+            "4:2: pytest has no mark 'parameterize'; closest: 'parametrize'",
         ),
         Example(
             "no reason",
@@ -56,18 +56,18 @@ class MarkMisused(TestRule):
                 "test/test_text.py": "import pytest\n\n\n@pytest.mark.skipif(True)\n"
                 "def test_one():\n    pass\n"
             },
-            Report("4:2", "a condition that is not a string needs reason='...': pytest stops here"),
+            "4:2: a condition that is not a string needs reason='...': pytest stops here",
         ),
         Example("as many values as names", {"test/test_text.py": _PARAMETERS.format("[('a', 1)]")}),
         Example(
             "a value too many",
             {"test/test_text.py": _PARAMETERS.format("[('a', 1), ('b', 1, 2)]")},
-            Report("4:2", "there are 2 names, and ('b', 1, 2) has 3 values"),
+            "4:2: there are 2 names, and ('b', 1, 2) has 3 values",
         ),
         Example(
             "no values",
             {"test/test_text.py": _PARAMETERS.format("[]")},
-            Report("4:2", "there are no values: pytest skips the test"),
+            "4:2: there are no values: pytest skips the test",
         ),
         Example(
             "neither names nor values; no values",
@@ -77,8 +77,8 @@ class MarkMisused(TestRule):
                 "    pass\n\n\n@pytest.mark.parametrize('word')\ndef test_two(word):\n"
                 "    pass\n"
             },
-            Report("4:2", "parametrize needs names and values"),
-            Report("9:2", "parametrize needs the values as well as the names"),
+            "4:2: parametrize needs names and values",
+            "9:2: parametrize needs the values as well as the names",
         ),
     )
 

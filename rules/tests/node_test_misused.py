@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import (
     TestFunction,
@@ -61,11 +61,8 @@ class NodeTestMisused(Rule):
         Example(
             "no init, nothing spins",
             {"test/test_node.py": _TEST.format("pass", "pass")},
-            Report(
-                "8:12",
-                "nothing calls rclpy.init() before this node is made: NotInitializedException",
-            ),
-            Report("10:5", "nothing spins in this test, so the callback is never called"),
+            "8:12: nothing calls rclpy.init() before this node is made: NotInitializedException",
+            "10:5: nothing spins in this test, so the callback is never called",
         ),
         Example(
             "initialized again",
@@ -73,7 +70,7 @@ class NodeTestMisused(Rule):
                 "test/test_node.py": "import rclpy\n\n\ndef test_one():\n    rclpy.init()\n\n\n"
                 "def test_two():\n    rclpy.init()\n"
             },
-            Report("9:5", "the test in line 5 calls init() as well, but nothing calls shutdown()"),
+            "9:5: the test in line 5 calls init() as well, but nothing calls shutdown()",
         ),
         Example(
             "spun until it has arrived",
@@ -82,12 +79,9 @@ class NodeTestMisused(Rule):
         Example(
             "slept until it has arrived",
             {"test/test_a.py": _TEST_SPIN.format("time.sleep(0.5)")},
-            Report("11:5", "nothing spins in this test, so the callback is never called"),
-            Report(
-                "12:5",
-                "nothing spins the node while the test sleeps: no callback runs, "
-                "and line 13 fails; call rclpy.spin_once() in a loop instead",
-            ),
+            "11:5: nothing spins in this test, so the callback is never called",
+            "12:5: nothing spins the node while the test sleeps: no callback runs, and line 13 "
+            "fails; call rclpy.spin_once() in a loop instead",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Report, TestRule
+from scaffold.api import Diagnostic, Example, TestRule
 from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import LAUNCH, arguments, is_test_case, marks, methods
 
@@ -47,15 +47,13 @@ class TestCaseMisused(TestRule):
         Example(
             "set_up, a fixture",
             {"test/test_text.py": _TEST.format(_CASE, "set_up", ", tmp_path")},
-            Report("5:9", "unittest never calls set_up; use setUp"),
-            Report(
-                "8:9", "unittest gives test_text no arguments, but it takes 'tmp_path': TypeError"
-            ),
+            "5:9: unittest never calls set_up; use setUp",
+            "8:9: unittest gives test_text no arguments, but it takes 'tmp_path': TypeError",
         ),
         Example(
             "setUp without TestCase",
             {"test/test_text.py": _TEST.format("object", "setUp", "")},
-            Report("5:9", "pytest calls setUp in a TestCase only; use setup_method"),
+            "5:9: pytest calls setUp in a TestCase only; use setup_method",
         ),
         Example(
             "an argument of setUp, an instance method setUpClass, parametrize",
@@ -68,18 +66,10 @@ class TestCaseMisused(TestRule):
                 .replace("    def test_", "    @pytest.mark.parametrize('a', [1])\n    def test_")
                 .replace("import ", "import pytest\nimport "),
             },
-            Report(
-                "test/test_a.py:5:9",
-                "unittest calls setUp with self only, but it takes 2 arguments",
-            ),
-            Report(
-                "test/test_b.py:5:9",
-                "unittest calls setUpClass on the class: @classmethod is missing",
-            ),
-            Report(
-                "test/test_c.py:10:9",
-                "parametrize does nothing in a TestCase: test_text fails with TypeError",
-            ),
+            "test/test_a.py:5:9: unittest calls setUp with self only, but it takes 2 arguments",
+            "test/test_b.py:5:9: unittest calls setUpClass on the class: @classmethod is missing",
+            "test/test_c.py:10:9: parametrize does nothing in a TestCase: test_text fails with "
+            "TypeError",
         ),
     )
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity, ViewError
 from scaffold.api.python import PythonModule
 
 DIRECTORIES = ("test/", "tests/")
@@ -46,10 +46,8 @@ class TestFileNotCollected(Rule):
         Example(
             "a name that pytest passes over",
             {"setup.py": "", "test/talker_tests.py": "def test_talk():\n    pass\n"},
-            Report(
-                "test/talker_tests.py:1:1",
-                "test_talk() never runs: pytest collects test_*.py and *_test.py only",
-            ),
+            "test/talker_tests.py:1:1: test_talk() never runs: pytest collects test_*.py and "
+            "*_test.py only",
         ),
     )
 

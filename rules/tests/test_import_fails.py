@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import Import, PythonModule
 from scaffold.api.tests import settings_or_tests_mention, test_modules
 
@@ -41,11 +41,9 @@ class TestImportFails(Rule):
                 "test/test_b.py": _TEST.format("from test.helpers import make"),
                 **_HELPER,
             },
-            Report("test/test_a.py:1:1", "a relative import fails: test/ has no __init__.py"),
-            Report(
-                "test/test_b.py:1:1",
-                "test is a package of Python itself: write `from helpers import ...`",
-            ),
+            "test/test_a.py:1:1: a relative import fails: test/ has no __init__.py",
+            "test/test_b.py:1:1: test is a package of Python itself: write `from helpers import "
+            "...`",
         ),
         Example(
             "the directory is a package",
@@ -55,7 +53,7 @@ class TestImportFails(Rule):
                 "test/test_a.py": _TEST.format("from helpers import make"),
                 **_HELPER,
             },
-            Report("test/test_a.py:1:1", "test/ is a package: write `from .helpers import ...`"),
+            "test/test_a.py:1:1: test/ is a package: write `from .helpers import ...`",
         ),
     )
 

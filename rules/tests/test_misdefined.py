@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError
 from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import files_of_tests
 
@@ -41,8 +41,8 @@ class TestMisdefined(Rule):
                 "test/test_text.py": _TEST.format("number", "self, ")
                 + "\n    def test_all():\n        assert True\n"
             },
-            Report("5:30", "test_text takes no argument 'number': pytest stops here"),
-            Report("9:9", "test_all is a method without self: TypeError"),
+            "5:30: test_text takes no argument 'number': pytest stops here",
+            "9:9: test_all is a method without self: TypeError",
         ),
         Example(
             "a name that a fixture takes",
@@ -54,10 +54,7 @@ class TestMisdefined(Rule):
         Example(
             "the section of setup.cfg",
             {"setup.py": "", "setup.cfg": "[pytest]\nxfail_strict = true\n"},
-            Report(
-                "setup.cfg:1:2",
-                "pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
-            ),
+            "setup.cfg:1:2: pytest refuses the section [pytest] in setup.cfg: it is [tool:pytest]",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule
+from scaffold.api import Diagnostic, Example, Package, Rule
 from scaffold.api.python import PythonModule
 from scaffold.api.tests import constructed_class, node_tests, runs_around_tests, test_functions
 
@@ -44,11 +44,8 @@ class TestNeverEnds(Rule):
                     "client = node.create_client(Trigger, 'a')\n    client.call(Trigger.Request())"
                 )
             },
-            Report(
-                "9:5",
-                "call() waits for a response while nothing spins: use call_async, "
-                "and spin until it is done",
-            ),
+            "9:5: call() waits for a response while nothing spins: use call_async, and spin until "
+            "it is done",
         ),
         Example(
             "a callback that shuts down",
@@ -65,16 +62,12 @@ class TestNeverEnds(Rule):
                 "test/test_node.py": _TEST.format("rclpy.spin(node)\n    rclpy.shutdown()")
                 + "\n\ndef teardown_function():\n    rclpy.try_shutdown()\n"
             },
-            Report(
-                "8:5", "nothing ends this: the test waits forever; use spin_once with timeout_sec"
-            ),
+            "8:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
         ),
         Example(
             "for ever",
             {"test/test_node.py": _TEST.format("rclpy.spin(node)")},
-            Report(
-                "8:5", "nothing ends this: the test waits forever; use spin_once with timeout_sec"
-            ),
+            "8:5: nothing ends this: the test waits forever; use spin_once with timeout_sec",
         ),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.python import FunctionNode, PythonModule
 from scaffold.api.tests import (
     fixture_decorator,
@@ -52,12 +52,12 @@ class TestNeverRun(Rule):
         Example(
             "another name",
             {"test/test_text.py": _TEST.format(_CHECK)},
-            Report("5:5", "pytest does not run check: its name does not begin with test"),
+            "5:5: pytest does not run check: its name does not begin with test",
         ),
         Example(
             "a class of another name",
             {"test/test_text.py": _TEST.format(_CLASS)},
-            Report("5:7", "pytest does not run TextTests: its name does not begin with Test"),
+            "5:7: pytest does not run TextTests: its name does not begin with Test",
         ),
         Example(
             "inside of a test: a class that the test runs",
@@ -66,7 +66,7 @@ class TestNeverRun(Rule):
         Example(
             "inside of a test: a function that nothing calls",
             {"test/test_text.py": _OUTER.format(_MORE)},
-            Report("8:5", "test_more is inside test_text: pytest does not collect it"),
+            "8:5: test_more is inside test_text: pytest does not collect it",
         ),
         Example(
             "a method of another name, a fixture",
@@ -77,18 +77,18 @@ class TestNeverRun(Rule):
                 + _CLASS.replace("TextTests", "TestText")
                 + "\n    def check(self):\n        assert True\n"
             },
-            Report("5:5", "test_data is a fixture, so pytest does not run it as a test"),
-            Report("13:9", "pytest does not run check: its name does not begin with test"),
+            "5:5: test_data is a fixture, so pytest does not run it as a test",
+            "13:9: pytest does not run check: its name does not begin with test",
         ),
         Example(
             "a coroutine",
             {"test/test_text.py": _TEST_BODIES.format("async ", "assert True")},
-            Report("1:11", "test_text is a coroutine: pytest does not run it by itself"),
+            "1:11: test_text is a coroutine: pytest does not run it by itself",
         ),
         Example(
             "a generator",
             {"test/test_text.py": _TEST_BODIES.format("", "yield 1")},
-            Report("1:5", "test_text yields: pytest does not run such a test"),
+            "1:5: test_text yields: pytest does not run such a test",
         ),
     )
 

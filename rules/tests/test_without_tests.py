@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Location, Report, Severity, TestRule
+from scaffold.api import Diagnostic, Example, Location, Severity, TestRule
 from scaffold.api.python import PythonModule
 
 _LAUNCH = ("generate_test_description", "launch_description", "pytest_generate_tests")
@@ -30,7 +30,7 @@ class TestWithoutTests(TestRule):
         Example(
             "another name",
             {"test/test_text.py": "def check_text():\n    assert True\n"},
-            Report("1:1", "pytest collects no test here: names begin with test_ or Test"),
+            "1:1: pytest collects no test here: names begin with test_ or Test",
         ),
         Example(
             "a class with a constructor",
@@ -39,12 +39,12 @@ class TestWithoutTests(TestRule):
                 "    def __init__(self):\n        self.n = 1\n\n"
                 "    def test_text(self):\n        assert self.n\n"
             },
-            Report("1:7", "pytest does not collect TestText: it has a constructor"),
+            "1:7: pytest does not collect TestText: it has a constructor",
         ),
         Example(
             "a comparison that is returned",
             {"test/test_text.py": "def test_text():\n    return 1 == 2\n"},
-            Report("2:5", "the return value of a test is ignored: use assert"),
+            "2:5: the return value of a test is ignored: use assert",
         ),
     )
 

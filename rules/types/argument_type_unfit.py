@@ -6,7 +6,7 @@ import ast
 import re
 import sys
 
-from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api import Diagnostic, Example, TypeRule
 from scaffold.api.types import (
     MARKED,
     TypeFinding,
@@ -163,11 +163,8 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "what a method is called with",
             {"speaker.py": _SPEAKER.format("String(data='hello')", "'hello'")},
-            Report(
-                "15:29",
-                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
-                "str: publish() fails ('text' comes from line 19)",
-            ),
+            "15:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a str: "
+            "publish() fails ('text' comes from line 19)",
         ),
         Example(
             "what a method is called with, whatever its annotation says",
@@ -176,11 +173,8 @@ class ArgumentTypeUnfit(TypeRule):
                     "def show(self, text)", "def show(self, text: String)"
                 )
             },
-            Report(
-                "15:29",
-                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
-                "str: publish() fails ('text' comes from line 19)",
-            ),
+            "15:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a str: "
+            "publish() fails ('text' comes from line 19)",
         ),
         Example(
             "a default that nobody replaces",
@@ -192,11 +186,8 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.create_timer(period, print)\n\n\n"
                 "Beat()\n"
             },
-            Report(
-                "7:27",
-                "'timer_period_sec' of create_timer() must be a float, not a str: "
-                "create_timer() fails ('period' comes from line 5)",
-            ),
+            "7:27: 'timer_period_sec' of create_timer() must be a float, not a str: "
+            "create_timer() fails ('period' comes from line 5)",
         ),
         Example(
             "what other methods are called with: messages, or what is not known",
@@ -227,11 +218,8 @@ class ArgumentTypeUnfit(TypeRule):
                 "    def on_imu(self, imu: Imu) -> None:\n"
                 "        self.age = self.seconds(self.get_clock().now(), imu.header)\n"
             },
-            Report(
-                "13:37",
-                "'msg' of from_msg() must be a builtin_interfaces.msg.Time, not a "
-                "std_msgs.msg.Header: from_msg() fails ('stamp' comes from line 16)",
-            ),
+            "13:37: 'msg' of from_msg() must be a builtin_interfaces.msg.Time, not a "
+            "std_msgs.msg.Header: from_msg() fails ('stamp' comes from line 16)",
         ),
         Example(
             "a number and a result for the feedback",
@@ -249,19 +237,11 @@ class ArgumentTypeUnfit(TypeRule):
                 "        goal.publish_feedback(Fibonacci.Result())\n"
                 "        goal.succeed()\n        return Fibonacci.Result()\n"
             },
-            Report(
-                "16:35",
-                "'feedback' of publish_feedback() must be an "
-                "example_interfaces.action.Fibonacci.Feedback, not a float: "
-                "publish_feedback() fails",
-            ),
-            Report(
-                "18:31",
-                "'feedback' of publish_feedback() must be an "
-                "example_interfaces.action.Fibonacci.Feedback, not an "
-                "example_interfaces.action.Fibonacci.Result: publish_feedback() "
-                "fails",
-            ),
+            "16:35: 'feedback' of publish_feedback() must be an "
+            "example_interfaces.action.Fibonacci.Feedback, not a float: publish_feedback() fails",
+            "18:31: 'feedback' of publish_feedback() must be an "
+            "example_interfaces.action.Fibonacci.Feedback, not an "
+            "example_interfaces.action.Fibonacci.Result: publish_feedback() fails",
         ),
         Example(
             "what is sent through a publisher, a client of a service or of an action",
@@ -291,39 +271,19 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.counter.send_goal_async(Fibonacci.Goal)\n"
                 "        self.counter.send_goal_async(3)\n"
             },
-            Report(
-                "23:29",
-                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
-                "std_msgs.msg.Bool: publish() fails",
-            ),
-            Report(
-                "24:29",
-                "'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
-                "str: publish() fails",
-            ),
-            Report(
-                "25:34",
-                "'request' of call_async() must be a std_srvs.srv.Trigger.Request, "
-                "not a std_srvs.srv.Trigger.Response: call_async() fails",
-            ),
-            Report(
-                "26:34",
-                "'request' of call_async() must be a std_srvs.srv.Trigger.Request, "
-                "not the class 'Trigger': call_async() fails; write "
-                "Trigger.Request()",
-            ),
-            Report(
-                "27:38",
-                "'goal' of send_goal_async() must be an "
-                "example_interfaces.action.Fibonacci.Goal, not the class "
-                "'Fibonacci.Goal': send_goal_async() fails; write Fibonacci.Goal()",
-            ),
-            Report(
-                "28:38",
-                "'goal' of send_goal_async() must be an "
-                "example_interfaces.action.Fibonacci.Goal, not an int: "
-                "send_goal_async() fails",
-            ),
+            "23:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+            "std_msgs.msg.Bool: publish() fails",
+            "24:29: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a str: "
+            "publish() fails",
+            "25:34: 'request' of call_async() must be a std_srvs.srv.Trigger.Request, not a "
+            "std_srvs.srv.Trigger.Response: call_async() fails",
+            "26:34: 'request' of call_async() must be a std_srvs.srv.Trigger.Request, not the "
+            "class 'Trigger': call_async() fails; write Trigger.Request()",
+            "27:38: 'goal' of send_goal_async() must be an "
+            "example_interfaces.action.Fibonacci.Goal, not the class 'Fibonacci.Goal': "
+            "send_goal_async() fails; write Fibonacci.Goal()",
+            "28:38: 'goal' of send_goal_async() must be an "
+            "example_interfaces.action.Fibonacci.Goal, not an int: send_goal_async() fails",
         ),
         Example(
             "what is no list of parameters",
@@ -337,22 +297,13 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.set_parameters({'rate': 2.0})\n"
                 "        self.set_parameters([('rate', 2.0)])\n"
             },
-            Report(
-                "8:29",
-                "'parameter_list' of set_parameters() must be a list, not an "
-                "rclpy.parameter.Parameter: set_parameters() fails",
-            ),
-            Report(
-                "9:29",
-                "'parameter_list' of set_parameters() must be a list, not a dict: "
-                "set_parameters() fails",
-            ),
-            Report(
-                "10:29",
-                "'parameter_list' of set_parameters() must be a list of "
-                "rclpy.parameter.Parameter, not a list of rclpy.parameter.Parameter "
-                "or tuple: set_parameters() fails",
-            ),
+            "8:29: 'parameter_list' of set_parameters() must be a list, not an "
+            "rclpy.parameter.Parameter: set_parameters() fails",
+            "9:29: 'parameter_list' of set_parameters() must be a list, not a dict: "
+            "set_parameters() fails",
+            "10:29: 'parameter_list' of set_parameters() must be a list of "
+            "rclpy.parameter.Parameter, not a list of rclpy.parameter.Parameter or tuple: "
+            "set_parameters() fails",
         ),
         Example(
             "what launch only tests for truth",
@@ -374,21 +325,12 @@ class ArgumentTypeUnfit(TypeRule):
                 "    ended = OnProcessExit(target_action=wait, on_exit=[])\n"
                 "    return LaunchDescription([wait, RegisterEventHandler([ended])])\n"
             },
-            Report(
-                "8:46", "'respawn_delay' of Node() must be a float or None, not a str: Node() fails"
-            ),
-            Report(
-                "10:27",
-                "'target_action' of OnProcessExit() must be a "
-                "launch.actions.execute_local.ExecuteLocal, function or None, not a "
-                "launch.actions.timer_action.TimerAction: OnProcessExit() fails",
-            ),
-            Report(
-                "11:58",
-                "'event_handler' of RegisterEventHandler() must be a "
-                "launch.event_handler.BaseEventHandler, not a list: "
-                "RegisterEventHandler() fails",
-            ),
+            "8:46: 'respawn_delay' of Node() must be a float or None, not a str: Node() fails",
+            "10:27: 'target_action' of OnProcessExit() must be a "
+            "launch.actions.execute_local.ExecuteLocal, function or None, not a "
+            "launch.actions.timer_action.TimerAction: OnProcessExit() fails",
+            "11:58: 'event_handler' of RegisterEventHandler() must be a "
+            "launch.event_handler.BaseEventHandler, not a list: RegisterEventHandler() fails",
         ),
         Example(
             "what a declared parameter does not need",
@@ -413,11 +355,8 @@ class ArgumentTypeUnfit(TypeRule):
                 "        path.poses.append(Pose())\n"
                 "        return path\n"
             },
-            Report(
-                "13:27",
-                "elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
-                "geometry_msgs.msg.Pose: it cannot be published",
-            ),
+            "13:27: elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
+            "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
             "a name for a class, an object for a function",
@@ -436,17 +375,10 @@ class ArgumentTypeUnfit(TypeRule):
                 "    while reader.has_next():\n"
                 "        deserialize_message(data, 'std_msgs/msg/String')\n"
             },
-            Report(
-                "11:17",
-                "'lifecycle_node_matcher' of ChangeState() must be a function, not "
-                "a launch_ros.actions.lifecycle_node.LifecycleNode: ChangeState() "
-                "fails",
-            ),
-            Report(
-                "15:35",
-                "'message_type' of deserialize_message() must be a class, not a "
-                "str: deserialize_message() fails",
-            ),
+            "11:17: 'lifecycle_node_matcher' of ChangeState() must be a function, not a "
+            "launch_ros.actions.lifecycle_node.LifecycleNode: ChangeState() fails",
+            "15:35: 'message_type' of deserialize_message() must be a class, not a str: "
+            "deserialize_message() fails",
         ),
         Example(
             "the messages that a synchronizer brings",
@@ -467,11 +399,8 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.bridge.imgmsg_to_cv2(left)\n"
                 "        self.bridge.imgmsg_to_cv2(right)\n"
             },
-            Report(
-                "18:35",
-                "'img_msg' of imgmsg_to_cv2() must be a sensor_msgs.msg.Image, not "
-                "a sensor_msgs.msg.CompressedImage: imgmsg_to_cv2() fails",
-            ),
+            "18:35: 'img_msg' of imgmsg_to_cv2() must be a sensor_msgs.msg.Image, not a "
+            "sensor_msgs.msg.CompressedImage: imgmsg_to_cv2() fails",
         ),
         Example(
             "a message for the text in it",
@@ -486,10 +415,8 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.order = json.loads(msg)\n"
                 "        self.order = json.loads(msg.data)\n"
             },
-            Report(
-                "13:33",
-                "json.loads() cannot use a std_msgs.msg.String: TypeError; pass its field 'data'",
-            ),
+            "13:33: json.loads() cannot use a std_msgs.msg.String: TypeError; pass its field "
+            "'data'",
         ),
         Example(
             "a callback with annotations of its own",
@@ -550,10 +477,7 @@ class ArgumentTypeUnfit(TypeRule):
                 "    for lamp in lamps:\n        executor.add_node(lamp)\n"
                 "    executor.add_node(lamps)\n"
             },
-            Report(
-                "14:23",
-                "'node' of add_node() must be an rclpy.node.Node, not a list: add_node() fails",
-            ),
+            "14:23: 'node' of add_node() must be an rclpy.node.Node, not a list: add_node() fails",
         ),
         Example(
             "a publisher and messages in containers",
@@ -562,32 +486,19 @@ class ArgumentTypeUnfit(TypeRule):
         Example(
             "a part of a message for the message, in containers",
             {"fleet.py": _FLEET.format("msg.linear")},
-            Report(
-                "14:37",
-                "'msg' of publish() must be a geometry_msgs.msg.Twist or bytes, not "
-                "a geometry_msgs.msg.Vector3: publish() fails",
-            ),
+            "14:37: 'msg' of publish() must be a geometry_msgs.msg.Twist or bytes, not a "
+            "geometry_msgs.msg.Vector3: publish() fails",
         ),
         Example(
             "a str for a number, a class for an object, a number for a duration",
             {"ticker.py": _NODE.format("'0.1'", "ReentrantCallbackGroup", "1.0")},
-            Report(
-                "10:40",
-                "'timer_period_sec' of create_timer() must be a float, not a str: "
-                "create_timer() fails",
-            ),
-            Report(
-                "10:58",
-                "'callback_group' of create_timer() must be an "
-                "rclpy.callback_groups.CallbackGroup or None, not the class "
-                "'ReentrantCallbackGroup': create_timer() fails; write "
-                "ReentrantCallbackGroup()",
-            ),
-            Report(
-                "13:36",
-                "'rel_time' of sleep_for() must be an rclpy.duration.Duration, not "
-                "a float: sleep_for() fails; write Duration(seconds=...)",
-            ),
+            "10:40: 'timer_period_sec' of create_timer() must be a float, not a str: "
+            "create_timer() fails",
+            "10:58: 'callback_group' of create_timer() must be an "
+            "rclpy.callback_groups.CallbackGroup or None, not the class 'ReentrantCallbackGroup': "
+            "create_timer() fails; write ReentrantCallbackGroup()",
+            "13:36: 'rel_time' of sleep_for() must be an rclpy.duration.Duration, not a float: "
+            "sleep_for() fails; write Duration(seconds=...)",
         ),
         Example(
             "a number as the timeout of a transformation",
@@ -598,26 +509,17 @@ class ArgumentTypeUnfit(TypeRule):
                 "    buffer = Buffer()\n"
                 "    return buffer.transform(PointStamped(), 'map', timeout=0.5)\n"
             },
-            Report(
-                "8:60",
-                "'timeout' of transform() must be a rclpy.duration.Duration, not a "
-                "float: transform() fails; write Duration(seconds=...)",
-            ),
+            "8:60: 'timeout' of transform() must be a rclpy.duration.Duration, not a float: "
+            "transform() fails; write Duration(seconds=...)",
         ),
         Example(
             "times of two kinds",
             {"age.py": _TIMES},
-            Report(
-                "8:25",
-                "'until' of sleep_until() must be an rclpy.time.Time, not a "
-                "builtin_interfaces.msg.Time: sleep_until() fails; write "
-                "rclpy.time.Time.from_msg(...)",
-            ),
-            Report(
-                "9:19",
-                "'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, "
-                "not an rclpy.time.Time: it cannot be published; write .to_msg()",
-            ),
+            "8:25: 'until' of sleep_until() must be an rclpy.time.Time, not a "
+            "builtin_interfaces.msg.Time: sleep_until() fails; write "
+            "rclpy.time.Time.from_msg(...)",
+            "9:19: 'stamp' of std_msgs.msg.Header is a builtin_interfaces.msg.Time, not an "
+            "rclpy.time.Time: it cannot be published; write .to_msg()",
         ),
         Example(
             "a publisher whose type depends on where the node runs",

@@ -105,7 +105,7 @@ class ArgumentsUnfit(TypeRule):
         Example(
             "the same called like print",
             {"battery.py": _LOG.format("'voltage', message.voltage")},
-            Report("12:29", "info() of a logger takes 1 positional argument, not 2: TypeError"),
+            "12:29: info() of a logger takes 1 positional argument, not 2: TypeError",
         ),
         Example(
             "a function with several signatures",
@@ -118,8 +118,8 @@ class ArgumentsUnfit(TypeRule):
                 "    known.can_transform('map', 'base_link')\n"
                 "    known.can_transform('map', 'base_link', Time(), wait=True)\n"
             },
-            Report("9:5", "can_transform() lacks 'time': TypeError"),
-            Report("10:5", "can_transform() has no argument 'wait': TypeError"),
+            "9:5: can_transform() lacks 'time': TypeError",
+            "10:5: can_transform() has no argument 'wait': TypeError",
         ),
         Example(
             "a name that is imported anew",
@@ -177,8 +177,8 @@ class ArgumentsUnfit(TypeRule):
                 "name.py": "from rclpy.node import Node\n\nprint(Node.get_name())\n"
                 "Node.get_logger().info('late')\n"
             },
-            Report("3:7", "get_name() lacks 'self': TypeError"),
-            Report("4:1", "get_logger() lacks 'self': TypeError"),
+            "3:7: get_name() lacks 'self': TypeError",
+            "4:1: get_logger() lacks 'self': TypeError",
         ),
         Example(
             "a function and a class of another module",
@@ -192,10 +192,8 @@ class ArgumentsUnfit(TypeRule):
                 "from .paths import Path\n\n"
                 "path = Path(2.0)\npath.grow()\npath.grow(2.0, Point())\nwide = Path()\n",
             },
-            Report(
-                "rover/plan.py:7:16", "grow() takes 1 positional argument at most, not 2: TypeError"
-            ),
-            Report("rover/plan.py:8:8", "Path() lacks 'width': TypeError"),
+            "rover/plan.py:7:16: grow() takes 1 positional argument at most, not 2: TypeError",
+            "rover/plan.py:8:8: Path() lacks 'width': TypeError",
         ),
         Example(
             "a class whose base makes other objects, in a module of its own",
@@ -213,17 +211,17 @@ class ArgumentsUnfit(TypeRule):
         Example(
             "one missing",
             {"ticker.py": _NODE.format("0.1")},
-            Report("7:22", "create_timer() lacks 'callback': TypeError"),
+            "7:22: create_timer() lacks 'callback': TypeError",
         ),
         Example(
             "one too many",
             {"ticker.py": _NODE.format("0.1, self.tick, None, None, True, False")},
-            Report("7:74", "create_timer() takes 5 positional arguments at most, not 6: TypeError"),
+            "7:74: create_timer() takes 5 positional arguments at most, not 6: TypeError",
         ),
         Example(
             "one given twice",
             {"ticker.py": _NODE.format("0.1, self.tick, timer_period_sec=0.2")},
-            Report("7:56", "create_timer() gets 'timer_period_sec' twice: TypeError"),
+            "7:56: create_timer() gets 'timer_period_sec' twice: TypeError",
         ),
         Example(
             "arguments of rclpy without their names",
@@ -284,12 +282,12 @@ class ArgumentsUnfit(TypeRule):
                 "        except Exception as error:\n"
                 "            self.get_logger().error(str(error))\n"
             },
-            Report("8:54", "create_service() has no argument 'lazy': TypeError"),
+            "8:54: create_service() has no argument 'lazy': TypeError",
         ),
         Example(
             "an unknown one",
             {"ticker.py": _NODE.format("0.1, self.tick, oneshot=True")},
-            Report("7:56", "create_timer() has no argument 'oneshot': TypeError"),
+            "7:56: create_timer() has no argument 'oneshot': TypeError",
         ),
     )
 

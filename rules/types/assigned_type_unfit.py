@@ -67,11 +67,8 @@ class AssignedTypeUnfit(TypeRule):
         Example(
             "a number for a vector",
             {"dots.py": _NODE.format("0.1")},
-            Report(
-                "7:20",
-                "'scale' of visualization_msgs.msg.Marker is a "
-                "geometry_msgs.msg.Vector3, not a float: it cannot be published",
-            ),
+            "7:20: 'scale' of visualization_msgs.msg.Marker is a geometry_msgs.msg.Vector3, not a "
+            "float: it cannot be published",
         ),
         Example(
             "a message with the same fields",
@@ -87,11 +84,8 @@ class AssignedTypeUnfit(TypeRule):
         Example(
             "a list of something else",
             {"trail.py": _TRAIL.format("pose.pose")},
-            Report(
-                "15:22",
-                "elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
-                "geometry_msgs.msg.Pose: it cannot be published",
-            ),
+            "15:22: elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
+            "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
             "a name that a message gets in one branch",
@@ -108,11 +102,8 @@ class AssignedTypeUnfit(TypeRule):
                 "    said.data = words\n"
                 "    return said\n"
             },
-            Report(
-                "12:17",
-                "'data' of std_msgs.msg.String is a str, not a str or "
-                "geometry_msgs.msg.Twist: it cannot be published",
-            ),
+            "12:17: 'data' of std_msgs.msg.String is a str, not a str or geometry_msgs.msg.Twist: "
+            "it cannot be published",
         ),
         Example(
             "a time for tf2",

@@ -171,19 +171,11 @@ class AttributeMissing(TypeRule):
                 "        if age.nanoseconds < 5e9 and age.to_sec() < 5.0:\n"
                 "            self.get_logger().info(f'{age.seconds:.1f} s, {age.nanosec} ns')\n"
             },
-            Report(
-                "9:38",
-                "rclpy.duration.Duration has no 'to_sec': AttributeError; write .nanoseconds / 1e9",
-            ),
-            Report(
-                "10:39",
-                "rclpy.duration.Duration has no 'seconds': AttributeError; write "
-                ".nanoseconds / 1e9",
-            ),
-            Report(
-                "10:60",
-                "rclpy.duration.Duration has no 'nanosec': AttributeError; write .nanoseconds",
-            ),
+            "9:38: rclpy.duration.Duration has no 'to_sec': AttributeError; write .nanoseconds / "
+            "1e9",
+            "10:39: rclpy.duration.Duration has no 'seconds': AttributeError; write .nanoseconds "
+            "/ 1e9",
+            "10:60: rclpy.duration.Duration has no 'nanosec': AttributeError; write .nanoseconds",
         ),
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
         Example(
@@ -195,10 +187,8 @@ class AttributeMissing(TypeRule):
                 "class Arm(Node):\n    def __init__(self):\n        super().__init__('arm')\n"
                 "        print(title(self))\n\n\nArm()\n",
             },
-            Report(
-                "arm/util.py:2:21",
-                "Arm has no 'name': AttributeError ('node' comes from line 9 of arm/main.py)",
-            ),
+            "arm/util.py:2:21: Arm has no 'name': AttributeError ('node' comes from line 9 of "
+            "arm/main.py)",
         ),
         Example(
             "a property of Node that something else is assigned to, which ND013 reports",
@@ -275,11 +265,8 @@ class AttributeMissing(TypeRule):
                 "            self.at = found.transform.translation\n"
                 "            self.at = found.position\n"
             },
-            Report(
-                "22:23",
-                "geometry_msgs.msg.TransformStamped has no 'position': "
-                "AttributeError; it has child_frame_id, header, transform",
-            ),
+            "22:23: geometry_msgs.msg.TransformStamped has no 'position': AttributeError; it has "
+            "child_frame_id, header, transform",
         ),
         Example(
             "the bytes of a bag",
@@ -293,7 +280,7 @@ class AttributeMissing(TypeRule):
                 "        topic, data, stamp = reader.read_next()\n"
                 "        print(topic, stamp, last.linear.x, data.linear.x)\n"
             },
-            Report("10:44", "bytes has no 'linear': AttributeError"),
+            "10:44: bytes has no 'linear': AttributeError",
         ),
         Example(
             "a client from a table that states its kind",
@@ -321,7 +308,7 @@ class AttributeMissing(TypeRule):
         Example(
             "a name that Python removed",
             {"record.py": _RECORD},
-            Report("6:7", "sqlite3 has no 'version': AttributeError"),
+            "6:7: sqlite3 has no 'version': AttributeError",
             distro="lyrical",
         ),
         Example(
@@ -378,11 +365,8 @@ class AttributeMissing(TypeRule):
                 "    def on_goal(self, future):\n"
                 "        return future.accepted\n"
             },
-            Report(
-                "19:16",
-                "rclpy.task.Future has no 'accepted': AttributeError; what the future brings "
-                "is in result()",
-            ),
+            "19:16: rclpy.task.Future has no 'accepted': AttributeError; what the future brings "
+            "is in result()",
         ),
         Example(
             "a method taken for what it returns",
@@ -394,10 +378,7 @@ class AttributeMissing(TypeRule):
                 "        handle = future.result\n"
                 "        return handle.accepted\n"
             },
-            Report(
-                "20:16",
-                "rclpy.task.Future.result has no 'accepted': AttributeError; write result()",
-            ),
+            "20:16: rclpy.task.Future.result has no 'accepted': AttributeError; write result()",
         ),
         Example(
             "a text taken for the message that it is in",
@@ -412,7 +393,7 @@ class AttributeMissing(TypeRule):
                 "    def show(self, message):\n"
                 "        self.get_logger().info(message.data)\n"
             },
-            Report("14:32", "a str has no 'data': AttributeError ('message' comes from line 11)"),
+            "14:32: a str has no 'data': AttributeError ('message' comes from line 11)",
         ),
         Example(
             "the goal handle that a future brings",
@@ -426,9 +407,7 @@ class AttributeMissing(TypeRule):
                 "        if self.handle_of_goal.accepted:\n"
                 "            return self.handle_of_goal.was_refused\n"
             },
-            Report(
-                "22:20", "rclpy.action.client.ClientGoalHandle has no 'was_refused': AttributeError"
-            ),
+            "22:20: rclpy.action.client.ClientGoalHandle has no 'was_refused': AttributeError",
         ),
         Example(
             "a timer that is None at first",
@@ -441,14 +420,12 @@ class AttributeMissing(TypeRule):
                 "        self.timer.cancel()\n        self.timer.shutdown()\n"
                 "        self.pause.start()\n"
             },
-            Report("17:9", "rclpy.timer.Timer has no 'shutdown': AttributeError"),
+            "17:9: rclpy.timer.Timer has no 'shutdown': AttributeError",
         ),
         Example(
             "an attribute of ROS 1",
             {"asker.py": _NODE.format("cancel_all_goals")},
-            Report(
-                "12:9", "rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError"
-            ),
+            "12:9: rclpy.action.client.ActionClient has no 'cancel_all_goals': AttributeError",
         ),
         Example(
             "after spin",
@@ -532,7 +509,7 @@ class AttributeMissing(TypeRule):
                 "say.py": "from std_msgs.msg import String\n\n"
                 "message = String()\nmessage.text = 'hello'\n"
             },
-            Report("4:1", "std_msgs.msg.String has no 'text': AttributeError; it has data"),
+            "4:1: std_msgs.msg.String has no 'text': AttributeError; it has data",
         ),
         Example(
             "awaited; kept as a coroutine",
@@ -548,16 +525,13 @@ class AttributeMissing(TypeRule):
         Example(
             "another field of a dataclass in a dictionary",
             {"keep.py": _STATES.format("pose.pose")},
-            Report(
-                "21:19",
-                "geometry_msgs.msg.Pose has no 'pose': AttributeError; it has "
-                "orientation, position",
-            ),
+            "21:19: geometry_msgs.msg.Pose has no 'pose': AttributeError; it has orientation, "
+            "position",
         ),
         Example(
             "not awaited",
             {"home.py": _HOMING.format("self.ask()", "success")},
-            Report("15:15", "a coroutine has no 'success': AttributeError; await it"),
+            "15:15: a coroutine has no 'success': AttributeError; await it",
         ),
         Example(
             "an attribute that the distribution removed",

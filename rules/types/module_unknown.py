@@ -93,32 +93,23 @@ class ModuleUnknown(TypeRule):
                 "talker.py": "import imp\nfrom distutils import util\nimport rclpy.nodes\n"
                 "from std_msgs.srv import SetBool\n"
             },
-            Report("1:8", "Python 3.12 has no module 'imp': ModuleNotFoundError; use importlib"),
+            "1:8: Python 3.12 has no module 'imp': ModuleNotFoundError; use importlib",
             Report(
                 "2:6",
                 "Python 3.12 has no module 'distutils': ModuleNotFoundError; use "
                 "shutil, sysconfig or packaging.version",
                 severity=Severity.WARNING,
             ),
-            Report(
-                "3:8",
-                "ROS 2 Jazzy has no module 'rclpy.nodes': ModuleNotFoundError; did "
-                "you mean 'rclpy.node'?",
-            ),
-            Report(
-                "4:6",
-                "ROS 2 Jazzy has no module 'std_msgs.srv': ModuleNotFoundError; did "
-                "you mean 'example_interfaces.srv' or 'std_srvs.srv'?",
-            ),
+            "3:8: ROS 2 Jazzy has no module 'rclpy.nodes': ModuleNotFoundError; did you mean "
+            "'rclpy.node'?",
+            "4:6: ROS 2 Jazzy has no module 'std_msgs.srv': ModuleNotFoundError; did you mean "
+            "'example_interfaces.srv' or 'std_srvs.srv'?",
         ),
         Example(
             "a module that Python does not have yet",
             {"settings.py": "import tomllib\n"},
-            Report(
-                "1:8",
-                "Python 3.10 has no module 'tomllib', which is new in 3.11: "
-                "ModuleNotFoundError; use tomli",
-            ),
+            "1:8: Python 3.10 has no module 'tomllib', which is new in 3.11: ModuleNotFoundError; "
+            "use tomli",
             distro="humble",
         ),
         Example(
@@ -128,11 +119,8 @@ class ModuleUnknown(TypeRule):
         Example(
             "one of a package that Python does not have yet",
             {"archive.py": "from compression import zstd\n"},
-            Report(
-                "1:6",
-                "Python 3.12 has no module 'compression.zstd', which is new in 3.14: "
-                "ModuleNotFoundError; use backports.zstd",
-            ),
+            "1:6: Python 3.12 has no module 'compression.zstd', which is new in 3.14: "
+            "ModuleNotFoundError; use backports.zstd",
         ),
         Example(
             "for newer Pythons",
@@ -160,10 +148,7 @@ class ModuleUnknown(TypeRule):
                 "scripts/node.py": "from talker.limits import Limits\n"
                 "from talker.msg import Beat\n",
             },
-            Report(
-                "scripts/node.py:1:6",
-                "ROS 2 Jazzy has no module 'talker.limits': ModuleNotFoundError",
-            ),
+            "scripts/node.py:1:6: ROS 2 Jazzy has no module 'talker.limits': ModuleNotFoundError",
         ),
         Example(
             "a package of one's own with such a name",

@@ -41,7 +41,7 @@ class NameNotInModule(TypeRule):
         Example(
             "a name that Python has later, in a file without ROS",
             {"clock.py": "from datetime import UTC\n"},
-            Report("1:22", "'datetime' has no 'UTC': ImportError"),
+            "1:22: 'datetime' has no 'UTC': ImportError",
             distro="humble",
         ),
         Example(
@@ -73,8 +73,8 @@ class NameNotInModule(TypeRule):
         Example(
             "a misspelled name",
             {"talker.py": "from rclpy.node import Nod\nfrom std_msgs.msg import Sting\n"},
-            Report("1:24", "'rclpy.node' has no 'Nod': ImportError; did you mean 'Node'?"),
-            Report("2:26", "'std_msgs.msg' has no 'Sting': ImportError; did you mean 'String'?"),
+            "1:24: 'rclpy.node' has no 'Nod': ImportError; did you mean 'Node'?",
+            "2:26: 'std_msgs.msg' has no 'Sting': ImportError; did you mean 'String'?",
         ),
         Example(
             "a name of another module",
@@ -83,30 +83,19 @@ class NameNotInModule(TypeRule):
                 "from launch.substitutions import FindPackageShare\n",
                 "talker.py": "from std_msgs import Bool\nfrom std_msgs.msg import Twist\n",
             },
-            Report(
-                "talk.launch.py:1:28",
-                "'launch.actions' has no 'Node': ImportError; did you mean "
-                "'launch_ros.actions.Node'?",
-            ),
-            Report(
-                "talk.launch.py:2:34",
-                "'launch.substitutions' has no 'FindPackageShare': ImportError; did "
-                "you mean 'launch_ros.substitutions.FindPackageShare'?",
-            ),
-            Report(
-                "talker.py:1:22",
-                "'std_msgs' has no 'Bool': ImportError; did you mean 'std_msgs.msg.Bool'?",
-            ),
-            Report(
-                "talker.py:2:26",
-                "'std_msgs.msg' has no 'Twist': ImportError; did you mean "
-                "'geometry_msgs.msg.Twist'?",
-            ),
+            "talk.launch.py:1:28: 'launch.actions' has no 'Node': ImportError; did you mean "
+            "'launch_ros.actions.Node'?",
+            "talk.launch.py:2:34: 'launch.substitutions' has no 'FindPackageShare': ImportError; "
+            "did you mean 'launch_ros.substitutions.FindPackageShare'?",
+            "talker.py:1:22: 'std_msgs' has no 'Bool': ImportError; did you mean "
+            "'std_msgs.msg.Bool'?",
+            "talker.py:2:26: 'std_msgs.msg' has no 'Twist': ImportError; did you mean "
+            "'geometry_msgs.msg.Twist'?",
         ),
         Example(
             "a message of the workspace",
             {"talker.py": "from my_msgs.msg import Beat, Bet\n"},
-            Report("1:31", "'my_msgs.msg' has no 'Bet': ImportError; did you mean 'Beat'?"),
+            "1:31: 'my_msgs.msg' has no 'Bet': ImportError; did you mean 'Beat'?",
             neighbours={
                 "my_msgs": {
                     "package.xml": "<package format='3'><name>my_msgs</name></package>\n",
@@ -119,13 +108,9 @@ class NameNotInModule(TypeRule):
         Example(
             "a message that is gone",
             {"talker.py": "from geometry_msgs.msg import Pose2D\n"},
-            Report(
-                "1:31",
-                "'geometry_msgs.msg' has no 'Pose2D': ImportError; it was removed "
-                "in Lyrical: use geometry_msgs/msg/Pose, or a message of your own "
-                "with x, y and theta: which is right depends on who reads it "
-                "(common_interfaces 283)",
-            ),
+            "1:31: 'geometry_msgs.msg' has no 'Pose2D': ImportError; it was removed in Lyrical: "
+            "use geometry_msgs/msg/Pose, or a message of your own with x, y and theta: which is "
+            "right depends on who reads it (common_interfaces 283)",
             distro="lyrical",
         ),
     )

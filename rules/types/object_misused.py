@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api import Diagnostic, Example, TypeRule
 from scaffold.api.rclpy import is_method
 from scaffold.api.types import TypeFinding, class_in, in_words, is_certain, is_function
 
@@ -112,7 +112,7 @@ class ObjectMisused(TypeRule):
         Example(
             "an element",
             {"height.py": _NODE.format("point[2]")},
-            Report("6:12", "a geometry_msgs.msg.Point has no elements: TypeError"),
+            "6:12: a geometry_msgs.msg.Point has no elements: TypeError",
         ),
         Example(
             "a publisher, a profile",
@@ -127,8 +127,8 @@ class ObjectMisused(TypeRule):
                 "    def say(self, text):\n"
                 "        self.talker(String(data=text))\n"
             },
-            Report("9:29", "an rclpy.qos.QoSProfile cannot be called: TypeError"),
-            Report("12:9", "an rclpy.publisher.Publisher cannot be called: TypeError"),
+            "9:29: an rclpy.qos.QoSProfile cannot be called: TypeError",
+            "12:9: an rclpy.publisher.Publisher cannot be called: TypeError",
         ),
         Example(
             "as many names as values",
@@ -156,7 +156,7 @@ class ObjectMisused(TypeRule):
                 "rover/odometry.py": _ODOMETRY,
                 "rover/drive.py": _DRIVE.format("x, y, yaw, speed"),
             },
-            Report("rover/drive.py:9:9", "not enough values for 4 names: ValueError"),
+            "rover/drive.py:9:9: not enough values for 4 names: ValueError",
         ),
         Example(
             "entries of a dictionary that have different lengths",
@@ -209,11 +209,8 @@ class ObjectMisused(TypeRule):
         Example(
             "numbers that are called and unpacked",
             {"height.py": _NUMBER.format("nanoseconds()", "", ".x")},
-            Report(
-                "11:17",
-                "'nanoseconds' is an int, not a method: TypeError; leave out the parentheses",
-            ),
-            Report("12:19", "a bool cannot be looped over: TypeError"),
+            "11:17: 'nanoseconds' is an int, not a method: TypeError; leave out the parentheses",
+            "12:19: a bool cannot be looped over: TypeError",
         ),
         Example(
             "an attribute for which Python lists several types",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from scaffold.api import Diagnostic, Example, Report, TypeRule
+from scaffold.api import Diagnostic, Example, TypeRule
 from scaffold.api.types import TypeFinding, class_in, full_name, in_words, is_certain
 
 _NODE = (
@@ -52,11 +52,8 @@ class OperatorUnsupported(TypeRule):
         Example(
             "a duration and a number",
             {"ticker.py": _NODE.format("1.0")},
-            Report(
-                "11:16",
-                "'>' does not work on an rclpy.duration.Duration and a float: "
-                "TypeError; use Duration(seconds=...), or compare .nanoseconds",
-            ),
+            "11:16: '>' does not work on an rclpy.duration.Duration and a float: TypeError; use "
+            "Duration(seconds=...), or compare .nanoseconds",
         ),
         Example(
             "a time and a number",
@@ -65,11 +62,8 @@ class OperatorUnsupported(TypeRule):
                     "get_clock().now()\n\n", "get_clock().now() + 5.0\n\n"
                 )
             },
-            Report(
-                "8:22",
-                "'+' does not work on an rclpy.time.Time and a float: TypeError; "
-                "use Duration(seconds=...)",
-            ),
+            "8:22: '+' does not work on an rclpy.time.Time and a float: TypeError; use "
+            "Duration(seconds=...)",
         ),
         Example(
             "numbers of a scan, and what is made of them",
@@ -78,14 +72,10 @@ class OperatorUnsupported(TypeRule):
         Example(
             "numbers of a scan, compared and multiplied all at once",
             {"scan.py": _SCAN.format("ranges")},
-            Report(
-                "8:14",
-                "'>' does not work on an array.array and a float: TypeError; use numpy.array(...)",
-            ),
-            Report(
-                "9:20",
-                "'*' does not work on an array.array and a float: TypeError; use numpy.array(...)",
-            ),
+            "8:14: '>' does not work on an array.array and a float: TypeError; use "
+            "numpy.array(...)",
+            "9:20: '*' does not work on an array.array and a float: TypeError; use "
+            "numpy.array(...)",
         ),
     )
 

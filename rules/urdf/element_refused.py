@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, ViewError, closest_name
+from scaffold.api import Diagnostic, Example, Package, Rule, ViewError, closest_name
 from scaffold.api.formats import Element
 from scaffold.api.robot import Part, is_known, robot_file, robot_paths, robots, urdf_parts
 
@@ -124,9 +124,7 @@ class ElementRefused(Rule):
         Example(
             "another name for an attribute",
             {"robot.urdf": _ROBOT.format("val")},
-            Report(
-                "4:8", "<mass> has no 'value': urdfdom rejects the whole file; 'val' is not read"
-            ),
+            "4:8: <mass> has no 'value': urdfdom rejects the whole file; 'val' is not read",
         ),
         Example(
             "several attributes of one element",
@@ -136,17 +134,17 @@ class ElementRefused(Rule):
                 '    <parent link="a"/>\n    <child link="b"/>\n'
                 '    <limit lower="-1" upper="1"/>\n  </joint>\n</robot>\n'
             },
-            Report("7:6", "<limit> has no 'effort' or 'velocity': urdfdom rejects the whole file"),
+            "7:6: <limit> has no 'effort' or 'velocity': urdfdom rejects the whole file",
         ),
         Example(
             "an argument without a default",
             {"robot.xacro": _XACRO.format("")},
-            Report("2:4", "<xacro:arg> has no 'default': xacro stops here"),
+            "2:4: <xacro:arg> has no 'default': xacro stops here",
         ),
         Example(
             "a robot without a name",
             {"robot.urdf": '<robot>\n  <link name="base_link"/>\n</robot>\n'},
-            Report("1:2", "<robot> has no 'name': urdfdom rejects the whole file"),
+            "1:2: <robot> has no 'name': urdfdom rejects the whole file",
         ),
         Example(
             "a joint with limits", {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD + _LIMIT)}
@@ -157,16 +155,13 @@ class ElementRefused(Rule):
         Example(
             "a joint without limits",
             {"robot.urdf": _ROBOT_JOINTS.format("revolute", _CHILD)},
-            Report(
-                "4:4",
-                "joint 'axis' is revolute and has no <limit>: urdfdom rejects the whole file; "
-                "add effort, velocity, lower and upper",
-            ),
+            "4:4: joint 'axis' is revolute and has no <limit>: urdfdom rejects the whole file; "
+            "add effort, velocity, lower and upper",
         ),
         Example(
             "a joint without a child",
             {"robot.urdf": _ROBOT_JOINTS.format("prismatic", _LIMIT)},
-            Report("4:4", "joint 'axis' has no <child>: urdfdom rejects the whole file"),
+            "4:4: joint 'axis' has no <child>: urdfdom rejects the whole file",
         ),
         Example(
             "values as they are",
@@ -182,16 +177,10 @@ class ElementRefused(Rule):
                 "a.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "continous", "0 0 0"),
                 "b.urdf": _ROBOT_VALUES.format('sphere radius="0.1"', "ball", "0 0 0"),
             },
-            Report(
-                "a.urdf:8:28",
-                "unknown joint type 'continous': urdfdom rejects the whole file; "
-                "closest: 'continuous'",
-            ),
-            Report(
-                "b.urdf:8:28",
-                "unknown joint type 'ball': urdfdom rejects the whole file; known: "
-                "revolute, continuous, prismatic, fixed, floating, planar",
-            ),
+            "a.urdf:8:28: unknown joint type 'continous': urdfdom rejects the whole file; "
+            "closest: 'continuous'",
+            "b.urdf:8:28: unknown joint type 'ball': urdfdom rejects the whole file; known: "
+            "revolute, continuous, prismatic, fixed, floating, planar",
         ),
         Example(
             "a shape of its own; commas; too few",
@@ -199,21 +188,12 @@ class ElementRefused(Rule):
                 "a.urdf": _ROBOT_VALUES.format('cube size="1 1 1"', "fixed", "0, 0, 0"),
                 "b.urdf": _ROBOT_VALUES.format('box size="1 1"', "fixed", "0 0 0"),
             },
-            Report(
-                "a.urdf:5:18",
-                "unknown shape <cube>: urdfdom rejects the whole file; known: box, "
-                "cylinder, sphere, mesh",
-            ),
-            Report(
-                "a.urdf:11:18",
-                "xyz is '0, 0, 0', but must be 3 numbers with spaces between: "
-                "urdfdom rejects the whole file",
-            ),
-            Report(
-                "b.urdf:5:28",
-                "size is '1 1', but must be 3 numbers with spaces between: urdfdom "
-                "rejects the whole file",
-            ),
+            "a.urdf:5:18: unknown shape <cube>: urdfdom rejects the whole file; known: box, "
+            "cylinder, sphere, mesh",
+            "a.urdf:11:18: xyz is '0, 0, 0', but must be 3 numbers with spaces between: urdfdom "
+            "rejects the whole file",
+            "b.urdf:5:28: size is '1 1', but must be 3 numbers with spaces between: urdfdom "
+            "rejects the whole file",
         ),
     )
 

@@ -118,25 +118,16 @@ class FileNotThere(Rule):
                     "$(find talker)/urdf/wheels.xacro", "package://talker/meshes/base.stl"
                 ),
             },
-            Report(
-                "urdf/robot.xacro:2:28",
-                "share/talker/urdf/wheels.xacro does not exist: talker has no such "
-                "file; closest: urdf/wheel.xacro",
-            ),
-            Report(
-                "urdf/robot.xacro:5:33",
-                "share/talker/meshes/base.stl does not exist: it is installed as "
-                "share/talker/urdf/base.stl",
-            ),
+            "urdf/robot.xacro:2:28: share/talker/urdf/wheels.xacro does not exist: talker has no "
+            "such file; closest: urdf/wheel.xacro",
+            "urdf/robot.xacro:5:33: share/talker/meshes/base.stl does not exist: it is installed "
+            "as share/talker/urdf/base.stl",
         ),
         Example(
             "not next to the file",
             {**_FILES, "urdf/robot.xacro": _ROBOT.format("wheels.xacro", "file:///base.stl")},
-            Report(
-                "urdf/robot.xacro:2:28",
-                "urdf/wheels.xacro does not exist: xacro stops with 'No such file'; "
-                "closest: 'wheel.xacro'",
-            ),
+            "urdf/robot.xacro:2:28: urdf/wheels.xacro does not exist: xacro stops with 'No such "
+            "file'; closest: 'wheel.xacro'",
         ),
         Example(
             "a mesh next to another",
@@ -203,10 +194,8 @@ class FileNotThere(Rule):
         Example(
             "nothing like it",
             {**_FILES, "urdf/robot.xacro": _ROBOT.format("parts/laser.xacro", "file:///base.stl")},
-            Report(
-                "urdf/robot.xacro:2:28",
-                "urdf/parts/laser.xacro does not exist: xacro stops with 'No such file'",
-            ),
+            "urdf/robot.xacro:2:28: urdf/parts/laser.xacro does not exist: xacro stops with 'No "
+            "such file'",
         ),
         Example(
             "a package that is declared; one that is not known",
@@ -241,11 +230,8 @@ class FileNotThere(Rule):
                 "package.xml": _MANIFEST_PACKAGES,
                 "a.xacro": _ROBOT_PACKAGES.format("turet_description"),
             },
-            Report(
-                "a.xacro:2:28",
-                "unknown package 'turet_description'; did you mean "
-                "'turret_description' (which package.xml declares)?",
-            ),
+            "a.xacro:2:28: unknown package 'turet_description'; did you mean 'turret_description' "
+            "(which package.xml declares)?",
         ),
     )
 

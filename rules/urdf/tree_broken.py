@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, Rule, closest_name
 from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
 
 _ROBOT = (
@@ -71,32 +71,21 @@ class TreeBroken(Rule):
         Example(
             "two parents, and so two roots",
             {"robot.urdf": _ROBOT.format("camera", "wheel")},
-            Report(
-                "4:15",
-                "no joint connects 'camera': urdfdom finds two roots, it and "
-                "'base_link', and rejects the whole file",
-            ),
-            Report(
-                "9:4", "link 'wheel' is the child of 'axis' and of 'mount': a link has one parent"
-            ),
+            "4:15: no joint connects 'camera': urdfdom finds two roots, it and 'base_link', and "
+            "rejects the whole file",
+            "9:4: link 'wheel' is the child of 'axis' and of 'mount': a link has one parent",
         ),
         Example(
             "a link without a joint",
             {"robot.urdf": _ROBOT.format("wheel", "wheel2")},
-            Report(
-                "11:18",
-                "child 'wheel2' of joint 'mount' is not a link of this robot: "
-                "robot_state_publisher ends; closest: 'wheel'",
-            ),
+            "11:18: child 'wheel2' of joint 'mount' is not a link of this robot: "
+            "robot_state_publisher ends; closest: 'wheel'",
         ),
         Example(
             "a loop",
             {"robot.urdf": _LOOP},
-            Report(
-                "8:4",
-                "joint 'ba' closes a loop: 'a' is above 'b' already, so no root "
-                "leads to these links",
-            ),
+            "8:4: joint 'ba' closes a loop: 'a' is above 'b' already, so no root leads to these "
+            "links",
         ),
         Example(
             "a macro with a name for its link", {"robot.xacro": _MACRO.format("${name}", "${name}")}
@@ -104,37 +93,24 @@ class TreeBroken(Rule):
         Example(
             "a link twice",
             {"robot.urdf": _ROBOT_NAMES.format("wheel", "shoulder", "arm")},
-            Report(
-                "4:15",
-                "a link 'wheel' is already defined in robot.urdf:3: urdfdom rejects the whole file",
-            ),
-            Report(
-                "11:18",
-                "child 'arm' of joint 'shoulder' is not a link of this robot: "
-                "robot_state_publisher ends",
-            ),
+            "4:15: a link 'wheel' is already defined in robot.urdf:3: urdfdom rejects the whole "
+            "file",
+            "11:18: child 'arm' of joint 'shoulder' is not a link of this robot: "
+            "robot_state_publisher ends",
         ),
         Example(
             "a joint twice",
             {"robot.urdf": _ROBOT_NAMES.format("arm", "axis", "arm")},
-            Report(
-                "9:16",
-                "a joint 'axis' is already defined in robot.urdf:5: urdfdom rejects the whole file",
-            ),
+            "9:16: a joint 'axis' is already defined in robot.urdf:5: urdfdom rejects the whole "
+            "file",
         ),
         Example(
             "a macro without a name for its link",
             {"robot.xacro": _MACRO.format("wheel", "wheel")},
-            Report(
-                "4:17",
-                "a link 'wheel' is already defined in an earlier call of the macro: "
-                "urdfdom rejects the whole file",
-            ),
-            Report(
-                "5:6",
-                "link 'wheel' is the child of 'left_joint' and of 'right_joint': a "
-                "link has one parent",
-            ),
+            "4:17: a link 'wheel' is already defined in an earlier call of the macro: urdfdom "
+            "rejects the whole file",
+            "5:6: link 'wheel' is the child of 'left_joint' and of 'right_joint': a link has one "
+            "parent",
         ),
         Example("both links there", {"robot.urdf": _ROBOT_LINKS.format("base_link", "wheel")}),
         Example(
@@ -148,20 +124,14 @@ class TreeBroken(Rule):
         Example(
             "a link that is not there",
             {"robot.urdf": _ROBOT_LINKS.format("base", "wheel")},
-            Report(
-                "5:19",
-                "parent 'base' of joint 'axis' is not a link of this robot: "
-                "robot_state_publisher ends; closest: 'base_link'",
-            ),
+            "5:19: parent 'base' of joint 'axis' is not a link of this robot: "
+            "robot_state_publisher ends; closest: 'base_link'",
         ),
         Example(
             "a link with a name like no other",
             {"robot.urdf": _ROBOT_LINKS.format("base_link", "camera")},
-            Report(
-                "6:18",
-                "child 'camera' of joint 'axis' is not a link of this robot: "
-                "robot_state_publisher ends",
-            ),
+            "6:18: child 'camera' of joint 'axis' is not a link of this robot: "
+            "robot_state_publisher ends",
         ),
         Example(
             "a gazebo element of an unknown link",
@@ -172,16 +142,13 @@ class TreeBroken(Rule):
                     '  <gazebo reference="wheels"/>\n  <gazebo/>\n</robot>',
                 )
             },
-            Report(
-                "10:22",
-                "gazebo is about 'wheels', which is not a link or joint of this robot: "
-                "Gazebo ignores it; closest: 'wheel'",
-            ),
+            "10:22: gazebo is about 'wheels', which is not a link or joint of this robot: Gazebo "
+            "ignores it; closest: 'wheel'",
         ),
         Example(
             "a joint to mimic",
             {"robot.urdf": _MIMIC.format("axle")},
-            Report("7:19", "'axis' mimics 'axle', which is not a joint of this robot"),
+            "7:19: 'axis' mimics 'axle', which is not a joint of this robot",
         ),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api import Diagnostic, Example, Package, Rule, Severity
 from scaffold.api.robot import Part, is_known, urdf_parts
 
 _ROBOT = (
@@ -64,8 +64,8 @@ class ValueImpossible(Rule):
                     '  <material name="b"><color rgba="1 0.5 0 1.0"/></material>\n</robot>',
                 )
             },
-            Report("4:20", "a mass of 0: Gazebo ignores the link and its joint"),
-            Report("15:35", "colors are from 0 to 1, alpha as well: all above is 1; divide by 255"),
+            "4:20: a mass of 0: Gazebo ignores the link and its joint",
+            "15:35: colors are from 0 to 1, alpha as well: all above is 1; divide by 255",
         ),
         Example(
             "no moments of inertia",
@@ -75,17 +75,14 @@ class ValueImpossible(Rule):
                 .replace('iyy="1"', 'iyy="0.0"')
                 .replace('izz="1"', 'izz="0"')
             },
-            Report("5:21", "all moments of inertia are 0: Gazebo rejects the link"),
+            "5:21: all moments of inertia are 0: Gazebo rejects the link",
         ),
         Example(
             "impossible",
             {"robot.urdf": _ROBOT.format("-2", "0 0 0", "1", "-1")},
-            Report("4:20", "a mass is not negative: Gazebo rejects the link"),
-            Report("12:16", "the axis has no direction: the joint cannot move; write 0 0 1"),
-            Report(
-                "13:19",
-                "lower is 1 and upper is -1: no position is within these limits; exchange them",
-            ),
+            "4:20: a mass is not negative: Gazebo rejects the link",
+            "12:16: the axis has no direction: the joint cannot move; write 0 0 1",
+            "13:19: lower is 1 and upper is -1: no position is within these limits; exchange them",
         ),
         Example(
             "radians; a winch; the height of a lift",
@@ -107,9 +104,9 @@ class ValueImpossible(Rule):
         Example(
             "degrees",
             {"robot.urdf": _ROBOT_ANGLES.format("revolute", "90", "-45", "180")},
-            Report("7:30", "rpy is in radians, 90 looks like degrees; write 1.5708"),
-            Report("8:19", "lower is in radians, -45 looks like degrees; write -0.7854"),
-            Report("8:31", "upper is in radians, 180 looks like degrees; write 3.1416"),
+            "7:30: rpy is in radians, 90 looks like degrees; write 1.5708",
+            "8:19: lower is in radians, -45 looks like degrees; write -0.7854",
+            "8:31: upper is in radians, 180 looks like degrees; write 3.1416",
         ),
     )
 

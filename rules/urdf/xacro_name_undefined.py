@@ -111,17 +111,14 @@ class XacroNameUndefined(Rule):
                 "b.xacro": _robot(1, "${radius *}"),
                 "c.xacro": _robot(1, "${height}"),
             },
-            Report(
-                "a.xacro:8:35",
-                "property 'radus' is not defined here: xacro stops; closest: 'radius'",
-            ),
-            Report("b.xacro:8:35", "${radius *} is not an expression of Python: xacro stops"),
-            Report("c.xacro:8:35", "property 'height' is not defined here: xacro stops"),
+            "a.xacro:8:35: property 'radus' is not defined here: xacro stops; closest: 'radius'",
+            "b.xacro:8:35: ${radius *} is not an expression of Python: xacro stops",
+            "c.xacro:8:35: property 'height' is not defined here: xacro stops",
         ),
         Example(
             "a macro",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "xacro:w", "left", "xacro:w")},
-            Report("12:4", "macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'"),
+            "12:4: macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'",
         ),
         Example(
             "a block; an argument; a command of launch",
@@ -130,24 +127,16 @@ class XacroNameUndefined(Rule):
                 "b.xacro": _robot(3, "$(arg prefx)wheel"),
                 "c.xacro": _robot(3, "$(var prefix)wheel"),
             },
-            Report(
-                "a.xacro:7:35",
-                "block 'pose' is not a parameter of this macro: xacro stops; add '*pose'",
-            ),
-            Report(
-                "b.xacro:12:22",
-                "argument 'prefx' has no <xacro:arg>: xacro stops unless it is "
-                "given; closest: 'prefix'",
-            ),
-            Report(
-                "c.xacro:12:22",
-                "xacro has no $(var ...): it stops; known: find, env, optenv, dirname, arg",
-            ),
+            "a.xacro:7:35: block 'pose' is not a parameter of this macro: xacro stops; add '*pose'",
+            "b.xacro:12:22: argument 'prefx' has no <xacro:arg>: xacro stops unless it is given; "
+            "closest: 'prefix'",
+            "c.xacro:12:22: xacro has no $(var ...): it stops; known: find, env, optenv, dirname, "
+            "arg",
         ),
         Example(
             "a macro without its prefix",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "", "left", "")},
-            Report("12:4", "<wheel> is not expanded without its prefix: write <xacro:wheel>"),
+            "12:4: <wheel> is not expanded without its prefix: write <xacro:wheel>",
         ),
         Example(
             "a call as the macro is defined",
@@ -168,24 +157,22 @@ class XacroNameUndefined(Rule):
         Example(
             "a parameter left out",
             {"robot.xacro": _ROBOT_CALLS.format('y="1"', _ORIGIN)},
-            Report("10:4", "macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'"),
+            "10:4: macro 'wheel' needs 'name': xacro stops with 'Undefined parameters'",
         ),
         Example(
             "another parameter",
             {"robot.xacro": _ROBOT_CALLS.format('name="left" z="1"', _ORIGIN)},
-            Report("10:28", "macro 'wheel' has no parameter 'z': xacro stops; it has name, y"),
+            "10:28: macro 'wheel' has no parameter 'z': xacro stops; it has name, y",
         ),
         Example(
             "no block",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', "")},
-            Report("10:4", "macro 'wheel' needs an element for its block 'origin': xacro stops"),
+            "10:4: macro 'wheel' needs an element for its block 'origin': xacro stops",
         ),
         Example(
             "a block too many",
             {"robot.xacro": _ROBOT_CALLS.format('name="left"', f"{_ORIGIN}<limit/>")},
-            Report(
-                "10:50", "macro 'wheel' has no block for <limit>: xacro stops with 'Unused block'"
-            ),
+            "10:50: macro 'wheel' has no block for <limit>: xacro stops with 'Unused block'",
         ),
         Example(
             "a condition that is no truth",
@@ -193,7 +180,7 @@ class XacroNameUndefined(Rule):
                 "robot.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <link name="a"/>\n  <xacro:if value="yes"/>\n</robot>\n'
             },
-            Report("3:20", "'yes' is no condition: xacro stops; write true, false, 0, 1 or ${...}"),
+            "3:20: 'yes' is no condition: xacro stops; write true, false, 0, 1 or ${...}",
         ),
         Example(
             "a file of URDF that nobody gives to xacro",

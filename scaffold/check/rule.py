@@ -26,6 +26,8 @@ class Located(Protocol):
 class Report:
     """What a user reads about one diagnostic of an example, word for word.
 
+    ``"line:column: message"`` is the short form of one without a fix, with the usual severity.
+
     Args:
         at: The place, ``path:line:column``, or ``line:column`` in the only file of the example.
         message: The message.
@@ -48,6 +50,12 @@ class Report:
         self.fix = fix
         self.unsafe_fix = unsafe_fix
         self.severity = severity
+
+    @classmethod
+    def parse(cls, text: str) -> Report:
+        """Return the report that a short form stands for."""
+        at, _, message = text.partition(": ")
+        return cls(at, message)
 
     def within(self, files: Iterable[str]) -> Report:
         """Return it with a path: where it has none, that of the only file."""
@@ -87,7 +95,7 @@ class Example:
         self,
         title: str,
         files: Mapping[str, str],
-        *reports: Report,
+        *reports: Report | str,
         fixed: Mapping[str, str] | None = None,
         executable: tuple[str, ...] = (),
         neighbours: Mapping[str, Mapping[str, str]] | None = None,
@@ -113,7 +121,8 @@ class Example:
     @property
     def reports(self) -> tuple[Report, ...]:
         """The reports, each with a path."""
-        return tuple(report.within(self.files) for report in self._reports)
+        reports = (Report.parse(item) if isinstance(item, str) else item for item in self._reports)
+        return tuple(report.within(self.files) for report in reports)
 
 
 _EFFECTS = {
