@@ -45,6 +45,9 @@ _NAMELESS = re.compile(
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
 
+_INVALID = "invalid-syntax"
+_LATE_GLOBAL = "prior to global declaration"
+"""What is said about an added `global` after a use of the name, which leaves the types right."""
 _COPY = "_ros2_"
 """What the name of the copy of a file begins with."""
 
@@ -100,6 +103,8 @@ class TypeCheck:
         self._run: ty.Run | None = None
         self._written: dict[str, Extended] = {}
         """What it reads, by place."""
+        self._plain: dict[str, bytes] = {}
+        """The files in which lines were added, without these, by place."""
         self._files: dict[int, list[_File]] = {}
         """Until what is reported about them is collected; by the number of the package."""
         self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
@@ -176,6 +181,9 @@ class TypeCheck:
             else Extended(text, ())  # a stub
             for place, text in texts.items()
         }
+        self._plain = {
+            place: text for place, text in texts.items() if self._written[place].data != text
+        }
         for file in asked:
             file.place = self._place(file, texts[file.source.place])
         _write(project, {place: written.data for place, written in self._written.items()})
@@ -202,14 +210,22 @@ class TypeCheck:
         folder, _, name = source.place.rpartition("/")
         place = f"{folder}/{_COPY}{name}"
         self._written[place] = extended
+        self._plain[place] = text
         return place
 
     def _results(self) -> Mapping[str, list[TyDiagnostic]]:
         """Return what is reported about lines of the user, by the place of the file."""
         assert self._run is not None  # noqa: S101  it has been started
+        reported = dict(self._run.results())
+        broken = [place for place in self._plain if any(map(_is_broken, reported.get(place, ())))]
+        if broken:
+            self._written.update((place, Extended(self._plain[place], ())) for place in broken)
+            _write(self._run.project, {place: self._plain[place] for place in broken})
+            self._run = ty.Run(self._run.project, self._home, broken)
+            reported |= {place: [] for place in broken} | dict(self._run.results())
         return {
             place: [*_of_user(diagnostics, self._written[place])]
-            for place, diagnostics in self._run.results().items()
+            for place, diagnostics in reported.items()
         }
 
     def _environment(self) -> str:
@@ -345,6 +361,11 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
             return False
         return root in stubbed or root in sys.stdlib_module_names
     return MARK in item.message or _NAMELESS.fullmatch(item.message) is not None
+
+
+def _is_broken(item: TyDiagnostic) -> bool:
+    """Tell whether a report is that a file does not parse."""
+    return item.kind == _INVALID and _LATE_GLOBAL not in item.message
 
 
 def _may_be_annotated(item: TyDiagnostic) -> bool:

@@ -18,7 +18,7 @@ from scaffold.types.statements import class_starts, mentions, statement_around
 _MADE = re.compile(
     r"\n(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"
     r"\{\}|\[\]|dict\(\)|list\(\)|(?:collections\.)?deque\([^()\n]{0,80}\)"
-    r"|\{[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
+    r"|\{(?![^\n]*[ ]for[ ])[^{}:\n#]{1,80}:[^{}\n#]{1,400}\})[ ]*(?:#[^\n]*)?$",
     re.MULTILINE,
 )
 _HELPERS = {"{": "_ros2_dict", "d": "_ros2_dict", "[": "_ros2_list", "l": "_ros2_list"}

@@ -88,7 +88,7 @@ class Run:
     """
 
     def __init__(self, project: str, environment: str, files: Sequence[str]) -> None:
-        self._project = project
+        self.project = project
         self._environment = environment
         self._chunks = list(_chunks([os.path.join(project, path) for path in files]))
         self._running: _Process | None = None
@@ -113,7 +113,7 @@ class Run:
                 if at:
                     self._start(chunk)
                 for path, diagnostic in self._reported(chunk):
-                    place = os.path.relpath(os.path.abspath(path), self._project)
+                    place = os.path.relpath(os.path.abspath(path), self.project)
                     result.setdefault(place, []).append(diagnostic)
         finally:
             self.close()
@@ -148,12 +148,12 @@ class Run:
         options = {
             "--output-format": "gitlab",
             "--color": "never",
-            "--config-file": os.path.join(self._project, CONFIGURATION),
-            "--project": self._project,
+            "--config-file": os.path.join(self.project, CONFIGURATION),
+            "--project": self.project,
             "--python": self._environment,
         }
         words = [word for option in options.items() for word in option]
-        self._running = _Process(["check", "--exit-zero", *words, "--", *files], self._project)
+        self._running = _Process(["check", "--exit-zero", *words, "--", *files], self.project)
 
 
 class _Process:

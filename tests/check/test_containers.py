@@ -44,6 +44,14 @@ def test_what_is_put_into_a_container_is_its_contents(made: str, put: str, expec
     assert f"        global _ros2_kept_0_0; _ros2_kept_0_0 = [msg]\n        {put}\n" in text
 
 
+@pytest.mark.parametrize("made", ["{name: 1 for name in 'ab'}", "{1, 2}"])
+def test_what_is_no_display_of_a_dictionary_stays(made: str) -> None:
+    text = written(
+        KEEPER.replace("{}", "self.latest[1] = msg").replace("self.latest[1] = msg", made, 1)
+    )
+    assert f"self.latest = {made}\n" in text
+
+
 @pytest.mark.parametrize(
     "put",
     [

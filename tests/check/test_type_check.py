@@ -16,6 +16,7 @@ from scaffold.files import cache
 from scaffold.model.package import Package
 from scaffold.programs import bundled
 from scaffold.types import environment, ty
+from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.finding import TypeFinding
 from scaffold.types.ty import TyDiagnostic
 
@@ -535,6 +536,17 @@ def test_a_missing_type_checker_is_named(
 def test_a_file_that_does_not_parse_costs_only_itself(check: Check, source: Path) -> None:
     make_package(source, "talker", {"talker/talk.py": NODE, "talker/bad.py": "def f(:\n"})
     assert check("talker") == [f"talker/{FOUND}"]
+
+
+def test_added_lines_that_do_not_parse_hide_nothing(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def with_arguments(data: bytes, *_: object) -> Extended:
+        return with_lines(data.decode(), {0: ["x = ("]})
+
+    monkeypatch.setattr("scaffold.types.check.with_arguments", with_arguments)
+    make_package(source, "talker", {"talker/talk.py": NODE})
+    assert check() == [f"talker/{FOUND}"]
 
 
 def test_a_file_that_ends_the_type_checker_costs_only_itself(check: Check, source: Path) -> None:
