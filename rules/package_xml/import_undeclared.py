@@ -27,6 +27,15 @@ _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
 
+def _manifest(*lines: str) -> str:
+    """Return the package.xml of an example; a name stands for an ``<exec_depend>``."""
+    elements = (
+        line if line.startswith("<") else f"<exec_depend>{line}</exec_depend>" for line in lines
+    )
+    text = "".join(f"  {element}\n" for element in elements)
+    return f'<package format="3">\n  <name>talker</name>\n{text}</package>\n'
+
+
 class ImportUndeclared(Rule):
     """Python code imports a package that the manifest does not declare.
 
@@ -51,10 +60,7 @@ class ImportUndeclared(Rule):
         Example(
             "declared; the standard library, own modules and guarded imports need nothing",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import math\n\nimport rclpy\nfrom talker.text import hello\n"
                 "try:\n    import numpy\nexcept ImportError:\n    numpy = None\n"
@@ -65,10 +71,7 @@ class ImportUndeclared(Rule):
         Example(
             "what helps to work on the package is not installed",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "setup.py": "setup(entry_points={'console_scripts': ['a = talker.a:main']})\n",
                 "talker/__init__.py": "",
                 "talker/a.py": "import rclpy\n",
@@ -82,9 +85,9 @@ class ImportUndeclared(Rule):
         Example(
             "a script among sources in C++; a launch file that is named like a test",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>launch</exec_depend>\n"
-                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n",
+                "package.xml": _manifest(
+                    "launch", "<export><build_type>ament_cmake</build_type></export>"
+                ),
                 "CMakeLists.txt": "project(talker)\nadd_subdirectory(src)\n"
                 "install(DIRECTORY launch DESTINATION share/talker)\n",
                 "src/CMakeLists.txt": "add_executable(talk talk.cpp)\n",
@@ -98,19 +101,15 @@ class ImportUndeclared(Rule):
                 fix="declare xacro",
             ),
             fixed={
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>launch</exec_depend>\n  <exec_depend>xacro</exec_depend>\n"
-                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n"
+                "package.xml": _manifest(
+                    "launch", "xacro", "<export><build_type>ament_cmake</build_type></export>"
+                )
             },
         ),
         Example(
             "what the package of a declared library depends on",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>python3-fastapi</exec_depend>\n"
-                "  <exec_depend>python3-flask-socketio</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("python3-fastapi", "python3-flask-socketio"),
                 "talker/__init__.py": "",
                 "talker/page.py": "import fastapi\nimport flask\nimport jinja2\nimport pydantic\n",
             },
@@ -118,10 +117,7 @@ class ImportUndeclared(Rule):
         Example(
             "switched off by a constant; in a branch for ROS 1",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import os\n\nimport rclpy\n\nUSE_GUI = False\n"
                 "ros_version = os.environ['ROS_VERSION']\n"
@@ -132,10 +128,7 @@ class ImportUndeclared(Rule):
         Example(
             "a switch that a function turns on",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\n\nUSE_GUI = False\n\n\ndef start():\n"
                 "    global USE_GUI\n    USE_GUI = True\n\n\ndef show():\n"
@@ -147,22 +140,12 @@ class ImportUndeclared(Rule):
                 "add <exec_depend>python3-trimesh-pip</exec_depend>",
                 fix="declare python3-trimesh-pip",
             ),
-            fixed={
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>python3-trimesh-pip</exec_depend>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n"
-            },
+            fixed={"package.xml": _manifest("python3-trimesh-pip", "rclpy")},
         ),
         Example(
             "declared for the build alone",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <build_depend>std_msgs</build_depend>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("<build_depend>std_msgs</build_depend>", "rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
             },
@@ -174,18 +157,15 @@ class ImportUndeclared(Rule):
                 fix="declare std_msgs",
             ),
             fixed={
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <build_depend>std_msgs</build_depend>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "  <exec_depend>std_msgs</exec_depend>\n"
-                "</package>\n"
+                "package.xml": _manifest(
+                    "<build_depend>std_msgs</build_depend>", "rclpy", "std_msgs"
+                )
             },
         ),
         Example(
             "messages that only the tests have",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "CMakeLists.txt": "project(talker)\nset(_NAME ${PROJECT_NAME})\n"
                 'set(PROJECT_NAME "talker_test_msgs")\n'
                 "rosidl_generate_interfaces(${PROJECT_NAME} test/msg/A.msg SKIP_INSTALL)\n"
@@ -197,10 +177,7 @@ class ImportUndeclared(Rule):
         Example(
             "what CMake has for tests alone is a dependency of tests",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <test_depend>rclpy</test_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("<test_depend>rclpy</test_depend>"),
                 "CMakeLists.txt": "project(talker)\nif(BUILD_TESTING)\n"
                 "  add_subdirectory(src/system)\nendif()\n",
                 "src/system/talk.py": "import rclpy\n",
@@ -209,11 +186,9 @@ class ImportUndeclared(Rule):
         Example(
             "a program that is named like a test",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n"
-                "</package>\n",
+                "package.xml": _manifest(
+                    "rclpy", "<export>\n    <build_type>ament_cmake</build_type>\n  </export>"
+                ),
                 "CMakeLists.txt": "project(talker)\n"
                 "install(PROGRAMS scripts/tf_test.py DESTINATION lib/talker)\n",
                 "scripts/tf_test.py": "import rclpy\nimport tf2_ros\n",
@@ -225,22 +200,19 @@ class ImportUndeclared(Rule):
                 fix="declare tf2_ros_py",
             ),
             fixed={
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "  <exec_depend>tf2_ros_py</exec_depend>\n"
-                "  <export>\n    <build_type>ament_cmake</build_type>\n  </export>\n"
-                "</package>\n"
+                "package.xml": _manifest(
+                    "rclpy",
+                    "tf2_ros_py",
+                    "<export>\n    <build_type>ament_cmake</build_type>\n  </export>",
+                )
             },
         ),
         Example(
             "declared where a variable of who builds the package is set",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                '  <exec_depend condition="$SIMULATION == yes">gazebo_msgs</exec_depend>\n'
-                "</package>\n",
+                "package.xml": _manifest(
+                    "rclpy", '<exec_depend condition="$SIMULATION == yes">gazebo_msgs</exec_depend>'
+                ),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom gazebo_msgs.msg import ModelState\n",
             },
@@ -248,11 +220,9 @@ class ImportUndeclared(Rule):
         Example(
             "declared for another distribution",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                '  <exec_depend condition="$ROS_DISTRO == humble">std_msgs</exec_depend>\n'
-                "</package>\n",
+                "package.xml": _manifest(
+                    "rclpy", '<exec_depend condition="$ROS_DISTRO == humble">std_msgs</exec_depend>'
+                ),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
             },
@@ -263,11 +233,10 @@ class ImportUndeclared(Rule):
         Example(
             "declared for this distribution and for another one",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                '  <exec_depend condition="$ROS_DISTRO == humble">rclpy</exec_depend>\n'
-                '  <exec_depend condition="$ROS_DISTRO != humble">rclpy</exec_depend>\n'
-                "</package>\n",
+                "package.xml": _manifest(
+                    '<exec_depend condition="$ROS_DISTRO == humble">rclpy</exec_depend>',
+                    '<exec_depend condition="$ROS_DISTRO != humble">rclpy</exec_depend>',
+                ),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\n",
             },
@@ -275,10 +244,7 @@ class ImportUndeclared(Rule):
         Example(
             "a launch file, in a package that does not declare launch",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "launch/a.launch.py": "from launch import LaunchDescription\n",
             },
             Report(
@@ -288,18 +254,12 @@ class ImportUndeclared(Rule):
                 fix="declare launch",
                 severity=Severity.WARNING,
             ),
-            fixed={
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>launch</exec_depend>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n"
-            },
+            fixed={"package.xml": _manifest("launch", "rclpy")},
         ),
         Example(
             "a library that many install with pip",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "talker/__init__.py": "",
                 "talker/node.py": "import torch\n",
             },
@@ -310,15 +270,12 @@ class ImportUndeclared(Rule):
                 fix="declare python3-torch",
                 severity=Severity.WARNING,
             ),
-            fixed={
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>python3-torch</exec_depend>\n</package>\n"
-            },
+            fixed={"package.xml": _manifest("python3-torch")},
         ),
         Example(
             "what comes with `ros2 launch`",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "launch/a.launch.py": "import ament_index_python\n",
             },
             Report(
@@ -328,16 +285,12 @@ class ImportUndeclared(Rule):
                 fix="declare ament_index_python",
                 severity=Severity.WARNING,
             ),
-            fixed={
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>ament_index_python</exec_depend>\n</package>\n"
-            },
+            fixed={"package.xml": _manifest("ament_index_python")},
         ),
         Example(
             "a key for pip",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>python-transforms3d-pip</exec_depend>\n</package>\n",
+                "package.xml": _manifest("python-transforms3d-pip"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import transforms3d\n",
             },
@@ -345,7 +298,7 @@ class ImportUndeclared(Rule):
         Example(
             "a library that pip is asked for",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "requirements.txt": "numpy\ntorch>=2.0\n",
                 "talker/__init__.py": "",
                 "talker/node.py": "import torch\n",
@@ -354,7 +307,7 @@ class ImportUndeclared(Rule):
         Example(
             "a library that pip is asked for under another name",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "requirements.txt": "# hardware\npyserial>=3.5\n",
                 "talker/__init__.py": "",
                 "talker/node.py": "import serial\n",
@@ -366,16 +319,12 @@ class ImportUndeclared(Rule):
                 fix="declare python3-serial",
                 severity=Severity.WARNING,
             ),
-            fixed={
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>python3-serial</exec_depend>\n</package>\n"
-            },
+            fixed={"package.xml": _manifest("python3-serial")},
         ),
         Example(
             "declared by the name of its Debian package",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>ros-jazzy-std-msgs</exec_depend>\n</package>\n",
+                "package.xml": _manifest("ros-jazzy-std-msgs"),
                 "talker/__init__.py": "",
                 "talker/node.py": "from std_msgs.msg import String\n",
             },
@@ -383,7 +332,7 @@ class ImportUndeclared(Rule):
         Example(
             "a node of ROS 1, kept next to its successor",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n</package>\n',
+                "package.xml": _manifest(),
                 "talker/__init__.py": "",
                 "talker/old.py": "import rospy\nfrom sensor_msgs.msg import Joy\n",
             },
@@ -391,8 +340,7 @@ class ImportUndeclared(Rule):
         Example(
             "rospkg, which would not find the package if it were there",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>rclpy</exec_depend>\n</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nimport rospkg\n\n"
                 "path = rospkg.RosPack().get_path('talker')\n",
@@ -401,8 +349,7 @@ class ImportUndeclared(Rule):
         Example(
             "a script among the data",
             {
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n",
+                "package.xml": _manifest("<export><build_type>ament_cmake</build_type></export>"),
                 "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
                 "install(DIRECTORY tools DESTINATION share/${PROJECT_NAME})\n"
                 "install(PROGRAMS tools/talk.py DESTINATION lib/${PROJECT_NAME})\n"
@@ -424,19 +371,17 @@ class ImportUndeclared(Rule):
                 fix="declare python3-yaml",
             ),
             fixed={
-                "package.xml": '<package format="3">\n  <name>talker</name>\n'
-                "  <exec_depend>python3-matplotlib</exec_depend>\n"
-                "  <exec_depend>python3-yaml</exec_depend>\n"
-                "  <export><build_type>ament_cmake</build_type></export>\n</package>\n"
+                "package.xml": _manifest(
+                    "python3-matplotlib",
+                    "python3-yaml",
+                    "<export><build_type>ament_cmake</build_type></export>",
+                )
             },
         ),
         Example(
             "a message package and a Python library are missing",
             {
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "</package>\n",
+                "package.xml": _manifest("rclpy"),
                 "talker/__init__.py": "",
                 "talker/node.py": "import rclpy\nfrom std_msgs.msg import String\n",
             },
@@ -446,13 +391,7 @@ class ImportUndeclared(Rule):
                 "add <exec_depend>std_msgs</exec_depend>",
                 fix="declare std_msgs",
             ),
-            fixed={
-                "package.xml": '<package format="3">\n'
-                "  <name>talker</name>\n"
-                "  <exec_depend>rclpy</exec_depend>\n"
-                "  <exec_depend>std_msgs</exec_depend>\n"
-                "</package>\n"
-            },
+            fixed={"package.xml": _manifest("rclpy", "std_msgs")},
         ),
     )
 

@@ -29,13 +29,13 @@ TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transf
 
 def has_too_many(finding: TypeFinding, callee: str) -> bool:
     """Tell whether the call has more arguments without names than its function takes."""
-    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    call = finding.enclosing_call
     return call is not None and overload_problem(finding.package, callee, call).startswith("takes")
 
 
 def is_one_of_publishers(finding: TypeFinding) -> bool:
     """Tell whether the object called may be made for another type, as a condition says."""
-    call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
+    call = finding.enclosing_call
     if call is None or not isinstance(call.func, ast.Attribute):
         return False
     receiver = call.func.value

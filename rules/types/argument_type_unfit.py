@@ -3,36 +3,12 @@
 from __future__ import annotations
 
 import ast
-import re
-import sys
 
 from scaffold.api import Diagnostic, Example, TypeRule
-from scaffold.api.types import (
-    MARKED,
-    TypeFinding,
-    elements_misfit,
-    full_name,
-    in_words,
-    is_certain_misfit,
-    is_function,
-    members,
-    name_of,
-    short_name,
-    with_article,
-)
+from scaffold.api.types import MARKED, TypeFinding, with_article
 
-from ._arguments import (
-    TIMEOUTS,
-    has_too_many,
-    instead,
-    is_int_as_well,
-    is_one_of_publishers,
-    is_uncallable,
-    is_unpacked,
-    parameter_name,
-    timeout,
-    unlike,
-)
+from ._argument_problems import argument_problem
+from ._arguments import TIMEOUTS, timeout
 
 _NODE = (
     "import rclpy\nfrom rclpy.duration import Duration\nfrom rclpy.node import Node\n"
@@ -66,19 +42,6 @@ _SPEAKER = (
     "        self.say({})\n"
     "        self.show({})\n"
 )
-_UNCHECKED = (".get_parameter_or",)
-"""What works with anything as long as the parameter is declared."""
-_ANY_VALUE = {
-    ("DeclareLaunchArgument()", "description"),
-    *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
-}
-"""What `ros2 launch --show-args` prints, whatever it is, and what is only tested for truth."""
-_CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
-"""What calls ``int()`` on its nanoseconds, which are annotated as an int."""
-_COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
-"""A number that is computed with a value of unknown type."""
-_OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
-"""The class of a message, or of a part of a service or an action."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 _FLEET = (
@@ -544,108 +507,10 @@ class ArgumentTypeUnfit(TypeRule):
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
-        is_overloaded = finding.kind == "no-matching-overload"
-        if is_overloaded:
+        if finding.kind == "no-matching-overload":
             return self._judge_overload(finding)
-        return self._judge_listed(finding) or self._judge_argument(finding)
-
-    def _judge_argument(self, finding: TypeFinding) -> Diagnostic | None:
-        matched = finding.match(
-            rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
-            r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
-        )
-        if matched is None:
-            return self._judge_element(finding) or self._judge_message(finding)
-        expected, given = matched["expected"], matched["given"]
-        if matched["callee"].endswith(".publish_feedback"):
-            given = re.sub(_COMPUTED, r"\1", given)
-        is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
-        if not is_misfit or matched["callee"].endswith(_UNCHECKED) or is_unpacked(finding):
-            return None
-        is_for_others = has_too_many(finding, matched["callee"])  # which TY004 reports
-        is_for_others = is_for_others or is_one_of_publishers(finding)
-        is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))
-        if is_for_others or (expected.startswith("(") and is_function(given)):
-            return None  # functions differ in their annotations; ND003 counts the arguments
-        owner, _, method = matched["callee"].rpartition(".")
-        called = owner if method in {"__init__", "__new__"} else method
-        where = f"{short_name(called)}()"
-        hint = instead(finding.package, expected, given)
-        if re.fullmatch(_OF_MESSAGE, full_name(owner or called)):
-            field = parameter_name(finding, matched["callee"])
-            return self.report(
-                finding,
-                f"{field!r} of {full_name(owner)} is {with_article(name_of(expected))}, not "
-                f"{in_words(given)}: it cannot be published{hint}",
-            )
-        parameter = parameter_name(finding, matched["callee"])
-        if expected.startswith("("):
-            expected = "function"
-        elif expected.startswith("type["):
-            expected = "class"
-        is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
-        is_made_int = is_made_int and given.rstrip("*") == "float"
-        if is_made_int or (where, parameter) in _ANY_VALUE:
-            return None
-        needs = f"{parameter!r} of {where}" if parameter else f"an argument of {where}"
-        return self.report(
-            finding,
-            f"{needs} must be {unlike(expected, given)}: {where} fails{hint}",
-        )
-
-    def _judge_listed(self, finding: TypeFinding) -> Diagnostic | None:
-        """Judge a list that a message is made with."""
-        matched = finding.match(
-            rf"Argument to `(?P<owner>{MARKED})\.__init__` is incorrect: "
-            r"Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
-        )
-        if matched is None or not re.fullmatch(_OF_MESSAGE, full_name(matched["owner"])):
-            return None
-        elements = elements_misfit(matched["expected"], matched["given"])
-        field = parameter_name(finding, f"{matched['owner']}.__init__") if elements else ""
-        message = f"elements of {field!r} must be {elements}: it cannot be published"
-        return self.report(finding, message) if elements else None
-
-    def _judge_element(self, finding: TypeFinding) -> Diagnostic | None:
-        """Judge what is appended to a list of messages, which nothing checks before it is sent."""
-        matched = finding.match(
-            r"Argument to bound method `list\.(?:append|insert)` is incorrect: "
-            rf"Expected `(?P<expected>{MARKED})`, found `(?P<given>.+)`"
-        )
-        call = next(
-            (node for node in finding.parents() if isinstance(node, ast.Call)),
-            None,
-        )
-        if matched is None or not is_certain_misfit(matched["expected"], matched["given"]):
-            return None
-        match call:
-            case ast.Call(func=ast.Attribute(value=ast.Attribute(attr=field, value=holder))) if (
-                not isinstance(holder, ast.Name) or holder.id != "self"
-            ):
-                return self.report(
-                    finding,
-                    f"elements of {field!r} must be {with_article(full_name(matched['expected']))},"
-                    f" not {in_words(matched['given'])}: it cannot be published",
-                )
-        return None
-
-    def _judge_message(self, finding: TypeFinding) -> Diagnostic | None:
-        """Judge a message that a function of Python is given for the text or number in it."""
-        matched = finding.match(
-            r"Argument to (?:[a-z]+ )*`[\w.]+` is incorrect: Expected `.+`, "
-            rf"found `(?P<given>{MARKED})`"
-        )
-        call = next((node for node in finding.parents() if isinstance(node, ast.Call)), None)
-        if matched is None or call is None:
-            return None
-        given = full_name(matched["given"])
-        called = finding.module.qualified_name(call.func) or ""
-        if ".msg." not in given or called.partition(".")[0] not in sys.stdlib_module_names:
-            return None
-        names = members(finding.package, matched["given"])
-        fields = [name for name in names if name.islower() and not name.startswith("get_")]
-        hint = f"; pass its field {fields[0]!r}" if len(fields) == 1 else ""
-        return self.report(finding, f"{called}() cannot use a {given}: TypeError{hint}")
+        problem = argument_problem(finding)
+        return self.report(finding, problem) if problem else None
 
     def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
         """Judge a timeout: the type checker does not say which argument fits no signature."""

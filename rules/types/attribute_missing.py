@@ -12,28 +12,18 @@ from scaffold.api import (
     Edit,
     Example,
     Fix,
-    Package,
     Report,
     Safety,
     Severity,
     TypeRule,
     closest_name,
-    fact,
 )
 from scaffold.api.distributions import removed_name
 from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import only_while_stopping
-from scaffold.api.types import (
-    MARKED,
-    TypeFinding,
-    class_in,
-    class_itself,
-    full_name,
-    members,
-    module_names,
-    own_members,
-    with_article,
-)
+from scaffold.api.types import TypeFinding, class_in, full_name
+
+from ._attribute_owners import COROUTINE, MESSAGE, METHOD, cause, known_owner, without_none
 
 _NODE = (
     "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n"
@@ -109,31 +99,10 @@ _CERTAIN = 0.85
 _OF_ALL_MESSAGES = frozenset({"SLOT_TYPES", "get_fields_and_field_types"})
 _IMPORTED = frozenset({*typing.__all__, *sys.stdlib_module_names, "ament_index_python"})
 """What modules of ROS import for themselves, which their annotations alone do not show."""
-_OF_WINDOWS = frozenset({"msvcrt", "winreg", "winsound"})
-"""Modules that are empty for the type checker, and only used where they are not."""
-_BASES = frozenset(
-    {
-        "launch.action.Action",
-        "launch.event.Event",
-        "launch.launch_description_entity.LaunchDescriptionEntity",
-        "launch.substitution.Substitution",
-    }
-)
-"""Classes of which no object is: only classes derived from them are used."""
-_INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
-"""A service or an action, of which there are no objects either, but of its parts."""
-_MESSAGE = re.compile(r"(?!rclpy\.)(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>[\w.]+)")
-_EXECUTOR = "rclpy.executors.Executor"
-_AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
-"""The fields of the message that callbacks for feedback get."""
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 _SECONDS = frozenset({"sec", "secs", "seconds", "to_sec", "total_seconds"})
 _NANOSECONDS = frozenset({"nanosec", "nsec", "nsecs", "nanosecs", "to_nsec"})
 """What other libraries, messages and ROS 1 call the parts of a time."""
-_PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
-_COROUTINE = "a coroutine"
-_METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
-"""Matches a method that is not called."""
 _OF_MOCKS = re.compile(
     r"assert_\w+|await(?:ed|_args|_args_list|_count)|call(?:ed|_args|_args_list|_count)"
     r"|(?:method|mock)_calls|return_value|side_effect|(?:reset|configure|attach)_mock"
@@ -555,17 +524,17 @@ class AttributeMissing(TypeRule):
         node = finding.node(ast.Attribute)
         if matched is None or node is None:
             return None
-        name, owner = matched["name"], _without_none(matched["of"])
+        name, owner = matched["name"], without_none(matched["of"])
         is_imported = finding.message.startswith("Module") and name in _IMPORTED
         is_known = _is_named(finding, name, owner)
         is_known = is_known or _may_be_of_mock(finding, name)
         if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
-        known = _plain(node, owner) or _known(finding, node, owner)
+        known = known_owner(finding, node, owner)
         if known is None:
             return None
         shown, names = known
-        method = shown.rpartition(".")[2] if _METHOD.fullmatch(owner) else ""
+        method = shown.rpartition(".")[2] if METHOD.fullmatch(owner) else ""
         hint = _instead(shown, name, method)
         closest = "" if hint else closest_name(finding.package, name, names - {name}, 0.6)
         if closest:
@@ -582,7 +551,7 @@ class AttributeMissing(TypeRule):
         fix = _fix(finding, node, closest, is_sure=change is not None) if closest else None
         is_late = only_while_stopping(finding.module, node)
         severity = Severity.WARNING if is_late else Severity.ERROR
-        return self.report(finding, message, fix, severity=severity, cause=_cause(shown))
+        return self.report(finding, message, fix, severity=severity, cause=cause(shown))
 
 
 def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
@@ -591,7 +560,7 @@ def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
     if re.search(rf"""['"]{name}['"]""", text) is None:
         return False
     class_ = class_in(owner)  # a message takes no other attributes; its fields may be asked for
-    is_message = class_ is not None and _MESSAGE.fullmatch(full_name(class_)) is not None
+    is_message = class_ is not None and MESSAGE.fullmatch(full_name(class_)) is not None
     return not is_message or finding.module.mentions("attr(", "get_fields_and_field_types")
 
 
@@ -599,7 +568,7 @@ def _instead(shown: str, name: str, method: str) -> str:
     """Return what to write instead, where it is not another name of the same object."""
     if method:
         return f"; write {method}()"
-    if shown == _COROUTINE:
+    if shown == COROUTINE:
         return "; await it"
     if shown == "rclpy.task.Future":
         return "; what the future brings is in result()"
@@ -624,77 +593,6 @@ def _is_chosen(finding: TypeFinding, node: ast.Attribute) -> bool:
         for condition in conditions_on(module, node)
         for part in ast.walk(condition)
     )
-
-
-def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
-    """Return the name of a method, or of the type of a plain value, that is read from."""
-    method = _METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
-    if method is not None:
-        return f"{full_name(method[1])}.{method[2]}", frozenset()
-    if owner.startswith("CoroutineType["):
-        return _COROUTINE, frozenset()
-    return (with_article(owner), frozenset()) if owner in _PLAIN else None
-
-
-def _known(
-    finding: TypeFinding, node: ast.Attribute, owner: str
-) -> tuple[str, frozenset[str]] | None:
-    """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
-    name, package = node.attr, finding.package
-    if finding.message.startswith("Module"):
-        return None if owner in _OF_WINDOWS else (owner, module_names(package, owner))
-    is_of_workspace = re.fullmatch(r"\w+", owner) is not None  # it has no mark
-    if is_of_workspace:
-        return None if _is_set(package, name) else (owner, own_members(package, owner))
-    class_ = _class_of_object(owner) or class_itself(owner)
-    if not class_ or _is_of_message_around(full_name(class_), name):
-        return None
-    shown = full_name(class_)
-    if shown == _EXECUTOR and _is_set(package, "executor"):
-        return None  # ND013 reports that something else is assigned
-    is_message = _MESSAGE.fullmatch(shown) is not None
-    is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
-    if not is_message and is_settable:
-        return None  # an object of rclpy takes any attribute
-    return shown, members(package, class_)
-
-
-def _cause(shown: str) -> str:
-    """Return the cause that wrong fields of one message share, as MS002 names it."""
-    matched = _MESSAGE.fullmatch(shown)
-    if matched is None:
-        return ""
-    return f"fields of {matched['package']}/{matched['kind']}/{matched['name']}"
-
-
-def _without_none(owner: str) -> str:
-    """Return a type without the ``None`` that an attribute starts with."""
-    return " | ".join(part for part in owner.split(" | ") if part != "None") or owner
-
-
-def _class_of_object(owner: str) -> str | None:
-    """Return the class of an object, unless it certainly has another than the annotation says."""
-    class_ = class_in(owner)
-    shown = full_name(class_) if class_ else ""
-    return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
-
-
-def _is_of_message_around(shown: str, name: str) -> bool:
-    """Tell whether the annotation of a callback names the feedback for the message around it."""
-    return shown.endswith(".Feedback") and name in _AROUND_FEEDBACK
-
-
-@fact
-def _is_set(package: Package, name: str) -> bool:
-    """Tell whether some code of the package sets an attribute of this name."""
-    return any(_sets(package, path, name) for path in package.python_files)
-
-
-@fact
-def _sets(package: Package, path: str, name: str) -> bool:
-    pattern = rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
-    data = package.data(path)
-    return name.encode() in data and re.search(pattern, data) is not None
 
 
 def _fix(finding: TypeFinding, node: ast.Attribute, closest: str, *, is_sure: bool) -> Fix:

@@ -95,6 +95,11 @@ class TypeFinding:
         if self.innermost is not None:
             yield from self.module.parents(self.innermost)
 
+    @property
+    def enclosing_call(self) -> ast.Call | None:
+        """The innermost call around the place."""
+        return next((node for node in self.parents() if isinstance(node, ast.Call)), None)
+
     def expression(self) -> ast.expr | None:
         """Return the outermost expression that is exactly at the place."""
         return self.node(

@@ -1,0 +1,147 @@
+"""What is wrong with an argument that the type checker rejects: the messages of TY005."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+
+from scaffold.api.types import (
+    MARKED,
+    TypeFinding,
+    elements_misfit,
+    full_name,
+    in_words,
+    is_certain_misfit,
+    is_function,
+    members,
+    name_of,
+    short_name,
+    with_article,
+)
+
+from ._arguments import (
+    has_too_many,
+    instead,
+    is_int_as_well,
+    is_one_of_publishers,
+    is_uncallable,
+    is_unpacked,
+    parameter_name,
+    unlike,
+)
+
+_UNCHECKED = (".get_parameter_or",)
+"""What works with anything as long as the parameter is declared."""
+_ANY_VALUE = {
+    ("DeclareLaunchArgument()", "description"),
+    *((name, "emulate_tty") for name in ("ExecuteLocal()", "ExecuteProcess()", "Node()")),
+}
+"""What `ros2 launch --show-args` prints, whatever it is, and what is only tested for truth."""
+_CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
+"""What calls ``int()`` on its nanoseconds, which are annotated as an int."""
+_COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
+"""A number that is computed with a value of unknown type."""
+_OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
+"""The class of a message, or of a part of a service or an action."""
+
+
+def argument_problem(finding: TypeFinding) -> str:
+    """Return what is wrong with the type of an argument; empty if that is not certain."""
+    matched = finding.match(
+        rf"Argument to (?:[a-z]+ )*`(?P<callee>{MARKED}(?:\.\w+)?)`"
+        r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
+    )
+    if matched is None:
+        return _appended_element(finding) or _message_for_its_value(finding)
+    return _listed_elements(finding) or _argument(
+        finding, matched["callee"], matched["expected"], matched["given"]
+    )
+
+
+def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> str:
+    """Judge an argument of a function or class of ROS."""
+    if callee.endswith(".publish_feedback"):
+        given = re.sub(_COMPUTED, r"\1", given)
+    is_misfit = is_certain_misfit(expected, given) or is_uncallable(finding, expected, given)
+    if not is_misfit or callee.endswith(_UNCHECKED) or is_unpacked(finding):
+        return ""
+    is_for_others = has_too_many(finding, callee)  # which TY004 reports
+    is_for_others = is_for_others or is_one_of_publishers(finding)
+    is_for_others = is_for_others or (given == "float" and is_int_as_well(finding))
+    if is_for_others or (expected.startswith("(") and is_function(given)):
+        return ""  # functions differ in their annotations; ND003 counts the arguments
+    owner, _, method = callee.rpartition(".")
+    called = owner if method in {"__init__", "__new__"} else method
+    shown_call = f"{short_name(called)}()"
+    hint = instead(finding.package, expected, given)
+    parameter = parameter_name(finding, callee)
+    if re.fullmatch(_OF_MESSAGE, full_name(owner or called)):
+        return (
+            f"{parameter!r} of {full_name(owner)} is {with_article(name_of(expected))}, not "
+            f"{in_words(given)}: it cannot be published{hint}"
+        )
+    is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
+    is_made_int = is_made_int and given.rstrip("*") == "float"
+    if is_made_int or (shown_call, parameter) in _ANY_VALUE:
+        return ""
+    if expected.startswith("("):
+        expected = "function"
+    elif expected.startswith("type["):
+        expected = "class"
+    subject = f"{parameter!r} of {shown_call}" if parameter else f"an argument of {shown_call}"
+    return f"{subject} must be {unlike(expected, given)}: {shown_call} fails{hint}"
+
+
+def _listed_elements(finding: TypeFinding) -> str:
+    """Judge a list that a message is made with."""
+    matched = finding.match(
+        rf"Argument to `(?P<owner>{MARKED})\.__init__` is incorrect: "
+        r"Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
+    )
+    if matched is None or not re.fullmatch(_OF_MESSAGE, full_name(matched["owner"])):
+        return ""
+    elements = elements_misfit(matched["expected"], matched["given"])
+    if not elements:
+        return ""
+    field = parameter_name(finding, f"{matched['owner']}.__init__")
+    return f"elements of {field!r} must be {elements}: it cannot be published"
+
+
+def _appended_element(finding: TypeFinding) -> str:
+    """Judge what is appended to a list of messages, which nothing checks before it is sent."""
+    matched = finding.match(
+        r"Argument to bound method `list\.(?:append|insert)` is incorrect: "
+        rf"Expected `(?P<expected>{MARKED})`, found `(?P<given>.+)`"
+    )
+    if matched is None or not is_certain_misfit(matched["expected"], matched["given"]):
+        return ""
+    match finding.enclosing_call:
+        case ast.Call(func=ast.Attribute(value=ast.Attribute(attr=field, value=holder))) if (
+            not isinstance(holder, ast.Name) or holder.id != "self"
+        ):
+            needed = with_article(full_name(matched["expected"]))
+            return (
+                f"elements of {field!r} must be {needed}, not {in_words(matched['given'])}: "
+                "it cannot be published"
+            )
+    return ""
+
+
+def _message_for_its_value(finding: TypeFinding) -> str:
+    """Judge a message that a function of Python is given for the text or number in it."""
+    matched = finding.match(
+        r"Argument to (?:[a-z]+ )*`[\w.]+` is incorrect: Expected `.+`, "
+        rf"found `(?P<given>{MARKED})`"
+    )
+    call = finding.enclosing_call
+    if matched is None or call is None:
+        return ""
+    given = full_name(matched["given"])
+    called = finding.module.qualified_name(call.func) or ""
+    if ".msg." not in given or called.partition(".")[0] not in sys.stdlib_module_names:
+        return ""
+    names = members(finding.package, matched["given"])
+    fields = [name for name in names if name.islower() and not name.startswith("get_")]
+    hint = f"; pass its field {fields[0]!r}" if len(fields) == 1 else ""
+    return f"{called}() cannot use a {given}: TypeError{hint}"

@@ -1,0 +1,119 @@
+"""What attributes are read from, and which of them it has; for TY003."""
+
+from __future__ import annotations
+
+import ast
+import re
+
+from scaffold.api import Package, fact
+from scaffold.api.types import (
+    MARKED,
+    TypeFinding,
+    class_in,
+    class_itself,
+    full_name,
+    members,
+    module_names,
+    own_members,
+    with_article,
+)
+
+_OF_WINDOWS = frozenset({"msvcrt", "winreg", "winsound"})
+"""Modules that are empty for the type checker, and only used where they are not."""
+_BASES = frozenset(
+    {
+        "launch.action.Action",
+        "launch.event.Event",
+        "launch.launch_description_entity.LaunchDescriptionEntity",
+        "launch.substitution.Substitution",
+    }
+)
+"""Classes of which no object is: only classes derived from them are used."""
+_INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
+"""A service or an action, of which there are no objects either, but of its parts."""
+MESSAGE = re.compile(r"(?!rclpy\.)(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>[\w.]+)")
+"""Matches a message, or a part of a service or an action."""
+_EXECUTOR = "rclpy.executors.Executor"
+_AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
+"""The fields of the message that callbacks for feedback get."""
+_PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
+COROUTINE = "a coroutine"
+METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
+"""Matches a method that is not called."""
+
+
+def known_owner(
+    finding: TypeFinding, node: ast.Attribute, owner: str
+) -> tuple[str, frozenset[str]] | None:
+    """Return the name of what lacks an attribute and what it has; ``None`` if it may have it."""
+    return _plain(node, owner) or _of_ros(finding, node, owner)
+
+
+def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None:
+    """Return the name of a method, or of the type of a plain value, that is read from."""
+    method = METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
+    if method is not None:
+        return f"{full_name(method[1])}.{method[2]}", frozenset()
+    if owner.startswith("CoroutineType["):
+        return COROUTINE, frozenset()
+    return (with_article(owner), frozenset()) if owner in _PLAIN else None
+
+
+def _of_ros(
+    finding: TypeFinding, node: ast.Attribute, owner: str
+) -> tuple[str, frozenset[str]] | None:
+    name, package = node.attr, finding.package
+    if finding.message.startswith("Module"):
+        return None if owner in _OF_WINDOWS else (owner, module_names(package, owner))
+    is_of_workspace = re.fullmatch(r"\w+", owner) is not None  # it has no mark
+    if is_of_workspace:
+        return None if _is_set(package, name) else (owner, own_members(package, owner))
+    class_ = _class_of_object(owner) or class_itself(owner)
+    if not class_ or _is_of_message_around(full_name(class_), name):
+        return None
+    shown = full_name(class_)
+    if shown == _EXECUTOR and _is_set(package, "executor"):
+        return None  # ND013 reports that something else is assigned
+    is_message = MESSAGE.fullmatch(shown) is not None
+    is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
+    if not is_message and is_settable:
+        return None  # an object of rclpy takes any attribute
+    return shown, members(package, class_)
+
+
+def _class_of_object(owner: str) -> str | None:
+    """Return the class of an object, unless it certainly has another than the annotation says."""
+    class_ = class_in(owner)
+    shown = full_name(class_) if class_ else ""
+    return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
+
+
+def _is_of_message_around(shown: str, name: str) -> bool:
+    """Tell whether the annotation of a callback names the feedback for the message around it."""
+    return shown.endswith(".Feedback") and name in _AROUND_FEEDBACK
+
+
+def cause(shown: str) -> str:
+    """Return the cause that wrong fields of one message share, as MS002 names it."""
+    matched = MESSAGE.fullmatch(shown)
+    if matched is None:
+        return ""
+    return f"fields of {matched['package']}/{matched['kind']}/{matched['name']}"
+
+
+def without_none(owner: str) -> str:
+    """Return a type without the ``None`` that an attribute starts with."""
+    return " | ".join(part for part in owner.split(" | ") if part != "None") or owner
+
+
+@fact
+def _is_set(package: Package, name: str) -> bool:
+    """Tell whether some code of the package sets an attribute of this name."""
+    return any(_sets(package, path, name) for path in package.python_files)
+
+
+@fact
+def _sets(package: Package, path: str, name: str) -> bool:
+    pattern = rf"\.{name}\b\s*(?::[^=\n]+)?=[^=]".encode()
+    data = package.data(path)
+    return name.encode() in data and re.search(pattern, data) is not None
