@@ -84,7 +84,7 @@ class Choices:
         exclusion = Exclusion(patterns, self._settings.origin(key)) if patterns else Exclusion()
         is_own = self._settings.value("check.style") == "own"
         refused = self._refused_at_release() if is_release else frozenset()
-        kinds = () if include_all else self._settings.strings("check.leave-out")
+        kinds = () if include_all else self._settings.strings("check.default-excludes")
         return Adjustments(severities, is_own, exclusion, refused, Foreign(kinds))
 
     @property

@@ -1,4 +1,4 @@
-"""The packages that a command line asks for, and what is left out of them."""
+"""The packages selected on the command line, and what is excluded from them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def common_directory(paths: Sequence[str], disk: Disk) -> str:
 
 
 def find_targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
-    """Find the packages; note for the report what the configuration leaves out."""
+    """Find the packages; note for the report what the configuration excludes."""
     from scaffold.model.discovery import targets as discovery
     from scaffold.reporters.summary import count
 
@@ -71,7 +71,7 @@ def foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]
     parts[-1:] = [f"{part} (--include-all checks them)" for part in parts[-1:]]
     environments = files.count(ENVIRONMENTS)
     parts += [count(environments, "virtual environment")] if environments else []
-    return (f"left out: {', '.join(parts)}",) if parts else ()
+    return (f"excluded by default: {', '.join(parts)}",) if parts else ()
 
 
 def note_unfinished(targets: Sequence[Target]) -> bool:

@@ -133,9 +133,7 @@ def _files(disk: Disk, directory: str, warnings: list[str]) -> Iterator[_File]:
 def _validate(file: _File, table: str, entries: object) -> None:
     """Raise if the configuration has no such table or key, or the value is of another type."""
     if not isinstance(entries, dict):
-        raise ConfigError(
-            f"{file.path}: {table!r} must be in a table{_key_hint(file.prefix, table)}"
-        )
+        raise ConfigError(f"{file.path}: {_misplaced_key(file.prefix, table)}")
     if table not in keys.TABLES:
         raise ConfigError(f"{file.path}: unknown table [{file.prefix}{table}]{_table_hint(table)}")
     if table == keys.ANSWERS:
@@ -163,15 +161,21 @@ def _table_hint(table: str) -> str:
     return f"; did you mean [{inner}]?" if inner else f"; {keys.nearest(table, keys.TABLES)}"
 
 
-def _key_hint(prefix: str, name: str) -> str:
-    """Return where a key belongs that stands before all tables."""
+def _misplaced_key(prefix: str, name: str) -> str:
+    """Return what is wrong with a key before all tables, and where it belongs."""
     from difflib import get_close_matches
 
-    tables = {key.path.rpartition(".")[2]: key.table for key in reversed(keys.KEYS) if key.table}
+    if name in keys.TABLES:
+        return f"{name!r} must be a table: [{prefix}{name}]"
+    tables = {key.name: key.table for key in reversed(keys.KEYS)}
+    if name in tables:
+        return f"{name!r} must be in the table [{prefix}{tables[name]}]"
     closest = get_close_matches(name, tables, n=1)
     if not closest:
-        return f" such as [{prefix}check]"
-    return f"; did you mean {closest[0]!r} in [{prefix}{tables[closest[0]]}]?"
+        return f"unknown key {name!r}; keys are in tables such as [{prefix}check]"
+    table = tables[closest[0]]
+    place = f" in [{prefix}{table}]" if table else ""
+    return f"unknown key {name!r}; did you mean {closest[0]!r}{place}?"
 
 
 def named_content(directory: str) -> list[str]:

@@ -15,7 +15,7 @@ from scaffold.record import NamedTuple
 
 SEVERITIES = ("error", "warning", "info")
 STYLES = ("all", "own")
-FOREIGN = ("submodules", "ignored", "vendored", "copies")
+FOREIGN = ("submodules", "gitignored", "vendored", "copies")
 
 
 class Kind(NamedTuple):
@@ -65,7 +65,9 @@ def _is_list_of_strings(value: object) -> bool:
 
 
 def _refuse_strings(value: Any) -> str:  # noqa: ANN401  of any type in TOML
-    return "" if _is_list_of_strings(value) else _must_be(_STRINGS_NOUN)
+    if not _is_list_of_strings(value):
+        return _must_be(_STRINGS_NOUN)
+    return "" if all(value) else "has an empty string"
 
 
 def _refuse_directories(value: Any) -> str:  # noqa: ANN401  likewise
@@ -85,8 +87,9 @@ def _refuse_patterns(value: Any) -> str:  # noqa: ANN401  likewise
 
 
 def _refuse_lists_by_pattern(value: Any) -> str:  # noqa: ANN401  likewise
-    is_valid = isinstance(value, dict) and all(map(_is_list_of_strings, value.values()))
-    return "" if is_valid else _must_be(_LISTS_BY_PATTERN_NOUN)
+    if not isinstance(value, dict) or not all(map(_is_list_of_strings, value.values())):
+        return _must_be(_LISTS_BY_PATTERN_NOUN)
+    return "" if all(map(all, value.values())) else "has an empty string"
 
 
 def _refuse_severities(value: Any) -> str:  # noqa: ANN401  likewise
@@ -139,14 +142,14 @@ _NAMES = ", ".join(f"`{name}`" for name in distributions.NAMES)
 _DISTRIBUTION_NOUN = f"one of {_NAMES}, or a list of them"
 _ONE_DISTRIBUTION = {"enum": [*distributions.NAMES]}
 _NUMBER_NOUN = f"a number from 1 to {LONGEST_LINE}"
-_KINDS_NOUN = "a list of `submodules`, `ignored`, `vendored` and `copies`"
-_STRINGS = {"type": "array", "items": {"type": "string"}}
+_KINDS_NOUN = "a list of `submodules`, `gitignored`, `vendored` and `copies`"
+_STRINGS = {"type": "array", "items": {"type": "string", "minLength": 1}}
 
 STRINGS = Kind(_STRINGS_NOUN, _refuse_strings, _STRINGS)
 DIRECTORIES = Kind(
     _DIRECTORIES_NOUN,
     _refuse_directories,
-    {"type": "array", "items": {"type": "string", "minLength": 1}},
+    _STRINGS,
 )
 PATTERNS = Kind("a list of patterns", _refuse_patterns, _STRINGS)
 LISTS_BY_PATTERN = Kind(
@@ -208,11 +211,12 @@ KEYS = (
     ),
     Key(
         "check",
-        "leave-out",
+        "default-excludes",
         FOREIGN_KINDS,
         [*FOREIGN],
-        "Do not check code that somebody else maintains: git submodules, files that git ignores, "
-        "vendored code, copies made by editors and file synchronization.",
+        "What to exclude in addition to `exclude`, because somebody else maintains it: git "
+        "submodules, files that git ignores, vendored code, copies made by editors and file "
+        "synchronization.",
     ),
     Key(
         "check",

@@ -319,8 +319,8 @@ def test_dependencies_that_are_known_to_be_there(
         ),
         ("distribution = []", "check.distribution must be one of `humble`, `jazzy`, "),
         (
-            "leave-out = ['vendor']",
-            "check.leave-out has 'vendor', which is not a choice; did you mean",
+            "default-excludes = ['vendor']",
+            "check.default-excludes has 'vendor', which is not a choice; did you mean",
         ),
         ("line-length = '99'", "check.line-length must be a number from 1 to 10000"),
         ("licences = ['MIT']", "[check] has no key 'licences'; did you mean 'licenses'?"),
@@ -331,6 +331,24 @@ def test_wrong_values_are_explained(
     workspace: Path, capsys: pytest.CaptureFixture[str], line: str, message: str
 ) -> None:
     (workspace / "ros2-scaffold.toml").write_text(f"[check]\n{line}\n")
+    assert message in refused(capsys)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("contnet = []", "unknown key 'contnet'; did you mean 'content'?"),
+        ("selct = []", "unknown key 'selct'; did you mean 'select' in [check]?"),
+        ("select = []", "'select' must be in the table [check]"),
+        ("check = 5", "'check' must be a table: [check]"),
+        ("xyzzy = 5", "unknown key 'xyzzy'; keys are in tables such as [check]"),
+        ("[check]\nignore = ['']", "check.ignore has an empty string"),
+    ],
+)
+def test_misplaced_keys_and_empty_words_are_explained(
+    workspace: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
+) -> None:
+    (workspace / "ros2-scaffold.toml").write_text(f"{text}\n")
     assert message in refused(capsys)
 
 
@@ -356,7 +374,7 @@ def test_config_shows_each_value_and_its_file(
         ("check.per-path-ignores", {}, None),
         ("check.severity", {"F401": "info"}, str(project)),
         ("check.exclude", [], None),
-        ("check.leave-out", [*keys.FOREIGN], None),
+        ("check.default-excludes", [*keys.FOREIGN], None),
         ("check.style", "all", None),
         ("check.line-length", 99, None),
         ("check.licenses", [], None),
@@ -395,7 +413,7 @@ def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
         ("[check]\nselect = 'PX'\n", False),
         ("[check]\nexlude = []\n", False),
         ("[check.severity]\nPX020 = 'warn'\n", False),
-        ("[check]\nleave-out = ['ignore']\n", False),
+        ("[check]\ndefault-excludes = ['ignore']\n", False),
         ("[check]\nline-length = 0\n", False),
         ("[check]\nline-length = true\n", False),
         ("[check]\nlicenses = 'MIT'\n", False),

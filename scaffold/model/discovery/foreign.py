@@ -16,10 +16,10 @@ from scaffold.formats.gitignore import IgnoreFile
 if TYPE_CHECKING:
     from scaffold.files.disk import Disk
 
-SUBMODULES, IGNORED, VENDORED, COPIES = "submodules", "ignored", "vendored", "copies"
+SUBMODULES, GITIGNORED, VENDORED, COPIES = "submodules", "gitignored", "vendored", "copies"
 WHERE = {
     SUBMODULES: "in submodules",
-    IGNORED: "ignored by git",
+    GITIGNORED: "ignored by git",
     VENDORED: "of vendored code",
     COPIES: "left by editors or synchronization",
 }
@@ -108,11 +108,11 @@ class Foreign:
             return COPIES
         if is_directory and SUBMODULES in self.kinds and self._is_submodule(disk, path):
             return SUBMODULES
-        if IGNORED in self.kinds:
+        if GITIGNORED in self.kinds:
             repository = self._repository_of(disk, os.path.dirname(path))
             is_named = self._is_named(disk, path, top, is_directory=is_directory)
             if is_named and self._is_untracked(disk, repository, path):
-                return IGNORED
+                return GITIGNORED
         if not is_directory or VENDORED not in self.kinds:
             return ""
         is_within = not _VENDORED.isdisjoint(path[len(top) :].split("/"))

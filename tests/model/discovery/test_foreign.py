@@ -98,7 +98,7 @@ def test_packages_that_are_not_the_users(
     where = make(workspace)
     other = "third_party" if make is vendored else "other"
     for _ in range(2):  # the second time from memory
-        assert check() == (["own/node.py"], [f"left out: 1 package {where} {HINT}"])
+        assert check() == (["own/node.py"], [f"excluded by default: 1 package {where} {HINT}"])
     both = sorted(["own/node.py", f"{other}/msgs/node.py"])
     assert check("--include-all") == (both, [])
     for named in (other, f"{other}/msgs", f"{other}/msgs/node.py"):
@@ -157,7 +157,7 @@ def test_files_that_are_not_the_users(workspace: Path, check: Check) -> None:
     assert found == ["own/made_up.py", "own/node.py", "own/vendor/mine.py"]
     left_out = "3 files ignored by git, 2 files of vendored code"
     copies = "1 file left by editors or synchronization"
-    assert notes == [f"left out: {left_out}, {copies} {HINT}, 1 virtual environment"]
+    assert notes == [f"excluded by default: {left_out}, {copies} {HINT}, 1 virtual environment"]
     assert check("own/generated/a.py") == (["own/generated/a.py"], [])
     assert len(check("own", "--include-all")[0]) == len(found) + 5
     git(workspace, "add", "-f", "own/generated/a.py")
@@ -167,9 +167,9 @@ def test_files_that_are_not_the_users(workspace: Path, check: Check) -> None:
 def test_which_are_left_out_is_configured(workspace: Path, check: Check) -> None:
     write(workspace, {"own/node~.py": "", "own/.#node.py": FLAWED, "own/.gitignore": "node.py\n"})
     assert check("own")[0] == []
-    write(workspace, {"ros2-scaffold.toml": '[check]\nleave-out = ["ignored"]\n'})
+    write(workspace, {"ros2-scaffold.toml": '[check]\ndefault-excludes = ["gitignored"]\n'})
     assert check("own")[0] == ["own/.#node.py"]
-    write(workspace, {"ros2-scaffold.toml": "[check]\nleave-out = []\n"})
+    write(workspace, {"ros2-scaffold.toml": "[check]\ndefault-excludes = []\n"})
     assert check("own")[0] == ["own/.#node.py", "own/node.py"]
 
 
