@@ -29,6 +29,7 @@ from ._arguments import (
     is_unpacked,
     parameter_name,
     unlike,
+    wrong_callback,
 )
 
 _UNCHECKED = (".get_parameter_or",)
@@ -54,9 +55,12 @@ def argument_problem(finding: TypeFinding) -> str:
     )
     if matched is None:
         return _appended_element(finding) or _message_for_its_value(finding)
-    return _listed_elements(finding) or _argument(
-        finding, matched["callee"], matched["expected"], matched["given"]
-    )
+    called, expected, given = matched["callee"], matched["expected"], matched["given"]
+    if given.startswith("(("):
+        wrong = wrong_callback(finding, expected, given)
+        problem = f"the callback of {called.rpartition('.')[2]}() gets {wrong}"
+        return f"{problem}: TypeError when it is called" if wrong else ""
+    return _listed_elements(finding) or _argument(finding, called, expected, given)
 
 
 def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> str:

@@ -68,6 +68,46 @@ def is_uncallable(finding: TypeFinding, expected: str, given: str) -> bool:
     return expected.startswith("(") and bool(class_) and not has_call(finding.package, class_)
 
 
+def wrong_callback(finding: TypeFinding, expected: str, given: str) -> str:
+    """Return how many arguments one of the functions takes that a loop registers; else empty.
+
+    Args:
+        finding: The report, whose place is the variable of the loop.
+        expected: The type of the function that is needed.
+        given: The types of those that the loop runs over.
+    """
+    needed = re.match(r"\(([^()]*)\) -> ", expected)
+    taken = re.findall(r"\(\(([^()]*)\) -> [^()]*\)", given)
+    if needed is None or len(taken) != len(re.findall(r"\(\(", given)) or not _is_each(finding):
+        return ""
+    count = _count(needed[1])
+    counts = [_count(item) for item in taken if not re.search(r"[*=]", item)]
+    wrong = [item for item in counts if item != count]
+    return f"{count}; one of these functions takes {wrong[0]}" if wrong else ""
+
+
+def _count(listed: str) -> int:
+    parts = re.sub(r"\[[^\[\]]*\]", "", listed).split(",")
+    return len([part for part in parts if part.strip() not in {"", "/"}])
+
+
+def _is_each(finding: TypeFinding) -> bool:
+    """Tell whether the place is the variable of a loop, and nothing decides for which values."""
+    name = finding.expression()
+    if not isinstance(name, ast.Name):
+        return False
+    for node in finding.parents():
+        match node:
+            case ast.For(target=target):
+                return name.id in {it.id for it in ast.walk(target) if isinstance(it, ast.Name)}
+            case ast.ListComp(generators=[loop]) | ast.DictComp(generators=[loop]):
+                names = {it.id for it in ast.walk(loop.target) if isinstance(it, ast.Name)}
+                return name.id in names and not loop.ifs
+            case ast.If() | ast.IfExp() | ast.Try() | ast.FunctionDef():
+                return False
+    return False
+
+
 def unlike(expected: str, given: str) -> str:
     """Return two types in words; of lists alike, what is in them."""
     needed, got = with_article(name_of(expected)), in_words(given)

@@ -58,6 +58,30 @@ _FLEET = (
 )
 
 
+_TABLE = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Arm(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('arm')\n"
+    "        self.add_commands({{'arm': self.on_arm, 'disarm': self.on_disarm}})\n\n"
+    "    def add_commands(self, commands):\n"
+    "        self.commands = [\n"
+    "            self.create_service(Trigger, name, call) for name, call in commands.items()\n"
+    "        ]\n\n"
+    "    def on_arm(self, request, response):\n        return response\n\n"
+    "    def on_disarm(self, {}):\n        return response\n"
+)
+_HUB = (
+    "from rclpy.node import Node\nfrom std_msgs.msg import String\n\n\n"
+    "class Hub(Node):\n"
+    "    def __init__(self, topics):\n"
+    "        super().__init__('hub')\n"
+    "        self.outputs = {name: self.create_publisher(String, name, 10) for name in topics}\n\n"
+    "    def send(self, topic, text):\n"
+    "        self.outputs[topic].publish(text)\n"
+)
+
+
 class ArgumentTypeUnfit(TypeRule):
     """An argument of a ROS function has a type that the function cannot use.
 
@@ -503,6 +527,25 @@ class ArgumentTypeUnfit(TypeRule):
                 "        else:\n"
                 "            self.publisher.publish(Float32(data=1.0))\n"
             },
+        ),
+        Example("callbacks in a table", {"arm.py": _TABLE.format("request, response")}),
+        Example(
+            "one of the callbacks in a table takes too little",
+            {"arm.py": _TABLE.format("response")},
+            "12:48: the callback of create_service() gets 2; one of these functions takes 1: "
+            "TypeError when it is called",
+        ),
+        Example(
+            "text sent by a method that another module inherits",
+            {
+                "package.xml": "<package><name>rover</name></package>\n",
+                "rover/__init__.py": "",
+                "rover/hub.py": _HUB,
+                "rover/speaker.py": "from rover.hub import Hub\n\n\nclass Speaker(Hub):\n"
+                "    def tick(self):\n        self.send('say', 'hello')\n",
+            },
+            "rover/hub.py:11:37: 'msg' of publish() must be a std_msgs.msg.String or bytes, not a "
+            "str: publish() fails ('text' comes from line 6 of rover/speaker.py)",
         ),
     )
 

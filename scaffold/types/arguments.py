@@ -89,7 +89,7 @@ def with_arguments(data: bytes, module: str = "", received: Sequence[Passed] = (
     _add(lines, results.lines)
     stretches += results.heads
     if not (lines or stretches):
-        return Extended(data, ())
+        return Extended(data, (), passed)
     extended = with_lines(text, lines, stretches)
     end = containers.definitions() * is_kept + makers.definitions() * bool(heads)
     end += results.definitions

@@ -1,4 +1,7 @@
-"""What a file passes to functions and classes of other modules of its package."""
+"""What a file passes to functions and classes of other modules of its package.
+
+Methods that its own classes inherit from there are among them: ``self.send('hello')``.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ from scaffold.model.facts import fact
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
+from scaffold.types.callbacks import function_body
 from scaffold.types.sources import imported_names
 from scaffold.types.statements import mentions
 
@@ -20,6 +24,18 @@ _KEPT = re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")
 _SET = re.compile(r"[ ]*(?::[^=\n]*)?=(?!=)[ ]*(?!None\b)")
 """Matches what is after a name that is given a value."""
 _BOUND = re.compile(r"\b(?:def|lambda|for|as|global|nonlocal|del|import)\b")
+
+
+_CLASS = re.compile(r"^class \w+\((\w+(?:\.\w+)?)[ ]*(?:,[^()\n]*)?\):[^\n]*\n", re.MULTILINE)
+"""Matches the head of a class; its first base is what it inherits from."""
+_OF_SELF = re.compile(r"(?<![\w.])(?:(self)|super\(\))\.(\w+)\((?!\))")
+"""Matches the beginning of a call with arguments."""
+_OF_NODES = frozenset(
+    {"create_client", "create_publisher", "create_service", "create_subscription", "create_timer"}
+    | {"declare_parameter", "declare_parameters", "get_parameter", "get_parameters"}
+    | {"get_logger", "get_clock", "set_parameters", "create_rate", "has_parameter"}
+)
+"""Methods that are those of rclpy, whatever else a class inherits."""
 
 
 class Place(NamedTuple):
@@ -82,6 +98,23 @@ def places(text: str, names: Mapping[str, str]) -> Iterator[Place]:
     for local, classes in made.items():
         if len(classes) == 1:
             yield from _of_object(text, local, *classes)
+    yield from _inherited(text, names)
+
+
+def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
+    """Yield the calls of methods that classes inherit from one of another module."""
+    for class_ in _CLASS.finditer(text) if names else ():
+        imported, _, attribute = class_[1].partition(".")
+        if imported not in names:
+            continue
+        base = names[imported] + (f".{attribute}" if attribute else "")
+        start = class_.end()
+        body = start + len(function_body(text, class_.start(), start - 1)) - 1
+        for call in _OF_SELF.finditer(text, start, body):
+            is_own = call[1] is not None and text.find(f"def {call[2]}(", start, body) >= 0
+            if not is_own and call[2] not in _OF_NODES:
+                method = "" if call[2] == "__init__" else f".{call[2]}"
+                yield Place(f"{base}{method}", call.start(), call.end())
 
 
 def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:

@@ -47,6 +47,7 @@ KINDS = (
     "invalid-await",
     "invalid-context-manager",
     "invalid-raise",
+    "redundant-condition",
 )
 """The rules of ty that ours are made of; all others are off."""
 

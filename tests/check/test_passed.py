@@ -148,3 +148,24 @@ def test_the_lines_that_are_added() -> None:
         "def move(name     , by):",
         f"    from robot.main import {kept[0]}; name = (['a'])[0]; by = ({kept[0]})[0]",
     ]
+
+
+@pytest.mark.parametrize(
+    ("call", "functions"),
+    [
+        ("self.send('x')", ["talker.hub.Hub.send"]),
+        ("super().__init__('x')", ["talker.hub.Hub"]),
+        ("super().send('x')", ["talker.hub.Hub.send"]),
+        ("super().own('x')", ["talker.hub.Hub.own"]),
+        ("self.own('x')", []),
+        ("self.create_timer(1.0, self.own)", []),
+        ("self.stop()", []),
+    ],
+)
+def test_calls_of_inherited_methods(call: str, functions: list[str]) -> None:
+    text = (
+        "from talker.hub import Hub\n\n\nclass Talker(Hub):\n    def own(self, text):\n"
+        f"        {call}\n\n\nclass Other(Node):\n    def run(self):\n        self.send('y')\n"
+    )
+    names = own_names(text.encode(), "talker.talker")
+    assert [place.function for place in places(text, names)] == functions

@@ -1,0 +1,59 @@
+"""TY009: methods of ROS are called where their result decides."""
+
+from __future__ import annotations
+
+import ast
+
+from scaffold.api import Diagnostic, Example, TypeRule
+from scaffold.api.rclpy import class_of, is_method, rclpy_file
+from scaffold.api.types import MARKED, TypeFinding
+
+_CLIENTS = (
+    "from rclpy.node import Node\nfrom std_srvs.srv import Trigger\n\n\n"
+    "class Chooser(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('chooser')\n"
+    "        self.choices = [self.create_client(Trigger, name) for name in ('a', 'b')]\n"
+    "        self.sent = []\n\n"
+    "    def choose(self):\n"
+    "        for client in self.choices:\n"
+    "            if client.service_is_ready{0}:\n"
+    "                self.sent.append(client.call_async(Trigger.Request()))\n\n"
+    "    def finished(self):\n"
+    "        return [future for future in self.sent if future.done{0}]\n"
+)
+
+
+class MethodAsCondition(TypeRule):
+    """A condition is a method of an object of ROS, which is not called.
+
+    **Why.** A method is always true: what depends on it is done always.
+
+    **Fix.** Add the parentheses.
+
+    **Source.** The methods of the classes of ROS 2 Jazzy.
+    """
+
+    code = "TY009"
+    name = "method-as-condition"
+    kinds = frozenset({"redundant-condition"})
+    examples = (
+        Example("called", {"chooser.py": _CLIENTS.format("()")}),
+        Example(
+            "clients in a list, and futures that are kept",
+            {"chooser.py": _CLIENTS.format("")},
+            "13:16: 'service_is_ready' is a method: always true; write service_is_ready()",
+            "17:51: 'done' is a method: always true; write done()",
+        ),
+    )
+
+    def judge(self, finding: TypeFinding) -> Diagnostic | None:
+        matched = finding.match(rf"Method `{MARKED}\.(?P<name>\w+)` is always truthy.*")
+        node = finding.expression()
+        if matched is None or not isinstance(node, ast.Attribute):
+            return None
+        file = rclpy_file(finding.package, finding.path)
+        if is_method(class_of(file, node.value) or "", node.attr):
+            return None  # ND093 reports it
+        name = matched["name"]
+        return self.report(finding, f"{name!r} is a method: always true; write {name}()")
