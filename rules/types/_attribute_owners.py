@@ -33,6 +33,7 @@ _INTERFACE = re.compile(r"\w+\.(?:srv|action)\.[A-Za-z0-9]+")
 """A service or an action, of which there are no objects either, but of its parts."""
 MESSAGE = re.compile(r"(?!rclpy\.)(?P<package>\w+)\.(?P<kind>msg|srv|action)\.(?P<name>[\w.]+)")
 """Matches a message, or a part of a service or an action."""
+_ARRAY = "numpy.ndarray"
 _EXECUTOR = "rclpy.executors.Executor"
 _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
@@ -74,9 +75,8 @@ def _of_ros(
     shown = full_name(class_)
     if shown == _EXECUTOR and _is_set(package, "executor"):
         return None  # ND013 reports that something else is assigned
-    is_message = MESSAGE.fullmatch(shown) is not None
     is_settable = not isinstance(node.ctx, ast.Load) or _is_set(package, name)
-    if not is_message and is_settable:
+    if is_settable and not is_closed(shown):
         return None  # an object of rclpy takes any attribute
     return shown, members(package, class_)
 
@@ -86,6 +86,11 @@ def _class_of_object(owner: str) -> str | None:
     class_ = class_in(owner)
     shown = full_name(class_) if class_ else ""
     return None if shown in _BASES or _INTERFACE.fullmatch(shown) else class_
+
+
+def is_closed(shown: str) -> bool:
+    """Tell whether objects of a class take no attributes but those that the class defines."""
+    return shown == _ARRAY or MESSAGE.fullmatch(shown) is not None
 
 
 def _is_of_message_around(shown: str, name: str) -> bool:

@@ -42,6 +42,13 @@ _SPEAKER = (
     "        self.say({})\n"
     "        self.show({})\n"
 )
+_DRIVER = (
+    "import serial\nfrom geometry_msgs.msg import Quaternion\n"
+    "from tf_transformations import euler_from_quaternion\n\n\n"
+    "def drive():\n    q = Quaternion()\n"
+    "    serial.Serial('/dev/ttyUSB0').write({})\n"
+    "    return euler_from_quaternion({})\n"
+)
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 _FLEET = (
@@ -90,13 +97,25 @@ class ArgumentTypeUnfit(TypeRule):
 
     **Fix.** Pass an object of the type that the parameter has in ROS 2 Jazzy.
 
-    **Source.** The annotations of the packages of ROS 2 Jazzy.
+    **Source.** The annotations of the packages of ROS 2 Jazzy; what pyserial and tf_transformations
+    do with their arguments.
     """
 
     code = "TY005"
     name = "argument-type-unfit"
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
+        Example(
+            "bytes for a serial port, and numbers for an angle",
+            {"driver.py": _DRIVER.format("b'go'", "[q.x, q.y, q.z, q.w]")},
+        ),
+        Example(
+            "a text for a serial port, and a message for numbers",
+            {"driver.py": _DRIVER.format("'go'", "q")},
+            "8:41: an argument of write() must be bytes, not a str: write() fails",
+            "9:34: an argument of euler_from_quaternion() must be a sequence of numbers, not a "
+            "geometry_msgs.msg.Quaternion: euler_from_quaternion() fails",
+        ),
         Example(
             "a number that may be whole, for a range of whole numbers",
             {

@@ -63,6 +63,17 @@ class AssignedTypeUnfit(TypeRule):
     }
     kinds = frozenset({"invalid-assignment"})
     examples = (
+        Example(
+            "an array of numpy for a quaternion",
+            {
+                "turn.py": "from geometry_msgs.msg import Pose\n"
+                "from scipy.spatial.transform import Rotation\n\n"
+                "pose = Pose()\n"
+                "pose.orientation = Rotation.from_euler('z', 1.0).as_quat()\n"
+            },
+            "5:20: 'orientation' of geometry_msgs.msg.Pose is a geometry_msgs.msg.Quaternion, not "
+            "a numpy.ndarray: it cannot be published",
+        ),
         Example("a value of its type", {"dots.py": _NODE.format("Vector3(x=0.1, y=0.1, z=0.1)")}),
         Example(
             "a number for a vector",

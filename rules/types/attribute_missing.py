@@ -23,7 +23,7 @@ from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import TypeFinding, class_in, full_name
 
-from ._attribute_owners import COROUTINE, MESSAGE, METHOD, cause, known_owner, without_none
+from ._attribute_owners import COROUTINE, METHOD, cause, is_closed, known_owner, without_none
 
 _NODE = (
     "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n"
@@ -129,6 +129,20 @@ class AttributeMissing(TypeRule):
     other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
     kinds = frozenset({"missing-attribute"})
     examples = (
+        Example(
+            "an array of numpy, which has neither the fields of a quaternion nor append()",
+            {
+                "heading.py": "import numpy as np\n"
+                "from geometry_msgs.msg import Quaternion\n"
+                "from tf_transformations import quaternion_from_euler\n\n"
+                "q = quaternion_from_euler(0.0, 0.0, 1.0)\n"
+                "message = Quaternion()\n"
+                "message.x = q.x\nmessage.y = q[1]\n"
+                "turns = np.array([q[2]])\nturns.append(q[3])\nturns.sort()\n"
+            },
+            "7:13: numpy.ndarray has no 'x': AttributeError",
+            "10:1: numpy.ndarray has no 'append': AttributeError",
+        ),
         Example(
             "seconds as ROS 1 has them, in an f-string as well",
             {
@@ -559,9 +573,9 @@ def _is_named(finding: TypeFinding, name: str, owner: str) -> bool:
     text = finding.module.source.text
     if re.search(rf"""['"]{name}['"]""", text) is None:
         return False
-    class_ = class_in(owner)  # a message takes no other attributes; its fields may be asked for
-    is_message = class_ is not None and MESSAGE.fullmatch(full_name(class_)) is not None
-    return not is_message or finding.module.mentions("attr(", "get_fields_and_field_types")
+    return not is_closed(full_name(class_in(owner))) or finding.module.mentions(
+        "attr(", "get_fields_and_field_types"
+    )
 
 
 def _instead(shown: str, name: str, method: str) -> str:

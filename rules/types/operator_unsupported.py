@@ -24,6 +24,11 @@ _SCAN = (
     "    is_far = {0} > 0.5\n"
     "    return is_far, {0} * 0.1\n"
 )
+_SPEED = (
+    "import math\n\nimport rclpy\n\n\n"
+    "def show():\n    node = rclpy.create_node('show')\n    speed = math.hypot(1.0, 2.0)\n"
+    "    node.get_logger().info({})\n    node.get_logger().info({})\n"
+)
 _INSTEAD = {
     "builtin_interfaces.msg.Time": "convert it with rclpy.time.Time.from_msg(...)",
     "builtin_interfaces.msg.Duration": "convert it with rclpy.duration.Duration.from_msg(...)",
@@ -31,17 +36,19 @@ _INSTEAD = {
     "rclpy.parameter.Parameter": "append .value",
 }
 _ARRAY = re.compile(r"array\[\w+\]")
+_NUMBERS = frozenset({"an int", "a float"})
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
 
 
 class OperatorUnsupported(TypeRule):
-    """An operator does not support an object of ROS.
+    """An operator does not support an object of ROS, or joins a text and a number.
 
-    **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``.
+    **Why.** ``TypeError: '>' not supported between instances of 'Duration' and 'float'``, or
+    ``can only concatenate str (not "float") to str``.
 
-    **Fix.** Use numbers on both sides, or objects of the same kind.
+    **Fix.** Use numbers on both sides, or objects of the same kind; put numbers into an f-string.
 
-    **Source.** The operators that the classes of ROS 2 Jazzy define.
+    **Source.** The operators that the classes of ROS 2 Jazzy and of Python define.
     """
 
     code = "TY006"
@@ -77,6 +84,16 @@ class OperatorUnsupported(TypeRule):
             "9:20: '*' does not work on an array.array and a float: TypeError; use "
             "numpy.array(...)",
         ),
+        Example(
+            "a text and a number",
+            {"speed.py": _SPEED.format("'speed ' + str(speed)", "str(2) + ' m'")},
+        ),
+        Example(
+            "a text and a number that are added",
+            {"speed.py": _SPEED.format("'speed ' + speed", "2 + ' m'")},
+            "9:28: a str and a float are not joined with '+': TypeError; use an f-string",
+            "10:28: an int and a str are not joined with '+': TypeError; use an f-string",
+        ),
     )
 
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
@@ -91,13 +108,16 @@ class OperatorUnsupported(TypeRule):
             return None
         types = [matched["left"], matched.groupdict().get("right") or matched["left"]]
         classes = [class_in(type_) for type_ in types]
-        is_array = _ARRAY.fullmatch(types[0]) is not None and is_certain(types[1])
-        if not is_array and (not any(classes) or not all(map(is_certain, types))):
-            return None
         operator = matched["operator"]
-        if is_array:
+        if _ARRAY.fullmatch(types[0]) is not None and is_certain(types[1]):
             message = f"{operator!r} does not work on an array.array and {in_words(types[1])}"
             return self.report(finding, f"{message}: TypeError; use numpy.array(...)")
+        kinds = {in_words(type_) for type_ in types}
+        if "a str" in kinds and not kinds.isdisjoint(_NUMBERS):
+            message = f"{' and '.join(map(in_words, types))} are not joined with {operator!r}"
+            return self.report(finding, f"{message}: TypeError; use an f-string")
+        if not any(classes) or not all(map(is_certain, types)):
+            return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
         hints = [_hint(full_name(class_), operator) for class_ in classes if class_]
         hint = next(filter(None, hints), "")

@@ -20,7 +20,7 @@ from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own
 from scaffold.types.passed import callers
 from scaffold.types.sources import Source, Sources
-from scaffold.types.stubs import INCOMPLETE
+from scaffold.types.stubs import INCOMPLETE, partial_libraries
 from scaffold.types.ty import TyDiagnostic, UnavailableError
 from scaffold.types.unannotated import without_annotations
 
@@ -32,6 +32,8 @@ _DIFFERENT = frozenset(
 )
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
+_STR = r'`(?:str|Literal\["[^`]*"\])`'
+_NUMBER = r"`(?:int\*?|float\*?|Literal\[-?\d+\])`"
 _NAMELESS = re.compile(
     r"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\])` has no attribute `\w+`"
     r"|Too many positional arguments: expected \d+, got \d+"
@@ -39,6 +41,8 @@ _NAMELESS = re.compile(
     r"|(?:Object of type|Cannot subscript object of type) `(?:int|float|bool)`"
     r"(?: is not (?:callable|iterable)| with no .*)"
     r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
+    rf"|Operator `\+` is not supported between objects of type (?:{_STR} and {_NUMBER}"
+    rf"|{_NUMBER} and {_STR})"
 )
 """Matches reports of interest that name nothing of ROS."""
 # linear: a line has 20 kB at most
@@ -129,7 +133,8 @@ class TypeCheck:
         home = self._environment()
         target = distributions.target()
         entries = os.listdir(os.path.join(home, environment.packages(target)))
-        stubbed = frozenset(name.removesuffix(".pyi") for name in entries) - INCOMPLETE
+        partial = partial_libraries()
+        stubbed = frozenset(name.removesuffix(".pyi") for name in entries) - INCOMPLETE - partial
         self._stubbed = stubbed
         self._cache = Cache(
             f"{ty.identity()} {environment.identity(target)} {sys.version_info[:2]}"
@@ -156,7 +161,7 @@ class TypeCheck:
                     item.package.full_path(item.path) for item in reached.values() if item.path
                 )
                 self._reached.setdefault(id(package), {})[path] = reads
-            if not (is_relevant or calling) or _is_shadowed(source, stubbed):
+            if not (is_relevant or calling) or _is_shadowed(source, stubbed | partial):
                 continue
             key = self._cache.key(source, reached)
             known = self._cache.get(key)

@@ -125,7 +125,7 @@ def _write(distribution: Distribution, place: str) -> list[str]:
     """Write an environment; return the paths of its files."""
     files = {
         os.path.join(packages(distribution), path): marked(path, text)
-        for path, text in stubs.stub_files(distribution).items()
+        for path, text in (stubs.partial_stubs() | stubs.stub_files(distribution)).items()
     }
     files["pyvenv.cfg"] = _SETTINGS.format(distribution.python_version)
     write_files(place, files)

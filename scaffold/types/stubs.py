@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _STUBS = "stubs"
 _REMOVED = "removed_stubs.txt"
+_PARTIAL = "python_libraries"
 INCOMPLETE = frozenset(
     {
         "ament_copyright",
@@ -53,6 +54,20 @@ def library_stubs(distribution: Distribution, library: str = "") -> dict[str, st
                 files.pop(line.strip(), None)
         files.update(_stubs_below(distribution.path(_STUBS), library))
     return dict(sorted(files.items()))
+
+
+def partial_libraries() -> frozenset[str]:
+    """Return the importable names of the libraries of `partial_stubs`."""
+    return frozenset(os.listdir(os.path.join(distributions.DATA, _PARTIAL)))
+
+
+def partial_stubs() -> dict[str, str]:
+    """Return the stubs of libraries of Python that programs use next to ROS, by relative path.
+
+    They hold the few things of a library that are certain for all of its versions, and let all
+    others pass. They are for our own type checker: an editor has those of the library itself.
+    """
+    return _stubs_below(os.path.join(distributions.DATA, _PARTIAL), "")
 
 
 def _stubs_below(top: str, library: str) -> dict[str, str]:

@@ -134,8 +134,12 @@ def _alternatives(type_: str) -> list[str]:
 
 
 def _readable(name: str) -> str:
+    """Return the dotted name of a type, or the words that a protocol is: ``some_numbers_``."""
     plain = _NARROWED.sub(r"\1", name)
-    return full_name(plain) if MARK in plain else plain
+    if MARK not in plain:
+        return plain
+    short = short_name(plain)
+    return short[:-1].replace("_", " ") if short.endswith("_") else full_name(plain)
 
 
 def with_elements(type_: str) -> str:

@@ -1,0 +1,6 @@
+from typing import Any
+
+from numpy import ndarray
+
+def __getattr__(name: str) -> Any: ...
+def euler2quat(ai: Any, aj: Any, ak: Any, axes: Any = ...) -> ndarray: ...
