@@ -14,13 +14,13 @@ from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
     is_beside_programs,
     is_copy_of_old_code,
-    is_in_uncalled_function,
     is_out_of_reach,
 )
 from scaffold.model.package import Package
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
+from scaffold.model.rclpy.uncalled import is_in_uncalled_function
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -118,24 +118,29 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
         return False
     if is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
         return True
-    if code.startswith(_OF_PROGRAMS) and is_beside_programs(package, path):
+    if code.startswith(_OF_PROGRAMS) and (
+        is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
+    ):
         return True
     return is_of_linters and (
         is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     )
 
 
-def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
-    """Tell whether an undefined name is in a function that is not called, or after the spin."""
-    if undefined.code != _UNDEFINED:
-        return False
-    at = undefined.location
+def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether code is in a function that nothing calls."""
+    at = diagnostic.location
     try:
-        if is_in_uncalled_function(package, at.path, at.line):
-            return True
+        return is_in_uncalled_function(package, package.module(at.path), at.line)
     except ViewError:
         return False
-    return any(
+
+
+def _is_hardly_reached(package: Package, undefined: Diagnostic) -> bool:
+    """Tell whether an undefined name is evaluated after the spin, elsewhere, or never."""
+    if undefined.code != _UNDEFINED:
+        return False
+    return _is_uncalled(package, undefined) or any(
         only_while_stopping(module, name) or _is_of_platform(module, name)
         for module, name in _names_at(package, undefined)
     )

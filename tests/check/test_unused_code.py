@@ -28,6 +28,28 @@ setup(name='talker', version='0.1.0', packages=find_packages(exclude=['test']))
 """
 MISTAKE = "from std_msgs.msg import String\n\nString().text\n"
 UNDEFINED = "print(undefined)\n"
+NODE = """import rclpy
+from rclpy.node import Node
+from std_msgs.msg import String
+from talker.speaker import Speaker
+
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__('talker')
+        self.create_timer(10, self.say)  # nothing
+
+    def say(self):
+        pass
+
+    def tell(self):
+        return String().text
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Talker())
+"""
 
 
 @pytest.fixture
@@ -138,6 +160,57 @@ def test_a_function_of_a_launch_file_that_nothing_calls(
         "launch/b.launch.py": "error",
         "launch/c.launch.py": "error",
     }
+
+
+def test_the_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    description = "def generate_launch_description():\n    return None\n\n\n"
+    guard = "if __name__ == '__main__':\n    {}\n"
+    write(package / "launch" / "a.launch.py", description + guard.format("main()"))
+    service = "undefined(generate_launch_description(), LaunchService())"
+    imported = "from launch import LaunchService\n\n\n"
+    write(package / "launch" / "b.launch.py", imported + description + guard.format(service))
+    assert severities(capsys, "F821") == {
+        "launch/a.launch.py": "warning",
+        "launch/b.launch.py": "error",
+    }
+
+
+@pytest.mark.parametrize(
+    ("severity", "changed", "into"),
+    [
+        ("warning", "", ""),
+        ("error", "10, self.say)", "10, self.tell)"),
+        ("error", "self.say)", "getattr(self, 'te' + 'll'))"),
+        ("error", "def tell", "def on_configure"),
+        ("error", "def tell", "def destroy_node"),
+        ("error", "(Node)", "(Node, Speaker)"),
+        ("error", "    def tell", "    @property\n    def tell"),
+        ("error", "def main", "def talk"),
+        ("warning", "# nothing", "# tell"),
+    ],
+)
+def test_a_method_that_nothing_calls(
+    package: Path,
+    capsys: pytest.CaptureFixture[str],
+    severity: str,
+    changed: str,
+    into: str,
+) -> None:
+    node = NODE.replace(changed, into) if changed else NODE
+    if "on_configure" in node:
+        node = node.replace("from rclpy.node import Node", "from rclpy.lifecycle import Node")
+    write(package / "talker" / "talk.py", node)
+    assert severities(capsys, "MS002") == {"talker/talk.py": severity}
+
+
+def test_a_method_that_another_module_calls(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "talker" / "talk.py", NODE)
+    write(package / "talker" / "copy_of_it.py", NODE.replace("String().text", "String().data"))
+    assert severities(capsys, "MS002") == {"talker/talk.py": "warning"}
+    write(package / "talker" / "use.py", "from talker.talk import Talker\n\nTalker().tell()\n")
+    assert severities(capsys, "MS002") == {"talker/talk.py": "error"}
 
 
 def test_what_comes_after_the_spin(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -75,19 +75,6 @@ def is_beside_programs(package: Package, path: str) -> bool:
     return is_out_of_reach(package, path)
 
 
-def is_in_uncalled_function(package: Package, path: str, line: int) -> bool:
-    """Tell whether a line is in a function of a launch file whose name is nowhere else."""
-    if not path.endswith("launch.py"):
-        return False
-    for name, function in package.module(path).functions.items():
-        node = function.node
-        if node.lineno <= line <= (node.end_lineno or 0):
-            named = re.findall(rb"\b%b\b" % name.encode(), package.data(path))
-            is_used = len(named) > 1 or node.decorator_list or name == "generate_launch_description"
-            return not is_used
-    return False
-
-
 def _is_named(package: Package, path: str, stem: str) -> bool:
     """Tell whether any other file of the package has the name of a module.
 

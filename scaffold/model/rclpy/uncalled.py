@@ -1,0 +1,91 @@
+"""Functions and methods that nothing calls, as far as their names tell."""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import TYPE_CHECKING
+
+from scaffold.formats.hash_comments import without_comments
+from scaffold.model.rclpy.api import NODE, has
+from scaffold.source import ViewError
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.scopes import FunctionNode
+
+_ENTRIES = frozenset({"main", "generate_launch_description"})
+_LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
+"""What finds a function by a name that is only made when the program runs."""
+
+
+def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
+    """Tell whether a line is in a function of a program or launch file that nothing names.
+
+    A library is used from elsewhere; a class may be called by a base of which nothing is known.
+    """
+    is_launch_file = module.path.endswith("launch.py")
+    if is_launch_file and _is_in_unused_guard(module, line):
+        return True
+    is_program = module.has_main_guard or "main" in module.functions
+    if module.in_tests or not (is_program or is_launch_file):
+        return False
+    function = _outermost_function(module, line)
+    if function is None or function.decorator_list or not _is_called_by_name(module, function):
+        return False
+    if module.mentions(*_LOOKUPS):
+        return False
+    named = _named_in(without_comments(module.source.text), function.name)
+    return named == 1 and not _is_used_elsewhere(package, module, function.name)
+
+
+def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
+    """Tell whether a line is run only when Python runs a launch file that launches nothing then."""
+    guard = module.main_guard_node
+    if guard is None or module.mentions("LaunchService"):
+        return False
+    return guard.lineno <= line <= (guard.end_lineno or guard.lineno)
+
+
+def _outermost_function(module: PythonModule, line: int) -> FunctionNode | None:
+    """Return the function of the module, or the method of one of its classes, at a line."""
+    for node in module.function_nodes:
+        if node.lineno <= line <= (node.end_lineno or node.lineno):
+            parents = [*module.parents(node)]
+            is_outer = not any(isinstance(item, ast.FunctionDef | ast.Lambda) for item in parents)
+            return node if is_outer else None
+    return None
+
+
+def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
+    """Tell whether neither Python, nor rclpy, nor another base calls a function by itself."""
+    if function.name in _ENTRIES or function.name.startswith("__"):
+        return False
+    class_ = module.enclosing_class(function)
+    if class_ is None:
+        return True
+    if class_.decorator_list or class_.keywords or has(NODE, function.name):
+        return False
+    bases = {module.qualified_name(base) for base in class_.bases}
+    return bases <= {NODE, "rclpy.Node", "object"}
+
+
+def _is_used_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
+    """Tell whether another module names both this one and the function."""
+    stem = module.path.rpartition("/")[2].removesuffix(".py")
+    for path in package.files:
+        if not path.endswith(".py") or path == module.path:
+            continue
+        try:
+            text = package.data(path).decode(errors="replace")
+        except ViewError:
+            return True
+        if stem in text and name in text and _named_in(without_comments(text), stem, name):
+            return True
+    return False
+
+
+def _named_in(text: str, *names: str) -> int:
+    """Return how often a text has the name that is least often in it."""
+    return min(len(re.findall(rf"\b{re.escape(name)}\b", text)) for name in names)
