@@ -6,11 +6,10 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, MessageRule, Package
 from scaffold.api.messages import MessageTypes
-from scaffold.api.rclpy import lookups_in
+from scaffold.api.rclpy import CONVERSIONS, lookups_in
 
 _MODULES = {"geometry_msgs": "tf2_geometry_msgs", "sensor_msgs": "tf2_sensor_msgs"}
 """The modules that load the conversions for the messages of packages."""
-_KNOWN = frozenset({"tf2_kdl", "tf2_bullet", "tf2_eigen", "tf2_2d", *_MODULES.values()})
 _NODE = (
     "from geometry_msgs.msg import PointStamped\nfrom rclpy.node import Node\n{}"
     "from tf2_ros import Buffer, TransformListener\n\n\n"
@@ -83,7 +82,7 @@ class TransformTypeNotLoaded(MessageRule):
 
 def _is_loaded(package: Package, path: str, wanted: str) -> bool:
     """Return whether a module that runs with a file imports conversions: these, or any."""
-    names = {wanted} if wanted else _KNOWN
+    names = {wanted} if wanted else CONVERSIONS
     loading = {
         module.path
         for module in package.modules(mentioning=("tf2_",))

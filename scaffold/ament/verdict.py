@@ -40,6 +40,7 @@ from scaffold.ament.python_text.text import BOM, PythonText, decode
 from scaffold.ament.ruff import MOST_OF_A_LINE, RuffDiagnostic, plain, worded
 from scaffold.ament.settings import Settings
 from scaffold.errors import exhausted
+from scaffold.model.rclpy.transforms import CONVERSIONS
 
 if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
@@ -231,7 +232,7 @@ def _with_fixes(
     """Give our findings the fixes that ruff has for the same code at the same line."""
     same_place: dict[tuple[str, int], list[Finding]] = {}
     for item in diagnostics:
-        if item.fix:
+        if item.fix and not _loads_conversions(item):
             same_place.setdefault((item.code, item.line), []).append(plain(item))
     fixes = {key: _joined(same) for key, same in same_place.items()}
     result = []
@@ -246,6 +247,12 @@ def _with_fixes(
         else:
             result.append(finding)
     return result
+
+
+def _loads_conversions(item: RuffDiagnostic) -> bool:
+    """Tell whether an import that nothing uses has an effect of its own, as those of tf2 have."""
+    name = item.message.partition("`")[2].partition(".")[0].partition("`")[0].partition(" ")[0]
+    return item.code == "F401" and name in CONVERSIONS
 
 
 class _Alignment:

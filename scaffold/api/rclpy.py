@@ -74,6 +74,7 @@ from scaffold.model.rclpy.stopping import only_while_stopping
 from scaffold.model.rclpy.time_units import unit_problems
 from scaffold.model.rclpy.times import NUMBER, clocks_of
 from scaffold.model.rclpy.transforms import (
+    CONVERSIONS,
     Lookup,
     buffer_made,
     buffers_in,
@@ -83,6 +84,7 @@ from scaffold.model.rclpy.transforms import (
 
 __all__ = [
     "CALLBACKS",
+    "CONVERSIONS",
     "DESCRIPTOR",
     "FIELDS",
     "GOAL_HANDLE",

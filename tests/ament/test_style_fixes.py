@@ -163,6 +163,20 @@ def test_docstrings_with_backslashes(before: str, after: str) -> None:
     assert fixed.changed.get("a.py", before.encode()).decode() == after
 
 
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "import tf2_geometry_msgs\n",
+        "import tf2_geometry_msgs as conversions\n",
+        "from tf2_sensor_msgs import do_transform_cloud\n",
+    ],
+)
+def test_imports_that_teach_buffers_to_transform_stay(statement: str) -> None:
+    package = Package.of({"a.py": statement})
+    assert [item.code for item in only("F401")(package)] == ["F401"]
+    assert not fixer.fix(package, only("F401")).changed
+
+
 UNSAFE = {
     "C400": ("x = [1]\nlist(y for y in x)\n", "x = [1]\nlist(x)\n"),
     "D401": (

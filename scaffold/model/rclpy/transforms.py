@@ -21,6 +21,10 @@ _BUFFERS = frozenset({"tf2_ros.Buffer", "tf2_ros.buffer.Buffer"})
 LISTENERS = frozenset({"tf2_ros.TransformListener", "tf2_ros.transform_listener.TransformListener"})
 
 
+CONVERSIONS = frozenset({"tf2_geometry_msgs", "tf2_sensor_msgs", "tf2_kdl", "tf2_bullet", "tf2_2d"})
+"""The modules that teach buffers to transform their messages, by being imported."""
+
+
 class Lookup(NamedTuple):
     """A call that asks a buffer of tf2."""
 
