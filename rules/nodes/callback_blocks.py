@@ -148,7 +148,8 @@ class CallbackBlocks(RclpyRule):
                 if name and blocks_node(file, executed):
                     message = f"{name} blocks {executed.origin}, and with it all other callbacks"
                     at = file.module.location(call)
-                    yield self.report(at, f"{message} of {_blocked(file)}")
+                    cause = f"blocking of {executed.origin} in {file.module.path}"
+                    yield self.report(at, f"{message} of {_blocked(file)}", cause=cause)
 
     def _check_server_waits(self, file: RclpyFile) -> Iterator[Diagnostic]:
         seen: set[ast.AST] = set()

@@ -51,6 +51,9 @@ _CALLBACK = (
 )
 
 
+_OF_RESPONSES = ("add_done_callback", "feedback_callback", ".result(", ".done(", "await ")
+
+
 class EndlessLoop(RclpyRule):
     """A constructor or callback of a node loops forever.
 
@@ -79,6 +82,24 @@ class EndlessLoop(RclpyRule):
             {"talker.py": _NODE.format(_LOOP)},
             Report(
                 "8:9",
+                "endless loop: the constructor of Talker never returns; use a timer",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a loop that sends requests and does not look at the responses",
+            {
+                "caller.py": _NODE.format(
+                    "        self.client = self.create_client(Trigger, 'reset')\n" + _LOOP
+                )
+                .replace(
+                    "        pass",
+                    "        self.client.call_async(Trigger.Request())",
+                )
+                .replace("Node\n", "Node\nfrom std_srvs.srv import Trigger\n", 1)
+            },
+            Report(
+                "10:9",
                 "endless loop: the constructor of Talker never returns; use a timer",
                 severity=Severity.WARNING,
             ),
@@ -142,8 +163,12 @@ class EndlessLoop(RclpyRule):
 
 
 def _waits(file: RclpyFile) -> bool:
-    """Tell whether a file has anything that only a node that is spun runs."""
-    return bool(file.callbacks or file.clients or file.action_clients)
+    """Tell whether a file has anything that only a node that is spun runs.
+
+    Requests and goals are sent without it; only their responses need it.
+    """
+    has_clients = bool(file.clients or file.action_clients)
+    return bool(file.callbacks) or (has_clients and file.module.mentions(*_OF_RESPONSES))
 
 
 def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:

@@ -75,7 +75,8 @@ class DependencyIsIndexName(Rule):
             key = _key(package, module)
             message = f"rosdep has no key {dependency.name!r}; its key is {key!r}"
             edit = Edit("package.xml", *dependency.element.text_span, key)
-            yield self.report(dependency, message, Fix(f"write {key}", (edit,)))
+            fix = Fix(f"write {key}", (edit,))
+            yield self.report(dependency, message, fix, cause=f"dependency {key}")
 
 
 def _is_found_by_cmake(package: Package, name: str) -> bool:

@@ -12,11 +12,13 @@ _MANIFEST = '<package format="3">\n  <license file="{}">MIT</license>\n</package
 class LicenseFileMissing(Rule):
     """``<license file="...">`` names a file that does not exist.
 
-    **Why.** The text of the license is part of the release; no tool checks that it exists.
+    **Why.** bloom makes no release: ``License file '...' is not found``. The text of the license
+    is part of the package for Debian.
 
     **Fix.** Write the path relative to package.xml, or add the file.
 
-    **Source.** REP-149, ``<license>``, attribute ``file``.
+    **Source.** REP-149, ``<license>``, attribute ``file``;
+    ``bloom/generators/debian/generator.py``.
     """
 
     code = "PX006"
