@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.api.launch import missing_in, paths_of, why_missing
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.launch import is_left_to_the_user, missing_in, paths_of, why_missing
 
 _LAUNCH = (
     "import os\n\nfrom ament_index_python.packages import get_package_share_directory\n"
@@ -46,9 +46,23 @@ class SharePathMissing(Rule):
 
     code = "LF015"
     name = "share-path-missing"
+    other_severities = {Severity.WARNING: "its directory is empty but for a README or .gitkeep"}
     examples = (
         Example(
             "installed", {**_FILES, "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml'")}
+        ),
+        Example(
+            "in a directory that waits for files of the user",
+            {
+                **_FILES,
+                "models/README.md": "Put best.pt here.\n",
+                "launch/a.launch.py": _LAUNCH.format("'models', 'best.pt'"),
+            },
+            Report(
+                "launch/a.launch.py:12:26",
+                "share/talker/models/best.pt does not exist: talker has no such file",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "next to a launch file that is started from its source",
@@ -212,4 +226,7 @@ class SharePathMissing(Rule):
             why = why_missing(package, path)
             if why is not None:
                 message = f"share/{path.package}/{path.path} does not exist: {why}"
-                yield self.report(path.location, message, cause=missing_in(package, path))
+                is_expected = is_left_to_the_user(package, path)
+                severity = Severity.WARNING if is_expected else Severity.ERROR
+                cause = missing_in(package, path)
+                yield self.report(path.location, message, severity=severity, cause=cause)

@@ -62,7 +62,13 @@ from scaffold.model.launch.remappings import (
     names_of,
     remapped_nodes,
 )
-from scaffold.model.launch.share_paths import NamedPath, missing_in, paths_of, why_missing
+from scaffold.model.launch.share_paths import (
+    NamedPath,
+    is_left_to_the_user,
+    missing_in,
+    paths_of,
+    why_missing,
+)
 from scaffold.model.launch.signatures import ACTIONS, signature
 from scaffold.model.launch.substitutions import (
     CONDITION,
@@ -110,6 +116,7 @@ __all__ = [
     "has_name",
     "included",
     "is_known",
+    "is_left_to_the_user",
     "is_loaded",
     "is_named",
     "is_reversed",

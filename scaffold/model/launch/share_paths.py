@@ -35,6 +35,10 @@ _READING = re.compile(
 """Matches functions that read a file."""
 
 
+_PLACEHOLDER = re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placeholder)")
+"""Matches files that keep a directory in git."""
+
+
 class NamedPath(NamedTuple):
     """A path below the share directory of a package, named in a launch file."""
 
@@ -249,6 +253,23 @@ def _before_field(path: str) -> Callable[[str], bool]:
     """Return what tells whether a file begins as a path does before ``{}``."""
     start = path.partition("{")[0]
     return lambda file: file.startswith(start)
+
+
+def is_left_to_the_user(package: Package, named: NamedPath) -> bool:
+    """Tell whether the directory of a missing file is kept for what each user puts there.
+
+    It is in the sources, with a README or ``.gitkeep`` and nothing else: weights of a model, say.
+    """
+    owner = package if named.package == package.name else package.workspace.get(named.package)
+    directory, _, _ = named.path.rpartition("/")
+    if owner is None or not directory:
+        return False
+    names = [
+        path.removeprefix(f"{directory}/")
+        for path in owner.files
+        if path.startswith(f"{directory}/")
+    ]
+    return bool(names) and all(map(_PLACEHOLDER.fullmatch, names))
 
 
 def _reason(owner: Package, path: str, files: dict[str, str]) -> str | None:
