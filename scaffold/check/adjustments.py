@@ -15,6 +15,7 @@ from scaffold.model.install.unused import (
     is_beside_programs,
     is_copy_of_old_code,
     is_out_of_reach,
+    is_unrun_test,
 )
 from scaffold.model.package import Package
 from scaffold.model.python.guards import all_conditions, is_unevaluated
@@ -61,7 +62,8 @@ class Adjustments(NamedTuple):
             ):
                 continue
             severity = self._severity(diagnostic.code)
-            if severity is None and _is_of_unused_code(package, diagnostic):
+            is_error = diagnostic.severity is Severity.ERROR
+            if severity is None and is_error and _is_of_unused_code(package, diagnostic):
                 severity = Severity.WARNING
             yield diagnostic if severity is None else diagnostic._replace(severity=severity)
 
@@ -109,8 +111,8 @@ class Adjustments(NamedTuple):
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in code that nobody runs, and no test of the package looks at."""
     path, code = diagnostic.location.path, diagnostic.code
-    if diagnostic.severity is not Severity.ERROR or not path.endswith(".py"):
-        return False
+    if not path.endswith(".py"):
+        return is_copy_of_old_code(package, path)
     if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
     is_of_linters = code.startswith(_OF_LINTERS)
@@ -119,7 +121,9 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     if is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
         return True
     if code.startswith(_OF_PROGRAMS) and (
-        is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
+        is_beside_programs(package, path)
+        or is_unrun_test(package, path)
+        or _is_uncalled(package, diagnostic)
     ):
         return True
     return is_of_linters and (

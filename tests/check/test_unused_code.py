@@ -91,7 +91,20 @@ def test_a_script_that_only_a_comment_names(
     }
 
 
-@pytest.mark.parametrize("name", ["node_old.py", "node copy.py", "old_node.py", "node.bak.py"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "node_old.py",
+        "node copy.py",
+        "old_node.py",
+        "node.bak.py",
+        "node (copy).py",
+        "node (3rd copy).py",
+        "node - Kopie.py",
+        "(UNUSED)talker/nodes.py",
+        "old/nodes.py",
+    ],
+)
 def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     for path in (name, "node.py", "threshold.py"):
         write(package / "talker" / path, MISTAKE)
@@ -100,6 +113,14 @@ def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], n
         "talker/node.py": "error",
         "talker/threshold.py": "error",
     }
+
+
+def test_a_copy_of_a_robot(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot = '<robot name="r"><link name="a"/><gazebo reference="b"><mu1>1</mu1></gazebo></robot>\n'
+    for path in ("urdf/arm copy.urdf", "urdf/arm.urdf"):
+        write(package / path, robot)
+    expected = {"urdf/arm copy.urdf": "warning", "urdf/arm.urdf": "error"}
+    assert severities(capsys, "UR022") == expected
 
 
 @pytest.mark.parametrize(
@@ -245,6 +266,22 @@ def test_a_test_in_python_that_cmake_does_not_run(
     assert severities(capsys, "F821") == {"tests/idea.py": "warning"}
     write(package / "CMakeLists.txt", lists.format("ament_add_pytest_test(idea tests)\n"))
     assert severities(capsys, "F821") == {"tests/idea.py": "error"}
+
+
+def test_a_test_next_to_one_that_cmake_runs(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (package / "setup.py").unlink()
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n{}ament_package()\n"
+    write(package / "test" / "test_a.py", MISTAKE)
+    write(package / "test" / "test_b.py", MISTAKE)
+    one = "add_subdirectory(test)\nament_add_pytest_test(a test/test_a.py)  # not test_b\n"
+    write(package / "CMakeLists.txt", lists.format(one))
+    assert severities(capsys, "MS002") == {"test/test_a.py": "error", "test/test_b.py": "warning"}
+    write(package / "CMakeLists.txt", lists.format("ament_add_pytest_test(all test)\n"))
+    assert severities(capsys, "MS002") == {"test/test_a.py": "error", "test/test_b.py": "error"}
 
 
 def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,25 +15,37 @@ if TYPE_CHECKING:
 _COPY = re.compile(
     r"^(?:old|backup|bak|deprecated|unused)[_ -]|^copy[_ -]of"
     r"|[_ .-](?:old|backup|bak|orig|original|deprecated|unused|copy)(?:[_ -]?\d{1,8})?$"
-    r"|[ ](?:copy[ ])?\(?\d{1,4}\)?$|[ ]copy[ ]\d{1,4}$",
+    r"|[ ](?:copy[ ])?\(?\d{1,4}\)?$|[ ]copy[ ]\d{1,4}$"
+    r"|[ ](?:-[ ]|\((?:another[ ]|\d{1,2}\w\w[ ])?)(?:copy|kopie|kopia|copia|copie)\b[^/]{0,5}$",
     re.IGNORECASE,
 )
-"""Matches the name of a module that somebody has kept beside the one that is used."""
+"""Matches the name of a file that somebody has kept beside the one that is used.
+
+The last ones are of file managers: ``talk (copy).py``, ``talk (3rd copy).py``, ``talk - Copy.py``.
+"""
+_UNUSED_DIRECTORY = re.compile(
+    r"(?:^|[\W_])(?:unused|deprecated|backups?|bak|archived?|old)(?:$|[\W_])", re.IGNORECASE
+)
+"""Matches the name of a directory for code that is not used any more."""
+_KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
+"""The endings of files whose copies are found by their names."""
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches what a CMakeLists.txt calls when it runs or checks Python."""
+_ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
 _INSTALLS_PROGRAMS = re.compile(rb"\b(?:add_executable|PROGRAMS)\b")
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
-_NAMING = (".py", ".txt", ".cfg", ".toml", ".xml", ".yaml", ".yml", ".cmake", ".launch", ".sh")
+_NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
 _RUN_AS_THEY_ARE = frozenset({"setup.py", "conftest.py", "__init__.py", "__main__.py"})
 
 
 def is_copy_of_old_code(package: Package, path: str) -> bool:
-    """Tell whether a module is named like a copy, and nothing in the package names it."""
-    name = path.rpartition("/")[2]
-    stem = name.removesuffix(".py")
-    if stem == name or not _COPY.search(stem):
+    """Tell whether a file or its directory is named like a copy, and nothing names the file."""
+    *directories, name = path.split("/")
+    stem, dot, _ = name.rpartition(".")
+    if not dot or not name.endswith(_KEPT):
         return False
-    return not _is_named(package, path, stem)
+    is_kept = _COPY.search(stem) or any(map(_UNUSED_DIRECTORY.search, directories))
+    return bool(is_kept) and not _is_named(package, path, stem)
 
 
 def is_out_of_reach(package: Package, path: str) -> bool:
@@ -43,7 +55,7 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name:
         return False
     if is_in_tests(path):
-        return not _runs_python_tests(package) and not _is_named(package, path, stem)
+        return is_unrun_test(package, path)
     if not any(package.has(item) for item in _BUILDING[:2]):
         return False
     parts = directory.split("/") if directory else []
@@ -55,12 +67,23 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     return not (is_mentioned or is_taken_whole or _is_named(package, path, stem))
 
 
-def _runs_python_tests(package: Package) -> bool:
-    """Tell whether a package may have tests in Python, for colcon or for CMake."""
-    if package.build_type == "ament_python" or not package.has("CMakeLists.txt"):
-        return True
-    lists = (path for path in package.files if path.endswith(("CMakeLists.txt", ".cmake")))
-    return any(re.search(_RUNS_PYTHON, package.data(path)) for path in lists)
+def is_unrun_test(package: Package, path: str) -> bool:
+    """Tell whether CMake runs neither a test in Python, nor a whole directory that it is in."""
+    if not is_in_tests(path) or package.build_type == "ament_python":
+        return False
+    *directories, name = path.split("/")
+    stem = name.removesuffix(".py")
+    if stem == name or name in _RUN_AS_THEY_ARE or not package.has("CMakeLists.txt"):
+        return False
+    lists = (item for item in package.files if item.endswith(("CMakeLists.txt", ".cmake")))
+    calls = [_ADDS_DIRECTORY.sub(b"", without_comments(package.data(item))) for item in lists]
+    whole = [part for part in directories if part in {"test", "tests"}]
+    is_run = any(
+        _RUNS_PYTHON.search(text)
+        and (not whole or any(_mentions_directory(text, part) for part in whole))
+        for text in calls
+    )
+    return not is_run and not _is_named(package, path, stem)
 
 
 def is_beside_programs(package: Package, path: str) -> bool:
