@@ -15,10 +15,9 @@ from scaffold.record import NamedTuple
 from scaffold.types import containers, makers, returns
 from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.callbacks import arguments_of, function_body
-from scaffold.types.passed import Passed, own_names, places
+from scaffold.types.passed import GIVEN, Passed, own_names, places
 from scaffold.types.statements import class_starts, definitions, statement_around
 
-_GIVEN = "_ros2_given"
 _EITHER = "_ros2_either"
 """A condition that nothing is known about."""
 _MOST_CALLS = 12
@@ -108,7 +107,7 @@ def _passed(text: str, data: bytes, module: str, lines: dict[int, list[str]]) ->
         place = statement_around(text, call.start, end) if words else -1
         if place < 0 or any(value.startswith("*") for value in words.values()):
             continue
-        prefix = f"{_GIVEN}_{module.replace('.', '_')}_{call.start}"
+        prefix = f"{GIVEN}_{module.replace('.', '_')}_{call.start}"
         kept = {
             key: f"{prefix}_{key}"
             for key, value in words.items()
@@ -144,7 +143,7 @@ def _follow(
         for parameter, value in parameters.given(words, is_partial=is_partial).items():
             source = f"[{value}]"
             if not _CONSTANT.fullmatch(value):
-                kept[f"{_GIVEN}_{function.start}_{number}_{parameter}"] = value
+                kept[f"{GIVEN}_{function.start}_{number}_{parameter}"] = value
                 source = [*kept][-1]
             sources.setdefault(parameter, []).append(source)
         if kept:

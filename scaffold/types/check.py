@@ -7,18 +7,18 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
-from scaffold.types.added_lines import Extended
-from scaffold.types.arguments import with_arguments
 from scaffold.types.findings_cache import Cache
 from scaffold.types.marks import MARK
-from scaffold.types.own_code import is_about_own
+from scaffold.types.own_code import is_about_own, own_name
 from scaffold.types.passed import callers
+from scaffold.types.passed_types import Types, signature
+from scaffold.types.project import Checked, Project
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE, partial_libraries
 from scaffold.types.ty import TyDiagnostic, UnavailableError
@@ -49,43 +49,27 @@ _NAMELESS = re.compile(
 _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
 
-_INVALID = "invalid-syntax"
-_LATE_GLOBAL = "prior to global declaration"
-"""What is said about an added `global` after a use of the name, which leaves the types right."""
-_COPY = "_ros2_"
-"""What the name of the copy of a file begins with."""
-
-
 class _File:
     """A file to check: answered from the cache or by the type checker.
 
     Args:
-        source: The file.
-        callers: The other modules that call its functions.
-        reached: It and they and all that these import, by place.
+        checked: The file.
         key: What it has in the cache.
+        own_key: The same without what its callers are.
         diagnostics: What the cache has.
-        is_relevant: Whether it is checked also if its callers give it nothing.
     """
 
     def __init__(
-        self,
-        source: Source,
-        callers: Sequence[Source],
-        reached: Mapping[str, Source],
-        key: str,
-        diagnostics: list[TyDiagnostic] | None,
-        *,
-        is_relevant: bool,
+        self, checked: Checked, key: str, own_key: str, diagnostics: list[TyDiagnostic] | None
     ) -> None:
-        self.source = source
-        self.callers = callers
-        self.reached = reached
+        self.checked = checked
         self.key = key
+        self.own_key = own_key
         self.diagnostics = diagnostics
-        self.is_relevant = is_relevant
-        self.place = source.place
-        """Where the type checker finds it with what its callers give it."""
+        self.silent_for = ""
+        """The types from its callers with which nothing was reported; empty if that is unknown."""
+        self.is_silent = False
+        """Whether nothing is reported, whatever else is in the files of its callers."""
 
 
 class TypeCheck:
@@ -104,11 +88,14 @@ class TypeCheck:
         self.failure = ""
         """Why types are not checked; empty if they are."""
         self._scratch = ""
-        self._run: ty.Run | None = None
-        self._written: dict[str, Extended] = {}
-        """What it reads, by place."""
-        self._plain: dict[str, bytes] = {}
-        """The files in which lines were added, without these, by place."""
+        self._project: Project | None = None
+        self._types: dict[str, Types] = {}
+        """What modules pass to others, by place."""
+        self._passing: dict[str, Mapping[str, Source]] = {}
+        """The modules of which that is to be found out, each with what it reaches."""
+        self._asked: list[_File] = []
+        self._waiting: list[_File] = []
+        """Those about which nothing is reported, unless they get something else."""
         self._files: dict[int, list[_File]] = {}
         """Until what is reported about them is collected; by the number of the package."""
         self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
@@ -140,7 +127,6 @@ class TypeCheck:
             f"{ty.identity()} {environment.identity(target)} {sys.version_info[:2]}"
         )
         sources = Sources()
-        asked: list[_File] = []
         for package, path in wanted:
             source = sources.get(package, path)
             if source is None:
@@ -149,11 +135,13 @@ class TypeCheck:
             with recorded(reads):
                 found = [sources.get(package, other) for other in callers(package, path)]
             calling = [item for item in found if item is not None]
-            reached = {**sources.reached(source)}
-            roots = frozenset[str]().union(*(item.roots for item in reached.values()))
+            own = sources.reached(source)
+            roots = frozenset[str]().union(*(item.roots for item in own.values()))
             is_relevant = _is_relevant(source, roots, stubbed)
-            for caller in calling:
-                reached.update(sources.reached(caller))
+            of_callers = {caller.place: sources.reached(caller) for caller in calling}
+            reached = {**own}
+            for others in of_callers.values():
+                reached.update(others)
             if _SUPPRESSION.search(source.data):
                 self._suppressing.add(id(package))
             else:
@@ -164,74 +152,55 @@ class TypeCheck:
             if not (is_relevant or calling) or _is_shadowed(source, stubbed | partial):
                 continue
             key = self._cache.key(source, reached)
-            known = self._cache.get(key)
-            file = _File(source, calling, reached, key, known, is_relevant=is_relevant)
+            own_key = self._cache.key(source, own, "silent") if calling else ""
+            checked = Checked(source, calling, reached, is_relevant=is_relevant)
+            file = _File(checked, key, own_key, self._cache.get(key))
             self._files.setdefault(id(package), []).append(file)
-            if file.diagnostics is None:
-                asked.append(file)
-        if asked:
+            if file.diagnostics is None and not self._is_silent(file, of_callers):
+                self._asked.append(file)
+        if self._asked or self._passing:
             self._home = home
-            self._run = self._started("project", asked, _annotated)
+            self._project = self._started("project", self._asked, _annotated, self._passing)
+
+    def _is_silent(self, file: _File, of_callers: Mapping[str, Mapping[str, Source]]) -> bool:
+        """Tell whether nothing is reported about a file; what it gets may be found out later."""
+        callers = file.checked.callers
+        for caller in callers:
+            if caller.place not in self._types and caller.place not in self._passing:
+                reached = of_callers[caller.place]
+                types = self._cache.get_plain(self._cache.key(caller, reached, "passed"))
+                if types is None:
+                    self._passing[caller.place] = reached
+                else:
+                    self._types[caller.place] = types
+        file.silent_for = (self._cache.get_plain(file.own_key) or "") if callers else ""
+        if not file.silent_for:
+            return False
+        if any(caller.place in self._passing for caller in callers):
+            self._waiting.append(file)
+            return True
+        if self._signature(file) == file.silent_for:
+            file.diagnostics = []
+        return file.diagnostics is not None
+
+    def _signature(self, file: _File) -> str:
+        """Return what changes with the types that a file gets; empty if they are not known."""
+        checked = file.checked
+        types = [self._types[caller.place] for caller in checked.callers]
+        received = signature(checked.source, types)
+        roots = [sorted(_roots(checked.reached, are_stubs=are)) for are in (True, False)]
+        return f"{received} {roots}" if received else ""
 
     def _started(
-        self, name: str, asked: Sequence[_File], content: Callable[[Source], bytes]
-    ) -> ty.Run:
+        self,
+        name: str,
+        asked: Sequence[_File],
+        content: Callable[[Source], bytes],
+        passing: Mapping[str, Mapping[str, Source]] | None = None,
+    ) -> Project:
         """Start the type checker on some files, with all that they import next to them."""
-        mirrored = {place: item for file in asked for place, item in file.reached.items()}
-        project = self._directory(name)
-        texts = {place: content(source) for place, source in mirrored.items()}
-        self._written = {
-            place: with_arguments(text, mirrored[place].dotted)
-            if mirrored[place].path
-            else Extended(text, ())  # a stub
-            for place, text in texts.items()
-        }
-        self._plain = {
-            place: text for place, text in texts.items() if self._written[place].data != text
-        }
-        for file in asked:
-            file.place = self._place(file, texts[file.source.place])
-        _write(project, {place: written.data for place, written in self._written.items()})
-        places = [
-            file.place for file in asked if file.is_relevant or file.place != file.source.place
-        ]
-        return ty.Run(project, self._home, places or [asked[0].place])
-
-    def _place(self, file: _File, text: bytes) -> str:
-        """Return where a file is to be checked; write what its callers give it into a copy.
-
-        What others see of it must not depend on who else calls it.
-        """
-        source = file.source
-        received = [
-            call
-            for caller in file.callers
-            for call in self._written[caller.place].passed
-            if call.function.startswith(f"{source.dotted}.")
-        ]
-        extended = with_arguments(text, source.dotted, received) if received else None
-        if extended is None or extended.data == self._written[source.place].data:
-            return source.place
-        folder, _, name = source.place.rpartition("/")
-        place = f"{folder}/{_COPY}{name}"
-        self._written[place] = extended
-        self._plain[place] = text
-        return place
-
-    def _results(self) -> Mapping[str, list[TyDiagnostic]]:
-        """Return what is reported about lines of the user, by the place of the file."""
-        assert self._run is not None  # noqa: S101  it has been started
-        reported = dict(self._run.results())
-        broken = [place for place in self._plain if any(map(_is_broken, reported.get(place, ())))]
-        if broken:
-            self._written.update((place, Extended(self._plain[place], ())) for place in broken)
-            _write(self._run.project, {place: self._plain[place] for place in broken})
-            self._run = ty.Run(self._run.project, self._home, broken)
-            reported |= {place: [] for place in broken} | dict(self._run.results())
-        return {
-            place: [*_of_user(diagnostics, self._written[place])]
-            for place, diagnostics in reported.items()
-        }
+        checked = [file.checked for file in asked]
+        return Project(self._directory(name), self._home, checked, content, passing)
 
     def _environment(self) -> str:
         return environment.directory(distributions.target(), self._directory)
@@ -259,31 +228,25 @@ class TypeCheck:
             self._collect()
             for number, files in self._files.items():
                 self._diagnostics[number] = {
-                    file.source.path: file.diagnostics for file in files if file.diagnostics
+                    file.checked.source.path: file.diagnostics for file in files if file.diagnostics
                 }
-            self._files.clear()  # with the texts of all files
+            for kept in (self._files, self._asked, self._waiting, self._passing):
+                kept.clear()  # with the texts of all files
         if self.failure:
             return {}
         return self._diagnostics.get(id(package), {})
 
     def _collect(self) -> None:
-        if self._run is None:
+        if self._project is None:
             return
-        asked = [
-            file for files in self._files.values() for file in files if file.diagnostics is None
-        ]
         try:
-            reported = self._results()
-            for file in asked:
-                diagnostics = reported.get(file.place, ())
-                stubbed = self._stubbed - _roots(file.reached, are_stubs=False)
-                stubbed |= _roots(file.reached, are_stubs=True)
-                sources = file.reached.values()
-                file.diagnostics = [
-                    item
-                    for item in diagnostics
-                    if _concerns(item, stubbed) or is_about_own(item, sources)
-                ]
+            self._read(self._asked)
+            self._learn()
+            late = [file for file in self._waiting if self._signature(file) != file.silent_for]
+            if late:
+                self._project = self._started("late", late, _annotated)
+                self._read(late)
+            asked = [*self._asked, *late]
             self._confirm(
                 [file for file in asked if any(map(_may_be_annotated, file.diagnostics or ()))]
             )
@@ -292,18 +255,45 @@ class TypeCheck:
             return
         finally:
             self.close()
-        for file in asked:
+        self._store()
+
+    def _read(self, files: Sequence[_File]) -> None:
+        """Read what is reported about files, and keep what is of interest."""
+        assert self._project is not None  # noqa: S101  it has been started
+        for file in files:
+            reported = self._project.reports(file.checked)
+            reached = file.checked.reached
+            stubbed = self._stubbed - _roots(reached, are_stubs=False)
+            stubbed |= _roots(reached, are_stubs=True)
+            file.diagnostics = [
+                item
+                for item in reported
+                if _concerns(item, stubbed) or is_about_own(item, reached.values())
+            ]
+            file.is_silent = not (file.diagnostics or any(map(own_name, reported)))
+
+    def _learn(self) -> None:
+        """Read the types of what modules pass to others."""
+        assert self._project is not None  # noqa: S101  it has been started
+        for place, reached in self._passing.items():
+            types = self._types[place] = self._project.passed_types(place, reached)
+            self._cache.put_plain(self._cache.key(reached[place], reached, "passed"), types)
+
+    def _store(self) -> None:
+        """Remember what is reported about the files that the type checker was asked about."""
+        for file in (*self._asked, *self._waiting):
             self._cache.put(file.key, file.diagnostics or ())
+            if file.is_silent and file.checked.callers:
+                self._cache.put_plain(file.own_key, self._signature(file))
         self._cache.trim()
 
     def _confirm(self, files: Sequence[_File]) -> None:
         """Keep what is reported without the annotations of the user's code as well."""
         if not files:
             return
-        self._run = self._started("unannotated", files, _unannotated)
-        reported = self._results()
+        self._project = self._started("unannotated", files, _unannotated)
         for file in files:
-            again = {item[:3] for item in reported.get(file.place, ())}
+            again = {item[:3] for item in self._project.reports(file.checked)}
             file.diagnostics = [
                 item
                 for item in file.diagnostics or ()
@@ -312,9 +302,9 @@ class TypeCheck:
 
     def close(self) -> None:
         """End the type checker and remove what was written for it."""
-        if self._run is not None:
-            self._run.close()
-            self._run = None
+        if self._project is not None:
+            self._project.close()
+            self._project = None
         if self._scratch:
             shutil.rmtree(self._scratch, ignore_errors=True)
             self._scratch = ""
@@ -368,23 +358,9 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
     return MARK in item.message or _NAMELESS.fullmatch(item.message) is not None
 
 
-def _is_broken(item: TyDiagnostic) -> bool:
-    """Tell whether a report is that a file does not parse."""
-    return item.kind == _INVALID and _LATE_GLOBAL not in item.message
-
-
 def _may_be_annotated(item: TyDiagnostic) -> bool:
     """Tell whether a report may be the consequence of an annotation."""
     return item.kind not in _OF_MODULES
-
-
-def _of_user(diagnostics: Sequence[TyDiagnostic], written: Extended) -> Iterator[TyDiagnostic]:
-    """Yield what is reported about lines that are the user's, with their numbers."""
-    for item in diagnostics:
-        line = written.original_line(item.line)
-        if line:
-            end = written.original_line(item.end_line)
-            yield item._replace(line=line, end_line=end)
 
 
 def _annotated(source: Source) -> bytes:
@@ -397,11 +373,3 @@ def _unannotated(source: Source) -> bytes:
     if not source.path:
         return source.data
     return without_annotations(source.with_callback_types) or b""
-
-
-def _write(project: str, mirrored: Mapping[str, bytes]) -> None:
-    for folder in {os.path.dirname(place) for place in mirrored}:
-        os.makedirs(os.path.join(project, folder), exist_ok=True)
-    for place, data in mirrored.items():
-        with open(os.path.join(project, place), "wb") as file:
-            file.write(data)

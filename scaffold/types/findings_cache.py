@@ -5,6 +5,7 @@ from __future__ import annotations
 import marshal
 import os
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from scaffold.files import cache
 from scaffold.files.disk import digest
@@ -13,7 +14,7 @@ from scaffold.types.ty import TyDiagnostic
 
 KIND = "types"
 MOST = 20_000
-_MAGIC = b"scaffold-types-7\n"
+_MAGIC = b"scaffold-types-8\n"
 """Changes with what is kept of the reports; see ``types.check``."""
 
 
@@ -28,27 +29,38 @@ class Cache:
         self._directory = cache.directory(KIND)
         self._salt = depends_on
 
-    def key(self, source: Source, reached: Mapping[str, Source]) -> str:
-        """Return the key of a file.
+    def key(self, source: Source, reached: Mapping[str, Source], about: str = "") -> str:
+        """Return the key of what is known of a file.
 
         Args:
             source: The file.
-            reached: The file and all that it imports, by place.
+            reached: The files that it depends on, by place.
+            about: What is known, besides what was reported.
         """
         parts = [f"{place} {reached[place].digest}" for place in sorted(reached)]
-        return digest("\n".join([self._salt, source.place, *parts]).encode("utf-8", "replace"))
+        head = f"{self._salt} {about}"
+        return digest("\n".join([head, source.place, *parts]).encode("utf-8", "replace"))
 
     def get(self, key: str) -> list[TyDiagnostic] | None:
         """Return what was reported under a key."""
-        if self._directory is None:
-            return None
-        data = cache.read_sealed(os.path.join(self._directory, key), _MAGIC)
-        return None if data is None else [TyDiagnostic(*item) for item in marshal.loads(data)]  # noqa: S302  own files
+        reported = self.get_plain(key)
+        return None if reported is None else [TyDiagnostic(*item) for item in reported]
 
     def put(self, key: str, diagnostics: Sequence[TyDiagnostic]) -> None:
         """Store what was reported."""
+        self.put_plain(key, [*map(tuple, diagnostics)])
+
+    def get_plain(self, key: str) -> Any:  # noqa: ANN401  what was put
+        """Return anything else that was stored under a key; ``None`` if nothing was."""
+        if self._directory is None:
+            return None
+        data = cache.read_sealed(os.path.join(self._directory, key), _MAGIC)
+        return None if data is None else marshal.loads(data)  # noqa: S302  own files
+
+    def put_plain(self, key: str, value: Any) -> None:  # noqa: ANN401  for marshal
+        """Store anything that marshal can write."""
         if self._directory is not None:
-            data = marshal.dumps([*map(tuple, diagnostics)])
+            data = marshal.dumps(value)
             cache.write_sealed(os.path.join(self._directory, key), _MAGIC, data)
 
     def trim(self) -> None:

@@ -35,20 +35,25 @@ _NAME = re.compile(rb"\b[A-Za-z_]\w*")
 
 def is_about_own(item: TyDiagnostic, sources: Iterable[Source]) -> bool:
     """Tell whether a report is about a class or a function that one of some files defines."""
-    if item.kind == "missing-attribute":
-        matched = _OWNER.fullmatch(item.message)
-    elif item.kind in _CALLS:
-        matched = _CALL.fullmatch(item.message)
-    else:
+    name = own_name(item)
+    if not name:
         return False
-    if matched is None:
-        return False
-    name = matched[1].partition(".")[0].encode()
     files = [item.data for item in sources if item.path]
     defining = [data for data in files if _definition(name).search(data)]
     if not defining or any(_CHANGING.search(data) for data in _with_bases(name, files)):
         return False
     return item.kind in _CALLS or len(defining) == 1  # else the object may be of another class
+
+
+def own_name(item: TyDiagnostic) -> bytes:
+    """Return the class or function that a report may be about; empty if it is about none."""
+    if item.kind == "missing-attribute":
+        matched = _OWNER.fullmatch(item.message)
+    elif item.kind in _CALLS:
+        matched = _CALL.fullmatch(item.message)
+    else:
+        return b""
+    return matched[1].partition(".")[0].encode() if matched is not None else b""
 
 
 def _definition(name: bytes) -> re.Pattern[bytes]:

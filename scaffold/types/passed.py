@@ -17,6 +17,8 @@ from scaffold.types.callbacks import function_body
 from scaffold.types.sources import imported_names
 from scaffold.types.statements import mentions
 
+GIVEN = "_ros2_given"
+"""What the global names of values that are passed begin with."""
 _OPENED = re.compile(r"(\.\w+)?\(")
 _METHOD = re.compile(r"\.(\w+)\(")
 _KEPT = re.compile(r"[ ]*(self\.\w+|\w+)[ ]*(?::[^=]*)?=[ ]*")

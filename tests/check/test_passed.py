@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import ast
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
+from scaffold.files.tree import MemoryTree
+from scaffold.model.package import Package
+from scaffold.types import passed_types, ty
 from scaffold.types.arguments import with_arguments
 from scaffold.types.passed import Passed, own_names, places
+from scaffold.types.sources import Source
+from scaffold.types.ty import TyDiagnostic
 from tests.check.test_type_check import Check, check, make_package, source
 
 __all__ = ["check", "source"]
@@ -122,6 +129,59 @@ def test_an_edit_where_a_function_is_called_changes_the_verdict(check: Check, so
     assert check("talker") == ["talker/talker/util.py:2:TY003"]
     (package / "talker/more.py").write_text(f"{wrong}name_of(rclpy.create_node('a'))\n")
     assert check("talker") == []
+
+
+def test_a_function_is_checked_again_only_if_it_gets_other_types(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    call = "from std_msgs.msg import {0}\n\nfrom .util import read\n\nread({0}(), 3)\n"
+    files = {
+        "talker/talk.py": call.format("String"),
+        "talker/util.py": "import numpy\n\n\ndef read(message, count):\n    return message.data\n",
+        "talker/other.py": "import rclpy\n",
+    }
+    package = make_package(source, "talker", files)
+    asked: list[str] = []
+    start = ty.Run.__init__
+
+    def spied(self: ty.Run, project: str, environment: str, files: Sequence[str]) -> None:
+        asked.extend(os.path.basename(path) for path in files)
+        start(self, project, environment, files)
+
+    monkeypatch.setattr(ty.Run, "__init__", spied)
+    assert check("talker") == []
+    assert "_ros2_util.py" in asked
+    asked.clear()
+    (package / "talker/talk.py").write_text(f"import rclpy\n{call.format('String')}")
+    assert check("talker") == []
+    assert asked == ["talk.py", "_ros2types_talk.py"]
+    (package / "talker/talk.py").write_text(call.format("Empty"))
+    assert check("talker") == ["talker/talker/util.py:5:TY003"]
+    asked.clear()
+    (package / "talker/talk.py").write_text(call.format("String"))
+    assert check("talker") == []
+    assert asked == []
+
+
+def test_types_that_do_not_tell_all() -> None:
+    def known(type_: str, own: str = "") -> bool:
+        reported = [TyDiagnostic("revealed-type", 1, 1, 1, 1, f"Revealed type: `{type_}`")]
+        package = Package(MemoryTree({}))
+        reached = {
+            "lib/talker/talk.py": Source(package, "talk.py", "", "", own.encode()),
+            "lib/arm_msgs/msg/_joint.pyi": Source(package, "", "", "", b""),
+        }
+        passed = [Passed("talker.util.read", "talker.talk", {"0": "_ros2_given_1"})]
+        ((_, given),) = passed_types.types(passed, reported, reached)
+        return bool(given)
+
+    assert known("list[int]")
+    assert known('list[Literal["Joint"] | None]')
+    assert known("list[String·std_msgs·msg·_string | Unknown]")
+    assert not known("list[Joint·arm_msgs·msg·_joint]")  # of the workspace
+    assert not known("list[Talker]")
+    assert not known("def read(message: int) -> str")
+    assert not known("list[int]", "class int(str): pass\n")
 
 
 def test_the_lines_that_are_added() -> None:
