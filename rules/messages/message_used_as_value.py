@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, MessageRule
@@ -44,6 +45,18 @@ class MessageUsedAsValue(MessageRule):
         Example(
             "fields",
             {"listener.py": _NODE.format("msg.data.upper()", "len(msg.data), msg.data[0]")},
+        ),
+        Example(
+            "put into texts in plain, and as numbers",
+            {
+                "listener.py": _NODE.format(
+                    "f'{msg} {msg!r:>9} ' + '%s' % msg", "f'{msg:.2f}', '%d' % msg"
+                )
+            },
+            "15:16: std_msgs/msg/Float32MultiArray takes no format specification: TypeError; use "
+            "one of its fields",
+            "15:30: std_msgs/msg/Float32MultiArray is not a number: TypeError; use one of its "
+            "fields",
         ),
         Example(
             "as a dict, as a list",
@@ -240,7 +253,7 @@ class MessageUsedAsValue(MessageRule):
 
 def _problems(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     module = types.module
-    for node, value, problem in (*_uses_as_list(types), *_uses_as_value(types)):
+    for node, value, problem in (*_uses_as_list(types), *_uses_as_value(types), *_in_texts(types)):
         owner = _message(types, value)
         if owner is not None:
             yield node, f"{owner.name} {problem}: {_HINTS.get(problem, _HINT)}"
@@ -296,6 +309,20 @@ def _uses_as_value(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, st
         for value, other in ((node.left, node.right), (node.right, node.left)):
             if _message(types, value) and _is_plain(types, other) and not _is_format(node):
                 yield node, value, "cannot be used in arithmetic"
+
+
+def _in_texts(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:
+    """Yield what is put into a text as a number."""
+    for text in types.module.walk(ast.JoinedStr):
+        for part in text.values:
+            match part:
+                case ast.FormattedValue(value=value, conversion=-1, format_spec=ast.expr()):
+                    yield text, value, "takes no format specification"
+    for node in types.module.walk(ast.BinOp):
+        match node:
+            case ast.BinOp(left=ast.Constant(value=str(form)), op=ast.Mod(), right=value):
+                if _WANTS_NUMBER.search(form):
+                    yield node, value, "is not a number"
 
 
 def _problem_in_call(types: MessageTypes, func: ast.expr) -> str:
@@ -366,6 +393,8 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
         yield part.iter, part.iter, "is not iterable"
 
 
+_WANTS_NUMBER = re.compile(r"%[-+ #0]*[0-9]*(?:\.[0-9]+)?[dioxXeEfFgG]")
+"""Matches a placeholder for a number in a text that ``%`` fills in."""
 _NO_IMAGE = "is not an image of OpenCV"
 _HINT = "TypeError; use one of its fields"
 _HINTS = {_NO_IMAGE: "cv2.error; convert it with CvBridge"}

@@ -63,6 +63,24 @@ class WaitsForCallback(RclpyRule):
     name = "waits-for-callback"
     examples = (
         Example(
+            "until a position is reached, that a message has a field of the same name as",
+            {
+                "drive.py": "from geometry_msgs.msg import Twist\n"
+                "from nav_msgs.msg import Odometry\n"
+                "from rclpy.node import Node\n\n\n"
+                "class Driver(Node):\n    def __init__(self):\n        super().__init__('driver')\n"
+                "        self.x = 0.0\n"
+                "        self.pub = self.create_publisher(Twist, 'cmd_vel', 10)\n"
+                "        self.create_subscription(Odometry, 'odom', self.on_odom, 10)\n"
+                "        self.create_timer(1.0, self.drive)\n\n"
+                "    def on_odom(self, msg):\n        self.x = msg.pose.pose.position.x\n\n"
+                "    def drive(self):\n        cmd = Twist()\n        cmd.linear.x = 0.2\n"
+                "        while self.x < 1.0:\n            self.pub.publish(cmd)\n"
+            },
+            "20:9: callback 'drive' waits for self.x, which another callback sets: that one never "
+            "runs meanwhile, and the node hangs",
+        ),
+        Example(
             "does not wait",
             {
                 "relay.py": _NODE.format(
@@ -300,6 +318,21 @@ def _setters(file: RclpyFile, name: str, node: ast.AST) -> set[ast.AST | None]:
             if isinstance(use.value, ast.Attribute) and use.value.attr == name
         ]
     else:
-        places = [store.node for store in file.evaluator.stores(name)]
+        places = [
+            store.node
+            for store in file.evaluator.stores(name)
+            if not _is_field_of_local_message(file, store.node)
+        ]
     functions = {file.function_of(place) for place in places}
     return {x for x in functions if getattr(x, "name", "") != "__init__"}
+
+
+def _is_field_of_local_message(file: RclpyFile, stored: ast.AST) -> bool:
+    """Tell whether a field of a message is set that is made in the same function."""
+    while isinstance(stored, ast.Attribute):
+        stored = stored.value
+    made = file.evaluator.single_value(stored) if isinstance(stored, ast.Name) else None
+    if not isinstance(made, ast.Call):
+        return False
+    name = file.module.qualified_name(made.func) or ""
+    return not {"msg", "srv", "action"}.isdisjoint(name.split("."))

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from scaffold.api import Diagnostic, Example, TypeRule
 from scaffold.api.types import TypeFinding, class_in, full_name, in_words, is_certain
+
+from ._operands import are_sure
 
 _NODE = (
     "from rclpy.duration import Duration\nfrom rclpy.node import Node\n\n\n"
@@ -28,6 +31,14 @@ _SPEED = (
     "import math\n\nimport rclpy\n\n\n"
     "def show():\n    node = rclpy.create_node('show')\n    speed = math.hypot(1.0, 2.0)\n"
     "    node.get_logger().info({})\n    node.get_logger().info({})\n"
+)
+_TABLE = (
+    "import rclpy\n\n\ndef entry(name):\n    return {'name': name, 'state': 'new'}\n\n\n"
+    "def show():\n    node = rclpy.create_node('show')\n    table = entry('a')\n"
+    "    table['score'] = 3\n    table['score'] -= 1\n    node.get_logger().info(str(table))\n"
+)
+_LEVEL = (
+    "from std_msgs.msg import String\n\n\ndef is_high(node):\n    msg = String()\n    return {}\n"
 )
 _INSTEAD = {
     "builtin_interfaces.msg.Time": "convert it with rclpy.time.Time.from_msg(...)",
@@ -86,13 +97,22 @@ class OperatorUnsupported(TypeRule):
         ),
         Example(
             "a text and a number",
-            {"speed.py": _SPEED.format("'speed ' + str(speed)", "str(2) + ' m'")},
+            {
+                "speed.py": _SPEED.format("'speed ' + str(speed)", "str(2) + ' m'"),
+                "level.py": _LEVEL.format("float(msg.data) > 3.0"),
+                "table.py": _TABLE,
+            },
         ),
         Example(
             "a text and a number that are added",
             {"speed.py": _SPEED.format("'speed ' + speed", "2 + ' m'")},
             "9:28: a str and a float are not joined with '+': TypeError; use an f-string",
             "10:28: an int and a str are not joined with '+': TypeError; use an f-string",
+        ),
+        Example(
+            "a text that is compared with a number",
+            {"level.py": _LEVEL.format("msg.data > 3")},
+            "6:12: '>' does not work on a str and an int: TypeError; use float(...)",
         ),
     )
 
@@ -112,10 +132,11 @@ class OperatorUnsupported(TypeRule):
         if _ARRAY.fullmatch(types[0]) is not None and is_certain(types[1]):
             message = f"{operator!r} does not work on an array.array and {in_words(types[1])}"
             return self.report(finding, f"{message}: TypeError; use numpy.array(...)")
-        kinds = {in_words(type_) for type_ in types}
-        if "a str" in kinds and not kinds.isdisjoint(_NUMBERS):
-            message = f"{' and '.join(map(in_words, types))} are not joined with {operator!r}"
-            return self.report(finding, f"{message}: TypeError; use an f-string")
+        words = [*map(in_words, types)]
+        if "a str" in words and not _NUMBERS.isdisjoint(words):
+            if not are_sure(finding):
+                return None
+            return self.report(finding, _on_text(operator, words))
         if not any(classes) or not all(map(is_certain, types)):
             return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
@@ -123,6 +144,13 @@ class OperatorUnsupported(TypeRule):
         hint = next(filter(None, hints), "")
         message = f"{operator!r} does not work on {pair}: TypeError"
         return self.report(finding, f"{message}; {hint}" if hint else message)
+
+
+def _on_text(operator: str, words: Sequence[str]) -> str:
+    """Return the message about an operator between a text and a number."""
+    if operator == "+":
+        return f"{words[0]} and {words[1]} are not joined with '+': TypeError; use an f-string"
+    return f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError; use float(...)"
 
 
 def _hint(class_: str, operator: str) -> str:

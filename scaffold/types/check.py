@@ -41,7 +41,7 @@ _NAMELESS = re.compile(
     r"|(?:Object of type|Cannot subscript object of type) `(?:int|float|bool)`"
     r"(?: is not (?:callable|iterable)| with no .*)"
     r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
-    rf"|Operator `\+` is not supported between objects of type (?:{_STR} and {_NUMBER}"
+    rf"|Operator `[^`]+` is not supported between objects of type (?:{_STR} and {_NUMBER}"
     rf"|{_NUMBER} and {_STR})"
 )
 """Matches reports of interest that name nothing of ROS."""

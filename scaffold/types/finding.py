@@ -39,7 +39,9 @@ _ANYTHING = frozenset({"Exception", "BaseException"})
 _EXPECTING = frozenset({"raises", "suppress", "assertRaises", "assertRaisesRegex", "assertWarns"})
 _OF_ELEMENTS = frozenset({"not-subscriptable", "not-iterable"})
 """Kinds about an object, not about a call of it."""
-_OF_ARGUMENTS = frozenset({"unknown-argument", "too-many-positional-arguments"})
+_OF_ARGUMENTS = frozenset(
+    {"invalid-argument-type", "too-many-positional-arguments", "unknown-argument"}
+)
 """Kinds about a call that always fails."""
 # linear: of the text of a function that is called
 _PATCHING = re.compile(r"\bpatch(?:\.object)?$|\bmonkeypatch\.setattr$")
@@ -329,18 +331,19 @@ class TypeFinding:
             names = last_names(handler.type) if handler.type is not None else _ANYTHING
             if names & _PROBED:
                 return True
-            if place == "body" and names & _ANYTHING and self._is_short(node, child):
+            if place == "body" and names & _ANYTHING and self._is_asked(node, handler, child):
                 return True
         return False
 
-    def _is_short(self, node: ast.Try, child: ast.AST) -> bool:
+    def _is_asked(self, node: ast.Try, handler: ast.ExceptHandler, child: ast.AST) -> bool:
         """Tell whether a ``try`` only asks whether something works.
 
-        One around a call that can never work, and without anything to do instead, does not.
+        One with a handler that does nothing instead, but log the error, does not.
         """
-        if self.kind in _OF_ARGUMENTS:
-            return has_fallback(self.module, child, is_rare=False)
-        return len(node.body) <= _SHORT
+        if has_fallback(self.module, child, is_rare=False):
+            return True
+        logs = any(isinstance(part, ast.Call) for part in ast.walk(handler))
+        return self.kind not in _OF_ARGUMENTS and len(node.body) <= _SHORT and not logs
 
 
 def _cases(condition: ast.expr) -> Iterator[ast.Compare]:

@@ -19,6 +19,7 @@ _CONTAINER = re.compile(r"(?:list|dict|set|tuple)\[[^|]*\]")
 _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*")
 _NARROWED = re.compile(r"\(?([^()&]{1,200}) & ~Always(?:Falsy|Truthy)\)?")
 """Matches a type of which a condition showed that it is true, or false: it is the same."""
+_ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
@@ -45,7 +46,7 @@ def is_certain_misfit(expected: str, given: str) -> bool:
     if expected.startswith("type["):
         parts = _alternatives(_TEXT.sub("str", given))
         return all(_PLAIN.fullmatch(part.strip()) for part in parts)
-    if not is_certain(expected.replace("|", ",")):
+    if not is_certain(_ITERABLE.sub("list[", expected).replace("|", ",")):
         return False
     if _CONTAINER.fullmatch(given) and _CLASSES.fullmatch(expected):
         return True  # whatever is in it
@@ -137,7 +138,7 @@ def _readable(name: str) -> str:
     """Return the dotted name of a type, or the words that a protocol is: ``some_numbers_``."""
     plain = _NARROWED.sub(r"\1", name)
     if MARK not in plain:
-        return plain
+        return "list" if plain in {"Iterable", "Sequence"} else plain
     short = short_name(plain)
     return short[:-1].replace("_", " ") if short.endswith("_") else full_name(plain)
 

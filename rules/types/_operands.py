@@ -1,0 +1,47 @@
+"""Operands of which no table can say something wrong; for TY006."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import sys
+
+from scaffold.api.rclpy import RclpyFile, rclpy_file
+from scaffold.api.types import TypeFinding
+
+_DEEPEST = 4
+"""Names that one value comes through."""
+
+
+def are_sure(finding: TypeFinding) -> bool:
+    """Tell whether the types of both operands are known without tables and the user's functions.
+
+    What is in a dictionary or list is often put there elsewhere, with other types.
+    """
+    node = finding.node(ast.BinOp, ast.Compare, ast.AugAssign)
+    match node:
+        case ast.BinOp(left=left, right=right) | ast.AugAssign(target=left, value=right):
+            operands = (left, right)
+        case ast.Compare(left=left, comparators=[right]):
+            operands = (left, right)
+        case _:
+            return False
+    file = rclpy_file(finding.package, finding.path)
+    return all(_is_sure(file, operand, _DEEPEST) for operand in operands)
+
+
+def _is_sure(file: RclpyFile, node: ast.expr, depth: int) -> bool:
+    match node:
+        case ast.Constant() | ast.JoinedStr():
+            return True
+        case ast.Attribute(value=owner):
+            return not any(isinstance(part, ast.Subscript) for part in ast.walk(owner))
+        case ast.Name():
+            value = file.evaluator.single_value(node)
+            return depth > 0 and value is not node and _is_sure(file, value, depth - 1)
+        case ast.BinOp(left=left, right=right):
+            return _is_sure(file, left, depth) and _is_sure(file, right, depth)
+        case ast.Call(func=func):
+            root = (file.module.qualified_name(func) or "").partition(".")[0]
+            return root == "numpy" or root in sys.stdlib_module_names or hasattr(builtins, root)
+    return False
