@@ -544,7 +544,7 @@ def test_added_lines_that_do_not_parse_hide_nothing(
     def with_arguments(data: bytes, *_: object) -> Extended:
         return with_lines(data.decode(), {0: ["x = ("]})
 
-    monkeypatch.setattr("scaffold.types.check.with_arguments", with_arguments)
+    monkeypatch.setattr("scaffold.types.project.with_arguments", with_arguments)
     make_package(source, "talker", {"talker/talk.py": NODE})
     assert check() == [f"talker/{FOUND}"]
 
