@@ -54,6 +54,13 @@ _ROBOT_CALLS = (
     "      </visual>\n    </link>\n  </xacro:macro>\n"
     "  <xacro:wheel {}>{}</xacro:wheel>\n</robot>\n"
 )
+_CONDITION = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:arg name="model" default="a"/>\n'
+    '  <xacro:macro name="laser"><link name="laser"/></xacro:macro>\n'
+    "  <xacro:if value=\"${{'$(arg model)' != 'a'}}\">\n    <xacro:{}/>\n  </xacro:if>\n"
+    '  <link name="base"/>\n</robot>\n'
+)
 _ORIGIN = '<origin xyz="0 0 0"/>'
 
 
@@ -119,6 +126,15 @@ class XacroNameUndefined(Rule):
             "a macro",
             {"robot.xacro": _ROBOT.format(*_GOOD[:2], "xacro:w", "left", "xacro:w")},
             "12:4: macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'",
+        ),
+        Example(
+            "a macro that stops xacro where an argument has a wrong value",
+            {"robot.xacro": _CONDITION.format("wrong_model")},
+        ),
+        Example(
+            "a macro under a condition",
+            {"robot.xacro": _CONDITION.format("laserr")},
+            Report("5:6", "macro 'laserr' is not defined here: xacro stops; closest: 'laser'"),
         ),
         Example(
             "a block; an argument; a command of launch",
@@ -256,6 +272,8 @@ def _message(package: Package, undefined: Undefined, *, is_used_here: bool) -> s
         "expression": f"${{{name}}} is not an expression of Python: xacro stops",
         "tag": f"<{name}> is not expanded without its prefix: write <xacro:{name}>",
     }
+    if kind == "stop":  # under a condition; an undefined macro is how xacro says "wrong value"
+        return messages["macro"] if closest else ""
     is_given = kind == "argument" and is_argument_given(package, name)
     if kind == "argument" and not is_given and (closest or is_used_here):
         return f"argument {name!r} has no <xacro:arg>: xacro stops unless it is given{hint}"

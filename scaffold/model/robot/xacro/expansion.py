@@ -248,9 +248,9 @@ class Expansion:
         macro = frame.macros.get(name)
         if macro is None:
             self.problems.is_partial = True
-            self.problems.note(
-                "macro", name, frame.file, element.name_location, tuple(frame.macros)
-            )
+            is_plain = not element.attributes and not element.children
+            kind = "stop" if is_plain and not frame.is_certain else "macro"
+            self.problems.note(kind, name, frame.file, element.name_location, tuple(frame.macros))
             return
         self.macros.add(id(macro.element))
         scope = None if macro.is_ambiguous else self._calls.bind(name, macro, element, frame)
