@@ -31,6 +31,12 @@ _FILES = {
     "config/talker.yaml": "",
     "config/other.json": "",
 }
+_NEXT_TO = (
+    "from launch import LaunchDescription\nfrom launch.actions import IncludeLaunchDescription\n"
+    "from launch.substitutions import ThisLaunchFileDir\n\n\n"
+    "def generate_launch_description():\n    return LaunchDescription([\n"
+    "        IncludeLaunchDescription([ThisLaunchFileDir(), '/b.launch.py'])])\n"
+)
 
 
 class SharePathMissing(Rule):
@@ -68,12 +74,17 @@ class SharePathMissing(Rule):
             "next to a launch file that is started from its source",
             {
                 **_FILES,
-                "examples/a.launch.py": "from launch import LaunchDescription\n"
-                "from launch.actions import IncludeLaunchDescription\n"
-                "from launch.substitutions import ThisLaunchFileDir\n\n\n"
-                "def generate_launch_description():\n    return LaunchDescription([\n"
-                "        IncludeLaunchDescription([ThisLaunchFileDir(), '/b.launch.py'])])\n",
+                "examples/a.launch.py": _NEXT_TO,
                 "examples/b.launch.py": "",
+            },
+        ),
+        Example(
+            "next to a launch file, of a directory that is installed under a shorter path",
+            {
+                "package.xml": _FILES["package.xml"].replace("_python", "_cmake"),
+                "CMakeLists.txt": "install(DIRECTORY bringup/launch DESTINATION share/talker)\n",
+                "bringup/launch/a.launch.py": _NEXT_TO,
+                "bringup/launch/b.launch.py": "",
             },
         ),
         Example(

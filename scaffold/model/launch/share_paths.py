@@ -53,12 +53,10 @@ def paths_of(package: Package) -> Iterator[NamedPath]:
         for share_path in launch.share_paths:
             if launch.is_optional(share_path.node) or _is_given_to_unknown(launch, share_path.node):
                 continue
-            if _is_next_to_source(package, launch, share_path):
-                continue
             if is_never_used(launch, share_path.node, frozenset()):
                 continue
             if not _is_written(launch, share_path.node):
-                yield NamedPath(share_path.package, share_path.path.rstrip(), share_path.location)
+                yield from _as_installed(package, launch, share_path)
     yield from _paths_of_nodes(package)
     for file in markup_files(package):
         for path in file.paths:
@@ -115,11 +113,21 @@ def _reads(call: ast.Call) -> bool:
     )
 
 
-def _is_next_to_source(package: Package, launch: LaunchFile, path: SharePath) -> bool:
-    """Tell whether a launch file that is not installed names what is in its own directory."""
-    if "ThisLaunchFileDir" not in launch.module.text(path.node) or not package.has(path.path):
-        return False
-    return launch.module.path not in share_of(package).files.values()
+def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iterator[NamedPath]:
+    """Yield a path, with the directory of its launch file as it is after the installation.
+
+    Nothing for a file next to a launch file that is not installed, but started from its source.
+    """
+    named = NamedPath(path.package, path.path.rstrip(), path.location)
+    directory = posixpath.dirname(launch.path)
+    is_next_to = named.path.startswith(f"{directory}/") and package.has(named.path)
+    if not is_next_to or not launch.module.mentions("ThisLaunchFileDir"):
+        yield named
+        return
+    for installed, source in share_of(package).files.items():
+        if source == launch.path:
+            place = posixpath.join(posixpath.dirname(installed), named.path[len(directory) + 1 :])
+            yield named._replace(path=place)
 
 
 def _is_given_to_unknown(launch: LaunchFile, node: ast.expr) -> bool:
