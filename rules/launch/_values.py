@@ -16,6 +16,8 @@ from scaffold.api.launch import (
 from scaffold.api.python import is_known
 
 Flaw = tuple[ast.expr, str]
+LOOSE = "choices must be a list of strings"
+"""How the message about what works, but lets wrong values pass, begins."""
 """The place, and what is wrong there."""
 Judge = Callable[[LaunchFile, LaunchCall, ast.expr], Iterator[Flaw]]
 
@@ -133,7 +135,7 @@ def _default(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[F
 def _choices(launch: LaunchFile, call: LaunchCall, node: ast.expr) -> Iterator[Flaw]:
     choices = launch.evaluator.evaluate(node)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node, "choices must be a list of strings: every letter of this string is a choice"
+        yield node, f"{LOOSE}: any part of this string is accepted; write a list"
     if not isinstance(choices, list | tuple) or not all(map(is_known, choices)):
         return
     default = launch.text(call, "default_value")

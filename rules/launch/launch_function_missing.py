@@ -6,7 +6,18 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, LaunchRule, Location, Package, Report, fact
+from scaffold.api import (
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    LaunchRule,
+    Location,
+    Package,
+    Report,
+    Severity,
+    fact,
+)
 from scaffold.api.launch import FUNCTION, LaunchFile, returns
 from scaffold.api.python import paths_importing
 
@@ -41,6 +52,7 @@ class LaunchFunctionMissing(LaunchRule):
 
     code = "LF002"
     name = "launch-function-missing"
+    other_severities = {Severity.WARNING: "it returns a LaunchDescription on other paths"}
     examples = (
         Example("defined", {"launch/a.launch.py": _LAUNCH.format(FUNCTION)}),
         Example(
@@ -88,10 +100,15 @@ class LaunchFunctionMissing(LaunchRule):
                 "launch/b.launch.py": _LAUNCH_RESULT
                 + "    if node:\n        return LaunchDescription([node])\n",
             },
-            "launch/a.launch.py:7:5: generate_launch_description returns a list, not a "
-            "LaunchDescription",
-            "launch/b.launch.py:5:5: generate_launch_description returns None on some paths, not "
-            "a LaunchDescription",
+            Report(
+                "launch/a.launch.py:7:5",
+                "generate_launch_description returns a list, not a LaunchDescription",
+            ),
+            Report(
+                "launch/b.launch.py:5:5",
+                "generate_launch_description returns None on some paths, not a LaunchDescription",
+                severity=Severity.WARNING,
+            ),
         ),
     )
 
@@ -150,7 +167,8 @@ class LaunchFunctionMissing(LaunchRule):
         else:
             some = " on some paths" if statements else ""
             message = f"generate_launch_description returns None{some}, not a LaunchDescription"
-            yield self.report(at, message)
+            severity = Severity.WARNING if statements else None
+            yield self.report(at, message, severity=severity)
 
 
 @fact

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, LaunchRule
+from scaffold.api import Diagnostic, Example, LaunchRule, Report, Severity
 from scaffold.api.launch import LaunchFile
 
-from ._values import flaws
+from ._values import LOOSE, flaws
 
 _LAUNCH = (
     "from launch import LaunchDescription\n"
@@ -81,6 +81,7 @@ class ValueUnusable(LaunchRule):
 
     code = "LF040"
     name = "value-unusable"
+    other_severities = {Severity.WARNING: "it works, and lets wrong values pass"}
     examples = (
         Example("usable", {"launch/a.launch.py": _RIGHT, "launch/b.launch.py": _CHOICE}),
         Example(
@@ -157,13 +158,22 @@ class ValueUnusable(LaunchRule):
                     "['fast', 'slow']", "[1, 2]"
                 ),
             },
-            "launch/a.launch.py:10:44: respawn must be a bool, not a string: write True or False",
-            "launch/a.launch.py:11:28: a period must be a number of seconds, such as 1.0",
-            "launch/b.launch.py:9:69: choices must be a list of strings: every letter of this "
-            "string is a choice",
-            "launch/b.launch.py:11:28: a period must be a number of seconds, not 'soon'",
-            "launch/c.launch.py:9:66: choices must be strings: a value of the command line never "
-            "equals a number",
+            Report(
+                "launch/a.launch.py:10:44",
+                "respawn must be a bool, not a string: write True or False",
+            ),
+            Report("launch/a.launch.py:11:28", "a period must be a number of seconds, such as 1.0"),
+            Report(
+                "launch/b.launch.py:9:69",
+                "choices must be a list of strings: any part of this string is "
+                "accepted; write a list",
+                severity=Severity.WARNING,
+            ),
+            Report("launch/b.launch.py:11:28", "a period must be a number of seconds, not 'soon'"),
+            Report(
+                "launch/c.launch.py:9:66",
+                "choices must be strings: a value of the command line never equals a number",
+            ),
         ),
         Example(
             "arguments of an include: pairs",
@@ -220,4 +230,5 @@ class ValueUnusable(LaunchRule):
     def check_file(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for call in launch.calls:
             for node, problem in flaws(launch, call):
-                yield self.report(launch.location(node), problem)
+                severity = Severity.WARNING if problem.startswith(LOOSE) else None
+                yield self.report(launch.location(node), problem, severity=severity)
