@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report
+from scaffold.api import Diagnostic, Edit, Example, Fix, RclpyRule, Report, Severity
 from scaffold.api.python import UNKNOWN, is_handled, is_known
 from scaffold.api.rclpy import LOG_METHODS, RclpyFile, is_of_rclpy, log_calls
 
@@ -55,6 +55,7 @@ class LoggerMisused(RclpyRule):
 
     code = "ND018"
     name = "logger-misused"
+    other_severities = {Severity.WARNING: "nothing reads the message until debugging is on"}
     examples = (
         Example("a str", {"talker.py": _NODE.format("f'{1}'")}),
         Example(
@@ -69,6 +70,17 @@ class LoggerMisused(RclpyRule):
             {"talker.py": _NODE.format("42")},
             Report("6:32", "log message is not a str: TypeError", fix="convert it to a str"),
             fixed={"talker.py": _NODE.format("str(42)")},
+        ),
+        Example(
+            "a number as message for those who debug",
+            {"talker.py": _NODE.format("42").replace(".info(", ".debug(")},
+            Report(
+                "6:33",
+                "log message is not a str: TypeError where debugging is switched on",
+                fix="convert it to a str",
+                severity=Severity.WARNING,
+            ),
+            fixed={"talker.py": _NODE.format("str(42)").replace(".info(", ".debug(")},
         ),
         Example(
             "arguments to format",
@@ -145,8 +157,14 @@ class LoggerMisused(RclpyRule):
                 path = file.module.path
                 edits = (Edit(path, start, start, "str("), Edit(path, end, end, ")"))
                 at = file.module.location(message)
-                problem = "log message is not a str: TypeError"
-                yield self.report(at, problem, Fix("convert it to a str", edits))
+                is_rare = isinstance(call.func, ast.Attribute) and call.func.attr == "debug"
+                when = " where debugging is switched on" if is_rare else ""
+                yield self.report(
+                    at,
+                    f"log message is not a str: TypeError{when}",
+                    Fix("convert it to a str", edits),
+                    severity=Severity.WARNING if is_rare else None,
+                )
 
     def _is_not_str(self, file: RclpyFile, node: ast.expr) -> bool:
         if isinstance(node, ast.List | ast.Tuple | ast.Dict | ast.Set | ast.ListComp):

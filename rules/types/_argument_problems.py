@@ -41,6 +41,8 @@ _ANY_VALUE = {
 """What `ros2 launch --show-args` prints, whatever it is, and what is only tested for truth."""
 _CONVERTING = frozenset({"rclpy.duration.Duration", "rclpy.time.Time"})
 """What calls ``int()`` on its nanoseconds, which are annotated as an int."""
+_WHOLE = r"int\b|Literal\[-?[0-9]"
+"""A whole number, which Python functions take for a truth; QoS profiles check what they get."""
 _COMPUTED = r"^(int|float)\*? \| (?:Any|Unknown)$"
 """A number that is computed with a value of unknown type."""
 _OF_MESSAGE = r"(?!rclpy\.)\w+\.(?:msg|srv|action)\.[\w.]+"
@@ -87,7 +89,8 @@ def _argument(finding: TypeFinding, callee: str, expected: str, given: str) -> s
         )
     is_made_int = full_name(called) in _CONVERTING and parameter == "nanoseconds"
     is_made_int = is_made_int and given.rstrip("*") == "float"
-    if is_made_int or (shown_call, parameter) in _ANY_VALUE:
+    is_truth = expected == "bool" and re.match(_WHOLE, given) and "QoS" not in shown_call
+    if is_made_int or is_truth or (shown_call, parameter) in _ANY_VALUE:
         return ""
     if expected.startswith("("):
         expected = "function"

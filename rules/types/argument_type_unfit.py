@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from scaffold.api import Diagnostic, Example, TypeRule
+from scaffold.api import Diagnostic, Example, Report, Severity, TypeRule
 from scaffold.api.types import MARKED, TypeFinding, with_article
 
 from ._argument_problems import argument_problem
@@ -49,6 +49,8 @@ _DRIVER = (
     "    serial.Serial('/dev/ttyUSB0').write({})\n"
     "    return euler_from_quaternion({})\n"
 )
+_RARE = ": debug() fails"
+"""How the message about a call that does nothing ends, unless debugging is switched on."""
 _RIGHT = ("0.1", "ReentrantCallbackGroup()", "Duration(seconds=1.0)")
 
 _FLEET = (
@@ -103,6 +105,7 @@ class ArgumentTypeUnfit(TypeRule):
 
     code = "TY005"
     name = "argument-type-unfit"
+    other_severities = {Severity.WARNING: "it is logged only where debugging is switched on"}
     kinds = frozenset({"invalid-argument-type", "no-matching-overload"})
     examples = (
         Example(
@@ -139,6 +142,29 @@ class ArgumentTypeUnfit(TypeRule):
                 "    for theme in THEMES.values():\n"
                 "        node.create_subscription(theme['type'], theme['topic'], print, 10)\n"
             },
+        ),
+        Example(
+            "a whole number for a truth",
+            {
+                "both.py": "from message_filters import ApproximateTimeSynchronizer\n\n\n"
+                "def join(first, second):\n"
+                "    return ApproximateTimeSynchronizer([first, second], 30, 1, 0)\n"
+            },
+        ),
+        Example(
+            "what is logged",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
+                "    def show(self, name):\n        words = ['-n', f'{name}']\n"
+                "        if name:\n            words.extend(['-v'])\n"
+                "        self.get_logger().debug(words)\n        self.get_logger().info(words)\n"
+            },
+            Report(
+                "9:33",
+                "'message' of debug() must be a str, not a list: debug() fails",
+                severity=Severity.WARNING,
+            ),
+            "10:32: 'message' of info() must be a str, not a list: info() fails",
         ),
         Example("the types that it takes", {"ticker.py": _NODE.format(*_RIGHT)}),
         Example(
@@ -572,7 +598,8 @@ class ArgumentTypeUnfit(TypeRule):
         if finding.kind == "no-matching-overload":
             return self._judge_overload(finding)
         problem = argument_problem(finding)
-        return self.report(finding, problem) if problem else None
+        severity = Severity.WARNING if problem.endswith(_RARE) else None
+        return self.report(finding, problem, severity=severity) if problem else None
 
     def _judge_overload(self, finding: TypeFinding) -> Diagnostic | None:
         """Judge a timeout: the type checker does not say which argument fits no signature."""
