@@ -160,6 +160,16 @@ class AttributeMissing(TypeRule):
             "/ 1e9",
             "10:60: rclpy.duration.Duration has no 'nanosec': AttributeError; write .nanoseconds",
         ),
+        Example(
+            "a field of ROS 1, where rospy is imported",
+            {
+                "cloud.py": "import os\n\nfrom std_msgs.msg import Header\n\n"
+                "VERSION = int(os.environ.get('VERSION_OF_ROS', '2'))\n"
+                "if VERSION == 1:\n    import rospy\nelse:\n    import rclpy\n\n\n"
+                "def number(header: Header):\n"
+                "    if VERSION != 1:\n        return 0\n    return header.seq\n"
+            },
+        ),
         Example("an attribute that exists", {"asker.py": _NODE.format("destroy")}),
         Example(
             "a node that another module is given",

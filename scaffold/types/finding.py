@@ -18,6 +18,7 @@ from scaffold.source import Location
 from scaffold.types import origins
 from scaffold.types.marks import MARKED, full_name
 from scaffold.types.passed import first_call
+from scaffold.types.ros1 import is_for_ros1
 from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)
@@ -179,7 +180,7 @@ class TypeFinding:
                     if any(_expects(item.context_expr) for item in items):
                         return False
             child = parent
-        return child not in self.module.passed_over
+        return child not in self.module.passed_over and not is_for_ros1(self.module, node)
 
     def _is_patched(self, node: ast.AST) -> bool:
         """Tell whether a test puts something else in the place of what is used."""
