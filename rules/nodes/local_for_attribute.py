@@ -50,6 +50,10 @@ class LocalForAttribute(RclpyRule):
             },
         ),
         Example(
+            "set to what the attribute is set to, and only logged",
+            {"gate.py": _NODE.replace("msg.data", "False").format("is_open", _LOGGED)},
+        ),
+        Example(
             "only logged",
             {"gate.py": _NODE.format("is_open", _LOGGED)},
             "13:9: 'is_open' is a local variable, which ends with on_open(): self.is_open never "
@@ -84,8 +88,24 @@ def _forgotten(file: RclpyFile, class_: NodeClass, method: ast.AST) -> Iterator[
         if loads and all(_is_logged(file, name) for name in loads):
             lookup = file.module.index.lookup(uses[0].id, uses[0])
             is_local = lookup is not None and len(lookup[1]) == len(stores)
-            if is_local and _is_state(file, class_, method, uses[0].id):
+            is_new = not _is_set_to_start(file, class_, stores)
+            if is_local and is_new and _is_state(file, class_, method, uses[0].id):
                 yield min(stores, key=lambda name: (name.lineno, name.col_offset))
+
+
+def _is_set_to_start(file: RclpyFile, class_: NodeClass, stores: list[ast.Name]) -> bool:
+    """Tell whether variables are set to the constant that the attribute has from the start."""
+    starts = [
+        parent.value
+        for use in file.module.index.attributes(stores[0].id)
+        if file.module.enclosing_class(use) is class_.node
+        and isinstance(parent := file.module.parent(use), ast.Assign)
+    ]
+    given = [
+        parent.value for it in stores if isinstance(parent := file.module.parent(it), ast.Assign)
+    ]
+    texts = {ast.dump(value) for value in (*starts, *given)}
+    return len(texts) == 1 and isinstance(given[0], ast.Constant)
 
 
 def _is_logged(file: RclpyFile, name: ast.Name) -> bool:

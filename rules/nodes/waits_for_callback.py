@@ -213,6 +213,15 @@ class WaitsForCallback(RclpyRule):
                 )
             },
         ),
+        Example(
+            "a loop that waits with a timeout and spins",
+            {
+                "relay.py": _NODE.format(
+                    "        while True:\n            rclpy.spin_once(self)\n"
+                    "            if self.arrived.wait(timeout=0.1):\n                break\n"
+                )
+            },
+        ),
         Example("with a timeout", {"relay.py": _NODE.format("        self.arrived.wait(1.0)\n")}),
     )
 
@@ -271,7 +280,8 @@ def _waits(file: RclpyFile, executed: Executed) -> Iterator[tuple[ast.expr | ast
                 is_event = isinstance(made, ast.Call) and (
                     file.module.qualified_name(made.func) == "threading.Event"
                 )
-                if is_event and (not _is_limited(node) or _is_asked(file, node)):
+                is_for_good = is_event and (not _is_limited(node) or _is_asked(file, node))
+                if is_for_good and not _is_in_spinning_loop(file, node):
                     yield node, {name}
             case ast.While() if not _leaves(node):
                 names = attributes_asked(file, node)
@@ -297,10 +307,21 @@ def _is_asked(file: RclpyFile, call: ast.Call) -> bool:
 def _leaves(loop: ast.While) -> bool:
     """Return whether a loop may end by itself, or lets callbacks run."""
     return any(
-        isinstance(node, ast.Break | ast.Return | ast.Raise | ast.Yield | ast.Await)
-        or (isinstance(node, ast.Attribute) and "spin" in node.attr)
+        isinstance(node, ast.Break | ast.Return | ast.Raise | ast.Yield | ast.Await) or _spins(node)
         for node in ast.walk(loop)
     )
+
+
+def _is_in_spinning_loop(file: RclpyFile, call: ast.Call) -> bool:
+    """Tell whether callbacks run between one wait and the next."""
+    return any(
+        isinstance(parent, ast.While) and any(map(_spins, ast.walk(parent)))
+        for parent in file.module.parents(call)
+    )
+
+
+def _spins(node: ast.AST) -> bool:
+    return isinstance(node, ast.Attribute) and "spin" in node.attr
 
 
 def _calls(loop: ast.AST, functions: set[ast.AST | None]) -> bool:
