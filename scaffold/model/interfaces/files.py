@@ -115,8 +115,10 @@ def _read(package: Package) -> Iterator[InterfaceFile]:
     listed = {file.path for call in calls for file in call.files}
     knows_all = all(call.is_complete for call in calls)
     others = () if knows_all else ungenerated_candidates(package)
+    names = {path.rpartition("/")[2] for path in listed}
     for path in sorted({*listed, *(path for path in others if not is_test_data(path))}):
-        if path not in listed and is_commented_out(package, path):
+        is_other = path.rpartition("/")[2] in names  # of ROS 1: one name is generated once
+        if path not in listed and (is_other or is_commented_out(package, path)):
             continue
         stem, _, kind = path.rpartition("/")[2].rpartition(".")
         if kind in SECTIONS and package.has(path):
