@@ -37,7 +37,9 @@ _OF_SENSORS = frozenset(
     | {"sensor_msgs/msg/CameraInfo", "sensor_msgs/msg/Imu", "sensor_msgs/msg/PointCloud2"}
     | {"sensor_msgs/msg/NavSatFix", "sensor_msgs/msg/MagneticField"}
 )
-"""What Gazebo measures, and never takes from ROS."""
+"""What Gazebo measures, and its own plugins never take from ROS."""
+_OF_PLUGINS = ("gz-sim", "gz-plugin", "gz_sim", "gz_plugin", "ignition-gazebo", "ignition-plugin")
+"""How the packages begin that CMake builds plugins of Gazebo with."""
 
 
 class BridgeDiffersFromNodes(Rule):
@@ -86,6 +88,15 @@ class BridgeDiffersFromNodes(Rule):
                     "cmd_vel", "geometry_msgs/msg/Twist", "Twist", "ROS_TO_GZ"
                 )
                 + _ENTRY_DIRECTION.format("clock", "rosgraph_msgs/msg/Clock", "Clock", "GZ_TO_ROS"),
+            },
+        ),
+        Example(
+            "an image that a plugin of the package shows",
+            {
+                "CMakeLists.txt": "find_package(gz-plugin2 REQUIRED)\n",
+                "a.yaml": _ENTRY_DIRECTION.format(
+                    "lights", "sensor_msgs/msg/Image", "Image", "ROS_TO_GZ"
+                ),
             },
         ),
         Example(
@@ -148,7 +159,8 @@ class BridgeDiffersFromNodes(Rule):
             direction = entry.values.get("direction")
             if direction is None:
                 continue
-            if entry.direction == "ROS_TO_GZ" and entry.text("ros_type_name") in _OF_SENSORS:
+            is_of_sensor = entry.text("ros_type_name") in _OF_SENSORS
+            if entry.direction == "ROS_TO_GZ" and is_of_sensor and not _has_plugin(package):
                 message = (
                     f"{entry.ros_topic!r} goes to Gazebo, which publishes it itself: nothing "
                     "arrives in ROS; write GZ_TO_ROS"
@@ -163,3 +175,9 @@ class BridgeDiffersFromNodes(Rule):
                         "it: nothing arrives there; write ROS_TO_GZ"
                     )
                     yield self.report(direction, message, severity=Severity.WARNING)
+
+
+def _has_plugin(package: Package) -> bool:
+    """Tell whether a package builds a plugin of Gazebo, which may take anything from ROS."""
+    text = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
+    return any(name in text for name in _OF_PLUGINS)
