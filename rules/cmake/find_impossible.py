@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from scaffold.api import Diagnostic, Edit, Effect, Example, Fix, Location, Package, Report, Rule
 from scaffold.api.catalog import similar_package
 from scaffold.api.cmake import Argument, uses_ament
+from scaffold.api.manifest import is_fetched
 
 _LISTS = "project(talker)\nfind_package({} REQUIRED)\n"
 _PURE = frozenset(
@@ -99,7 +100,7 @@ class FindImpossible(Rule):
         closest = similar_package(name)
         if closest is None or (closest == name.lower() and not _is_of_ros(closest)):
             return
-        if package.workspace.get(name) is not None:
+        if package.workspace.get(name) is not None or is_fetched(package, name):
             return
         fix = None
         if argument.value == name:

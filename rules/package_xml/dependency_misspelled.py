@@ -14,6 +14,7 @@ from scaffold.api.catalog import (
     similar_package,
 )
 from scaffold.api.interfaces import KINDS
+from scaffold.api.manifest import is_fetched
 
 
 class DependencyMisspelled(Rule):
@@ -144,7 +145,7 @@ class DependencyMisspelled(Rule):
             name = dependency.name
             if package.workspace.get(name) is not None or name == package.name:
                 continue
-            if not dependency.may_be_active:
+            if not dependency.may_be_active or is_fetched(package, name):
                 continue
             other = OTHER_NAMES.get(name)
             if other is not None:

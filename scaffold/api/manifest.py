@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from scaffold.model.discovery.declaring import declaring, way_back
 from scaffold.model.discovery.pip import is_in_requirements
+from scaffold.model.discovery.repos_files import is_fetched
 from scaffold.model.manifest import requirements
 from scaffold.model.manifest.conditions import (
     ConditionError,
@@ -27,6 +28,7 @@ __all__ = [
     "declared",
     "declaring",
     "holds",
+    "is_fetched",
     "is_in_requirements",
     "is_never_true",
     "is_placeholder",

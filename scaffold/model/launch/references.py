@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
+from scaffold.model.discovery.repos_files import is_fetched
 from scaffold.model.launch.markup_file import is_known, markup_files
 from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.launch.share_paths import is_never_used
@@ -121,5 +122,5 @@ def meant_package(package: Package, use: Reference) -> Suggestion | None:
     for other in sorted(package.manifest.declared_names):
         if is_near(use.name, other):
             return Suggestion(other, "which package.xml declares")
-    package_name = similar_package(use.name)
+    package_name = None if is_fetched(package, use.name) else similar_package(use.name)
     return Suggestion(package_name, "a package of ROS") if package_name else None
