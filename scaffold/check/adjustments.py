@@ -29,6 +29,8 @@ _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "MS", "ND", "TY")
 """Areas of rules about what happens when code runs."""
 _UNDEFINED = "F821"
+_UNDECLARED = "PX020"
+"""Reported where a module imports it."""
 _PLATFORMS = ("os.name", "sys.platform", "platform.system")
 """What conditions ask that tell platforms apart."""
 
@@ -118,14 +120,11 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     is_of_linters = code.startswith(_OF_LINTERS)
     if is_of_linters and runs_linter(package, diagnostic):
         return False
-    if is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
+    is_of_test = code.startswith((*_OF_PROGRAMS, _UNDECLARED)) and is_unrun_test(package, path)
+    if is_of_test or is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
         return True
-    if code.startswith(_OF_PROGRAMS) and (
-        is_beside_programs(package, path)
-        or is_unrun_test(package, path)
-        or _is_uncalled(package, diagnostic)
-    ):
-        return True
+    if code.startswith(_OF_PROGRAMS):
+        return is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
     return is_of_linters and (
         is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     )
