@@ -7,11 +7,12 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
 from scaffold.api.programs import phases_of
-from scaffold.api.python import conditions_on, is_handled
+from scaffold.api.python import FunctionNode, conditions_on, is_handled
 from scaffold.api.rclpy import (
     NODE,
     NodeClass,
     RclpyFile,
+    Service,
     Subscription,
     Synchronizer,
     Timer,
@@ -44,7 +45,21 @@ _TIMER = (
     "    def hear(self, msg):\n"
     "        self.last = msg\n"
 )
-
+_BOTH = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import CameraInfo, Image\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.info = {}\n"
+    "        self.create_subscription(Image, 'image', self.see, 10)\n"
+    "        self.create_subscription(CameraInfo, 'info', self.learn, 10)\n\n"
+    "    def see(self, msg):\n"
+    "        print({})\n\n"
+    "    def learn(self, msg):\n"
+    "        self.info = msg\n"
+)
+_TRANSITIONS = ("on_configure", "on_activate")
+"""The methods that bring a node with a lifecycle to work."""
 _CALLED_BY_NODE = (
     *("get_name", "get_namespace", "get_logger", "get_clock", "create_publisher"),
     *("create_service", "declare_parameter", "declare_parameters", "has_parameter"),
@@ -139,6 +154,42 @@ class AttributeUsedBeforeSet(RclpyRule):
             ),
         ),
         Example(
+            "a callback that uses what is None until another message comes",
+            {
+                "talker.py": _BOTH.format("None", "self.info.width"),
+                "whole.py": _BOTH.format("None", "self.info"),
+                "set.py": _BOTH.format("CameraInfo()", "self.info.width"),
+                "asked.py": _BOTH.format("None", "self.info.width if self.info else 0"),
+            },
+            Report(
+                "talker.py:13:15",
+                "self.info is None until the callback 'learn' sets it, and this may "
+                "run before the first message there; ask for None first",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
+            "a timer that runs before the node is configured",
+            {
+                "pump.py": "from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn\n"
+                "from std_msgs.msg import String\n\n\n"
+                "class Pump(LifecycleNode):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('pump')\n"
+                "        self.create_timer(1.0, self.tick)\n\n"
+                "    def on_configure(self, state):\n"
+                "        self.pub = self.create_lifecycle_publisher(String, 'flow', 10)\n"
+                "        return TransitionCallbackReturn.SUCCESS\n\n"
+                "    def tick(self):\n        self.pub.publish(String())\n"
+            },
+            Report(
+                "15:9",
+                "self.pub is only set by on_configure(), and the timer may run before "
+                "the transition: AttributeError; set it in the constructor",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "in a method with a name of its own",
             {
                 "talker.py": _NODE.format("        self.robot = 'robin'\n")
@@ -165,34 +216,31 @@ class AttributeUsedBeforeSet(RclpyRule):
     def _check_timers(
         self, package: Package, file: RclpyFile, node: NodeClass
     ) -> Iterator[Diagnostic]:
-        """Check what timers use that only messages set."""
+        """Check what callbacks use that only later messages and transitions set."""
         methods = {method: name for name, method in node.methods.items()}
-        by_messages = {
+        later = {
             callback.function
             for entity, callback in file.callbacks
             if isinstance(entity, Subscription | Synchronizer)
         } - phases_of(file).constructing
+        if node.is_lifecycle:
+            later |= {node.methods.get(name) for name in _TRANSITIONS}
         reported: set[str] = set()
-        for entity, callback in file.callbacks:
-            timed = callback.function
-            if not isinstance(entity, Timer) or timed not in methods or not is_read_in_full(node):
-                continue
-            if file.function_of(entity.call) is not node.constructor:
-                continue
+        for entity, timed in _registered_first(file, node):
             for used in file.module.below(timed, ast.Attribute):
                 name = used.attr
                 if name in reported or name in given_from_outside(package):
                     continue
-                setters = _setters(file, node, used)
-                if not setters or not setters <= by_messages or timed in setters:
+                setters, is_none = _setters(file, node, used)
+                if not setters or not setters <= later or timed in setters:
+                    continue
+                if is_none and not _needs_value(file, used):
                     continue
                 if file.function_of(used) is timed and _is_always_used(file, used):
                     reported.add(name)
                     setter = next(methods[item] for item in methods if item in setters)
-                    message = (
-                        f"self.{name} is only set by the callback {setter!r}, and the timer may "
-                        "run before the first message: AttributeError; set it in the constructor"
-                    )
+                    is_timer = isinstance(entity, Timer)
+                    message = _message(name, setter, is_timer=is_timer, is_none=is_none)
                     location = file.module.location(used)
                     yield self.report(location, message, severity=Severity.WARNING)
 
@@ -221,15 +269,75 @@ class AttributeUsedBeforeSet(RclpyRule):
                     break
 
 
-def _setters(file: RclpyFile, node: NodeClass, used: ast.Attribute) -> set[ast.AST | None]:
-    """Return the methods that set an attribute of a node; empty if the class has it anyway."""
+def _registered_first(
+    file: RclpyFile, node: NodeClass
+) -> Iterator[tuple[Timer | Subscription | Synchronizer | Service, FunctionNode]]:
+    """Yield the methods that may be called as soon as the constructor is done, and what for."""
+    if not is_read_in_full(node) or _may_wait(file, node):
+        return
+    methods = {*node.methods.values()}
+    for entity, callback in file.callbacks:
+        function = callback.function
+        if not isinstance(entity, Timer | Subscription | Synchronizer | Service):
+            continue
+        is_made_there = file.function_of(entity.call) is node.constructor
+        if is_made_there and function is not None and function in methods:
+            yield entity, function
+
+
+def _message(name: str, setter: str, *, is_timer: bool, is_none: bool) -> str:
+    """Return what is reported about an attribute that a later callback sets."""
+    if setter in _TRANSITIONS:
+        setting, first = f"{setter}()", "the transition"
+    else:
+        setting, first = f"the callback {setter!r}", "the first message"
+        first = first if is_timer else f"{first} there"
+    early = f"the timer may run before {first}" if is_timer else f"this may run before {first}"
+    if is_none:
+        return f"self.{name} is None until {setting} sets it, and {early}; ask for None first"
+    return (
+        f"self.{name} is only set by {setting}, and {early}: AttributeError; set it in the "
+        "constructor"
+    )
+
+
+def _setters(
+    file: RclpyFile, node: NodeClass, used: ast.Attribute
+) -> tuple[set[FunctionNode | ast.Lambda | None], bool]:
+    """Return the methods that set an attribute of a node, and whether it is None before.
+
+    There are none if the class has it anyway.
+    """
     if not isinstance(used.ctx, ast.Load) or has(NODE, used.attr):
-        return set()
+        return set(), False
     if used.attr in file.module.index.bindings(node.node):
-        return set()
+        return set(), False
     if file.evaluator.self_class(used.value) is not node.node:
-        return set()
-    return {file.function_of(store.node) for store in file.evaluator.stores(used.attr)}
+        return set(), False
+    stores = [*file.evaluator.stores(used.attr)]
+    empty = [
+        store
+        for store in stores
+        if isinstance(store.value, ast.Constant)
+        and store.value.value is None
+        and file.function_of(store.node) is node.constructor
+    ]
+    setters = {file.function_of(store.node) for store in stores if store not in empty}
+    return setters, bool(empty)
+
+
+def _needs_value(file: RclpyFile, used: ast.Attribute) -> bool:
+    """Tell whether None has not what is done with an attribute."""
+    match file.module.parent(used):
+        case ast.Attribute(value=value) | ast.Subscript(value=value):
+            return value is used
+    return False
+
+
+def _may_wait(file: RclpyFile, node: NodeClass) -> bool:
+    """Tell whether the constructor waits for a message, or stops a timer for the time being."""
+    text = file.module.text(node.constructor) if node.constructor is not None else ""
+    return any(word in text for word in ("while ", "spin", "wait_for", ".cancel("))
 
 
 def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
@@ -238,8 +346,9 @@ def _is_always_used(file: RclpyFile, used: ast.Attribute) -> bool:
         isinstance(parent, ast.For | ast.While | ast.comprehension)
         for parent in file.module.parents(used)
     )
-    is_asked = f"'{used.attr}'" in file.module.source.text or (
-        f'"{used.attr}"' in file.module.source.text
+    text = file.module.source.text
+    is_asked = any(word in text for word in ("attr(", "__dict__", "vars(")) and (
+        f"'{used.attr}'" in text or f'"{used.attr}"' in text
     )
     if in_loop or is_asked or conditions_on(file.module, used):
         return False
