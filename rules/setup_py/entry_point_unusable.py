@@ -66,6 +66,14 @@ class EntryPointUnusable(Rule):
             "one script", {"setup.py": _SETUP.format("        'talker = talker.node:main',\n")}
         ),
         Example(
+            "a module whose name begins with a digit, which is imported by its text",
+            {
+                "setup.py": _SETUP.format("        'see = talker.4_see:main',\n"),
+                "talker/__init__.py": "",
+                "talker/4_see.py": "def main():\n    pass\n",
+            },
+        ),
+        Example(
             "a comma is missing",
             {
                 "setup.py": _SETUP.format(

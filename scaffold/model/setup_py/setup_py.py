@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from functools import cached_property
@@ -428,7 +429,7 @@ class SetupPy:
             return EntryPoint(group, "", "", "", text, at, node, problem, joined)
         if not function and (colon or group in {"console_scripts", "gui_scripts"}):
             problem = "no function is named: name = module:function"
-        elif not all(part.isidentifier() for part in f"{module}.{function or 'x'}".split(".")):
+        elif not _is_importable(module) or not _is_dotted(function or "x"):
             problem = "module or function is not a Python name"
         return EntryPoint(group, name, module, function, text, at, node, problem, joined)
 
@@ -438,6 +439,18 @@ class SetupPy:
             return ()
         pieces = list(string_pieces(self.module, node))
         return tuple(self.module.source.location(*piece) for piece in pieces[1:] and pieces)
+
+
+def _is_dotted(name: str) -> bool:
+    return all(map(str.isidentifier, name.split(".")))
+
+
+def _is_importable(module: str) -> bool:
+    """Tell whether an entry point can have a module, which it imports by its name as a text.
+
+    Other than in an ``import`` statement, parts of the name may begin with a digit.
+    """
+    return re.fullmatch(r"\w+(?:\.\w+)*", module) is not None
 
 
 def _source(value: object) -> str | Glob | Unknown:

@@ -298,6 +298,8 @@ def test_a_long_entry_in_two_pieces_is_right() -> None:
         ("talker = demo/talker.py:main", "module or function is not a Python name"),
         ("talker = demo.talker.main()", "no function is named: name = module:function"),
         ("talker = demo.talker:main()", "module or function is not a Python name"),
+        ("talker = demo.4-talker:main", "module or function is not a Python name"),
+        ("talker = demo.talker:4main", "module or function is not a Python name"),
         ("talker = a:b:c", "two entries run together"),
         ("= demo.talker:main", "not of the form name = module:function"),
     ],
