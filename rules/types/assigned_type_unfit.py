@@ -91,6 +91,27 @@ class AssignedTypeUnfit(TypeRule):
                 severity=Severity.WARNING,
             ),
         ),
+        Example(
+            "an element whose kind another one says",
+            {
+                "run.py": "from std_msgs.msg import Int32\n\n"
+                "steps = [('move', (0.0, 0.4))]  # ('lift', 2)\n"
+                "lift = Int32()\n"
+                "if steps[0][0] == 'lift':\n"
+                "    lift.data = steps[0][1]\n"
+            },
+        ),
+        Example(
+            "an element of a sequence",
+            {
+                "run.py": "from std_msgs.msg import Int32\n\n"
+                "steps = [('move', (0.0, 0.4))]\n"
+                "lift = Int32()\n"
+                "if steps:\n"
+                "    lift.data = steps[0][1]\n"
+            },
+            "6:17: 'data' of std_msgs.msg.Int32 is an int, not a tuple: it cannot be published",
+        ),
         Example("a list of what the field holds", {"trail.py": _TRAIL.format("pose")}),
         Example(
             "a list of something else",

@@ -169,7 +169,11 @@ class TypeFinding:
         if self._is_patched(node) or self._is_imported_anew(node) or self._is_defined_again(node):
             return False
         conditions = [*all_conditions(self.module, node)]
-        if any(map(self._asks_what_there_is, conditions)) or self._asks_arguments(conditions):
+        if (
+            any(map(self._asks_what_there_is, conditions))
+            or self._asks_arguments(conditions)
+            or self._asks_element(conditions)
+        ):
             return False
         child = node
         for parent in self.module.parents(node):
@@ -312,6 +316,22 @@ class TypeFinding:
         ]
         names = {node.id for test in tests for node in ast.walk(test) if isinstance(node, ast.Name)}
         return not names.isdisjoint(others)
+
+    def _asks_element(self, conditions: Sequence[Condition]) -> bool:
+        """Tell whether another element of the same sequence says what an element is.
+
+        ``if step[0] == 'turn':`` in front of ``step[1]``: the first one is the kind of a step.
+        """
+        node = self.expression()
+        parts = [*ast.walk(node)] if node is not None else []
+        wholes = {self.module.text(it.value) for it in parts if isinstance(it, ast.Subscript)}
+        if not wholes:
+            return False
+        return any(
+            isinstance(asked, ast.Subscript) and self.module.text(asked.value) in wholes
+            for condition in conditions
+            for asked in ast.walk(condition.test)
+        )
 
     @cached_property
     def _imported(self) -> frozenset[str]:
