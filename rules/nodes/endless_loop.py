@@ -9,6 +9,8 @@ from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Executed, blocks_node, in_callbacks, in_constructors, in_tasks
 from scaffold.api.rclpy import RclpyFile
 
+from ._spinning import needs_spin
+
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -49,9 +51,6 @@ _CALLBACK = (
     "    rclpy.init()\n"
     "    {}\n"
 )
-
-
-_OF_RESPONSES = ("add_done_callback", "feedback_callback", ".result(", ".done(", "await ")
 
 
 class EndlessLoop(RclpyRule):
@@ -158,17 +157,8 @@ class EndlessLoop(RclpyRule):
                 if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
-                    severity = Severity.ERROR if _waits(file) else Severity.WARNING
+                    severity = Severity.ERROR if needs_spin(file) else Severity.WARNING
                     yield self.report(file.module.location(loop), message, severity=severity)
-
-
-def _waits(file: RclpyFile) -> bool:
-    """Tell whether a file has anything that only a node that is spun runs.
-
-    Requests and goals are sent without it; only their responses need it.
-    """
-    has_clients = bool(file.clients or file.action_clients)
-    return bool(file.callbacks) or (has_clients and file.module.mentions(*_OF_RESPONSES))
 
 
 def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:

@@ -9,6 +9,8 @@ from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
 from scaffold.api.programs import Shutdowns, used_of_executor
 from scaffold.api.rclpy import RclpyCall, RclpyFile, class_of
 
+from ._spinning import needs_spin
+
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -47,7 +49,7 @@ class SpunWrongly(RclpyRule):
 
     code = "ND057"
     name = "spun-wrongly"
-    other_severities = {Severity.WARNING: "callbacks run, but in one thread"}
+    other_severities = {Severity.WARNING: "callbacks run in one thread, or there are none"}
     examples = (
         Example(
             "a node that is spun",
@@ -72,6 +74,19 @@ class SpunWrongly(RclpyRule):
                 ).replace("\nfrom", "\nfrom rclpy.executors import SingleThreadedExecutor\nfrom", 1)
             },
             "17:5: this is an executor, not a node: AttributeError; call its spin()",
+        ),
+        Example(
+            "an executor that is not spun, for a node without callbacks",
+            {
+                "talker.py": _NODE_EXECUTORS.format(
+                    _ADD + "    while rclpy.ok():\n        pass\n"
+                ).replace("        self.create_timer(1.0, print)\n", "")
+            },
+            Report(
+                "14:16",
+                "executor is never spun: the callbacks of its nodes never run",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "two nodes, one after the other",
@@ -185,7 +200,9 @@ class SpunWrongly(RclpyRule):
                 yield self.report(file.module.location(spin), message)
             elif "add_node" in used and not is_spun and not file.spin_calls:
                 message = "executor is never spun: the callbacks of its nodes never run"
-                yield self.report(file.module.location(call), message)
+                is_needed = needs_spin(file) or not file.classes
+                severity = Severity.ERROR if is_needed else Severity.WARNING
+                yield self.report(file.module.location(call), message, severity=severity)
             elif "add_node" in used and not is_spun and _has_many_threads(call):
                 for other in _other_spins(file, used["add_node"]):
                     message = (
