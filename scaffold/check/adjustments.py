@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
@@ -14,6 +15,7 @@ from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
     is_beside_programs,
     is_copy_of_old_code,
+    is_named,
     is_out_of_reach,
     is_unrun_test,
 )
@@ -28,6 +30,9 @@ from scaffold.source import ViewError
 _OF_LINTERS = ("E9", "F")
 _OF_PROGRAMS = ("IM", "MS", "ND", "TY")
 """Areas of rules about what happens when code runs."""
+_OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
+"""Errors only where a test of the package looks at the file, whatever it is for."""
+_QUOTED = re.compile(r"'([^']+)'")
 _UNDEFINED = "F821"
 _UNDECLARED = "PX020"
 """Reported where a module imports it."""
@@ -113,21 +118,36 @@ class Adjustments(NamedTuple):
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in code that nobody runs, and no test of the package looks at."""
     path, code = diagnostic.location.path, diagnostic.code
-    if not path.endswith(".py"):
-        return is_copy_of_old_code(package, path)
+    is_copy = code not in _OF_TESTS and _is_of_copy(package, diagnostic)
+    if not path.endswith(".py") or is_copy:
+        return is_copy and not (code.startswith(_OF_LINTERS) and runs_linter(package, diagnostic))
     if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
     is_of_linters = code.startswith(_OF_LINTERS)
     if is_of_linters and runs_linter(package, diagnostic):
         return False
+    is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
     is_of_test = code.startswith((*_OF_PROGRAMS, _UNDECLARED)) and is_unrun_test(package, path)
-    if is_of_test or is_copy_of_old_code(package, path) or path.startswith(("doc/", "docs/")):
+    if is_of_example or is_of_test:
         return True
     if code.startswith(_OF_PROGRAMS):
         return is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
     return is_of_linters and (
         is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     )
+
+
+def _is_of_copy(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether a finding is about a copy of old code only, and not about its package.
+
+    One dependency that several files need is reported at the first of them.
+    """
+    path = diagnostic.location.path
+    if not is_copy_of_old_code(package, path):
+        return False
+    needed = _QUOTED.search(diagnostic.message)
+    is_of_package = diagnostic.cause.startswith("dependency ") and needed is not None
+    return not (is_of_package and needed and is_named(package, path, needed.group(1)))
 
 
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:

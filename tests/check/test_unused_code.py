@@ -115,6 +115,17 @@ def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], n
     }
 
 
+@pytest.mark.parametrize(
+    ("other", "severity"), [("import cv2\n", "error"), ("# import cv2\n", "warning")]
+)
+def test_a_dependency_of_a_copy_and_of_others(
+    package: Path, capsys: pytest.CaptureFixture[str], other: str, severity: str
+) -> None:
+    write(package / "talker" / "node (copy).py", "import cv2\n")
+    write(package / "talker" / "node.py", other)
+    assert severities(capsys, "PX020") == {"talker/node (copy).py": severity}
+
+
 def test_a_copy_of_a_robot(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     robot = '<robot name="r"><link name="a"/><gazebo reference="b"><mu1>1</mu1></gazebo></robot>\n'
     for path in ("urdf/arm copy.urdf", "urdf/arm.urdf"):
@@ -297,6 +308,20 @@ def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFix
     assert severities(capsys, "MS002") == {"scripts/relay.py": "warning"}
     write(package / "CMakeLists.txt", lists.format("install(PROGRAMS scripts/relay.py)\n"))
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
+
+
+def test_a_script_that_only_a_setup_py_next_to_cmake_names(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(package / "setup.py", SETUP.replace(")\n", ", scripts=['scripts/aim.py'])\n"))
+    manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
+    write(package / "package.xml", manifest)
+    lists = "project(talker)\nfind_package(ament_cmake REQUIRED)\n"
+    lists += "install(PROGRAMS scripts/talk.py DESTINATION lib/talker)\nament_package()\n"
+    write(package / "CMakeLists.txt", lists)
+    for name in ("aim", "talk"):
+        write(package / "scripts" / f"{name}.py", MISTAKE)
+    assert severities(capsys, "MS002") == {"scripts/aim.py": "warning", "scripts/talk.py": "error"}
 
 
 def test_a_module_that_an_import_adds_to_its_package(

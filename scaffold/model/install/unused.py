@@ -45,7 +45,7 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
     if not dot or not name.endswith(_KEPT):
         return False
     is_kept = _COPY.search(stem) or any(map(_UNUSED_DIRECTORY.search, directories))
-    return bool(is_kept) and not _is_named(package, path, stem)
+    return bool(is_kept) and not is_named(package, path, stem)
 
 
 def is_out_of_reach(package: Package, path: str) -> bool:
@@ -61,10 +61,20 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     parts = directory.split("/") if directory else []
     if any(package.has("/".join([*parts[:at], "__init__.py"])) for at in range(1, len(parts) + 1)):
         return False
-    installing = [without_comments(package.data(item)) for item in _BUILDING if package.has(item)]
+    installing = [without_comments(package.data(item)) for item in _building(package)]
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
     is_taken_whole = not parts and any(b"*.py" in data for data in installing)
-    return not (is_mentioned or is_taken_whole or _is_named(package, path, stem))
+    return not (is_mentioned or is_taken_whole or is_named(package, path, stem))
+
+
+def _building(package: Package) -> list[str]:
+    """Return the files that say what is installed; colcon uses no setup.py next to CMake."""
+    files = _BUILDING[:1] if _is_built_by_cmake(package) else _BUILDING
+    return [path for path in files if package.has(path)]
+
+
+def _is_built_by_cmake(package: Package) -> bool:
+    return package.build_type in {"ament_cmake", "cmake"} and package.has("CMakeLists.txt")
 
 
 def is_unrun_test(package: Package, path: str) -> bool:
@@ -83,7 +93,7 @@ def is_unrun_test(package: Package, path: str) -> bool:
         and (not whole or any(_mentions_directory(text, part) for part in whole))
         for text in calls
     )
-    return not is_run and not _is_named(package, path, stem)
+    return not is_run and not is_named(package, path, stem)
 
 
 def is_beside_programs(package: Package, path: str) -> bool:
@@ -91,22 +101,25 @@ def is_beside_programs(package: Package, path: str) -> bool:
 
     Where it installs no program at all, people may start the files from the sources.
     """
-    if not package.has("CMakeLists.txt") or package.has("setup.py") or is_in_tests(path):
+    if not package.has("CMakeLists.txt") or is_in_tests(path):
+        return False
+    if package.has("setup.py") and not _is_built_by_cmake(package):
         return False
     if not _INSTALLS_PROGRAMS.search(without_comments(package.data("CMakeLists.txt"))):
         return False
     return is_out_of_reach(package, path)
 
 
-def _is_named(package: Package, path: str, stem: str) -> bool:
-    """Tell whether any other file of the package has the name of a module.
+def is_named(package: Package, path: str, stem: str) -> bool:
+    """Tell whether any other file of the package has a name, such as that of a module.
 
     The parameters of a node have its name, whether anything starts it or not.
     """
+    unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
     others = (
         item
         for item in package.files
-        if item != path
+        if item not in {path, *unused}
         and (item.endswith(_NAMING) or item.startswith("scripts/"))
         and not item.startswith(("config/", "params/"))
     )
