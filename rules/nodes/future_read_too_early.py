@@ -35,7 +35,9 @@ class FutureReadTooEarly(RclpyRule):
 
     code = "ND021"
     name = "future-read-too-early"
-    other_severities = {Severity.WARNING: "a wait with a timeout comes first"}
+    other_severities = {
+        Severity.WARNING: "a wait with a timeout comes first, or nothing reads the result"
+    }
     examples = (
         Example(
             "when the future is done",
@@ -56,6 +58,15 @@ class FutureReadTooEarly(RclpyRule):
             "right after the call",
             {"caller.py": _NODE.format("return future.result()")},
             "7:16: 'future' is not done here: result() returns None; use add_done_callback()",
+        ),
+        Example(
+            "a result that nothing reads",
+            {"caller.py": _NODE.format("future.result()")},
+            Report(
+                "7:9",
+                "'future' is not done here: result() returns None; use add_done_callback()",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "after a wait with a timeout, asked and not asked",
@@ -102,7 +113,9 @@ class FutureReadTooEarly(RclpyRule):
                         at = file.module.location(call)
                         message = f"{name!r} is not done here: result() returns None; "
                         message += "use add_done_callback()"
-                        yield self.report(at, message)
+                        is_dropped = isinstance(file.module.parent(call), ast.Expr)
+                        severity = Severity.WARNING if is_dropped and not call.args else None
+                        yield self.report(at, message, severity=severity)
 
     def _reads(self, file: RclpyFile, call: ast.Call, name: str) -> bool:
         match call.func:

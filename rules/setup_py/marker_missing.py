@@ -29,7 +29,9 @@ class MarkerMissing(Rule):
 
     code = "SP006"
     name = "marker-missing"
-    other_severities = {Severity.WARNING: "setup.py does not install it: colcon still does"}
+    other_severities = {
+        Severity.WARNING: "setup.py does not install it: colcon still does; or it installs another"
+    }
     release_refused = "`ros2` does not find the released package"
     examples = (
         Example(
@@ -80,6 +82,22 @@ class MarkerMissing(Rule):
             },
             "setup.py:5:18: installs listener as marker, but the package is 'talker'",
         ),
+        Example(
+            "another one besides that of the package",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    f"{_BOTH}, {_BOTH.replace('resource/talker', 'resource/talker.rviz')}"
+                ),
+                "resource/talker": "",
+                "resource/talker.rviz": "",
+            },
+            Report(
+                "setup.py:5:121",
+                "installs talker.rviz as marker, but the package is 'talker'",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -105,7 +123,9 @@ class MarkerMissing(Rule):
                     f"installs {', '.join(names)} as marker, but the package is {package.name!r}"
                 )
                 if all(package.has(source) for source in sources):
-                    yield self.report(data.destination_location, message)
+                    is_extra = any(marker in other.sources for other in installed)
+                    severity = Severity.WARNING if is_extra else None
+                    yield self.report(data.destination_location, message, severity=severity)
         configured = package.has("setup.cfg") and INDEX in package.source("setup.cfg").text
         if not (installed or configured) and setup.call is not None and setup.data_files_complete:
             message = (

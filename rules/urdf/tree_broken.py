@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Rule, closest_name
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
 from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
 
 _ROBOT = (
@@ -43,6 +43,8 @@ _ROBOT_LINKS = (
     '  <joint name="axis" type="continuous">\n    <parent link="{}"/>\n    <child link="{}"/>\n'
     "  </joint>\n</robot>\n"
 )
+_SIMULATED = frozenset({"sensor", "plugin"})
+"""What a gazebo element adds to a link, and not only how the link looks or slides."""
 _MIMIC = (
     '<robot name="robot">\n  <link name="base_link"/>\n  <link name="wheel"/>\n'
     '  <joint name="axis" type="continuous">\n    <parent link="base_link"/>\n'
@@ -66,6 +68,7 @@ class TreeBroken(Rule):
 
     code = "UR022"
     name = "tree-broken"
+    other_severities = {Severity.WARNING: "Gazebo only misses a color or a friction"}
     examples = (
         Example("a tree", {"robot.urdf": _ROBOT.format("base_link", "camera")}),
         Example(
@@ -134,6 +137,16 @@ class TreeBroken(Rule):
             "robot_state_publisher ends",
         ),
         Example(
+            "a sensor on an unknown link",
+            {
+                "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
+                    "</robot>", '  <gazebo reference="lidar"><sensor name="a"/></gazebo>\n</robot>'
+                )
+            },
+            "8:22: gazebo is about 'lidar', which is not a link or joint of this robot: Gazebo "
+            "ignores it",
+        ),
+        Example(
             "a gazebo element of an unknown link",
             {
                 "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
@@ -142,8 +155,12 @@ class TreeBroken(Rule):
                     '  <gazebo reference="wheels"/>\n  <gazebo/>\n</robot>',
                 )
             },
-            "10:22: gazebo is about 'wheels', which is not a link or joint of this robot: Gazebo "
-            "ignores it; closest: 'wheel'",
+            Report(
+                "10:22",
+                "gazebo is about 'wheels', which is not a link or joint of this robot: "
+                "Gazebo ignores it; closest: 'wheel'",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "a joint to mimic",
@@ -242,7 +259,9 @@ class TreeBroken(Rule):
                     f"Gazebo ignores it{hint}"
                 )
                 if _is_here(package, part):
-                    yield self.report(part.at("reference"), message)
+                    adds = any(child.tag in _SIMULATED for child in part.children)
+                    severity = None if adds else Severity.WARNING
+                    yield self.report(part.at("reference"), message, severity=severity)
 
     def _check_mimic(
         self, package: Package, joint: Part, joints: Sequence[str]

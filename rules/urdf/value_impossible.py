@@ -75,7 +75,7 @@ class ValueImpossible(Rule):
                 .replace('iyy="1"', 'iyy="0.0"')
                 .replace('izz="1"', 'izz="0"')
             },
-            "5:21: all moments of inertia are 0: Gazebo rejects the link",
+            "5:21: all moments of inertia are 0: in Gazebo nothing resists a turn of the link",
         ),
         Example(
             "impossible",
@@ -139,7 +139,9 @@ class ValueImpossible(Rule):
                     )
                     yield self.report(part.at("lower"), message)
             elif part.tag == "inertia" and _has_no_moment(part) and _is_moved(part):
-                message = "all moments of inertia are 0: Gazebo rejects the link"
+                message = (
+                    "all moments of inertia are 0: in Gazebo nothing resists a turn of the link"
+                )
                 yield self.report(part.at("ixx"), message)
 
     def _check_angles(self, package: Package) -> Iterator[Diagnostic]:

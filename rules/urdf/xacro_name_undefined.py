@@ -128,6 +128,10 @@ class XacroNameUndefined(Rule):
             "12:4: macro 'wwheel' is not defined here: xacro stops; closest: 'wheel'",
         ),
         Example(
+            "a template of a generator",
+            {"templates/robot.xacro": _ROBOT_CALLS.replace("<xacro:wheel", "<xacro:$NAME$")},
+        ),
+        Example(
             "a macro that stops xacro where an argument has a wrong value",
             {"robot.xacro": _CONDITION.format("wrong_model")},
         ),

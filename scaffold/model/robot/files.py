@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 ENDINGS = (".urdf", ".xacro")
+_OF_OTHERS = frozenset({"test", "tests", "template", "templates"})
+"""Directories with files that are no robots of the package."""
 
 
 class RobotFile(NamedTuple):
@@ -39,13 +41,14 @@ class RobotFile(NamedTuple):
 def robot_paths(package: Package) -> list[str]:
     """Return the files that are URDF or xacro by their name.
 
-    Tests are skipped, and programs for browsers, which draw a robot by a parser of their own.
+    Tests are skipped, templates that something else fills in, and programs for browsers, which
+    draw a robot by a parser of their own.
     """
     return [
         path
         for path in package.files
         if path.endswith(ENDINGS)
-        and {"test", "tests"}.isdisjoint(path.split("/"))
+        and _OF_OTHERS.isdisjoint(path.split("/"))
         and not _is_of_browser(package, path)
     ]
 
