@@ -63,6 +63,16 @@ class WaitsForCallback(RclpyRule):
     name = "waits-for-callback"
     examples = (
         Example(
+            "an event for which the constructor spins",
+            {
+                "relay.py": _NODE.format("        self.arrived.wait()\n").replace(
+                    "self.answer)\n\n",
+                    "self.answer)\n        while not self.arrived.is_set():\n"
+                    "            rclpy.spin_once(self)\n\n",
+                )
+            },
+        ),
+        Example(
             "until a position is reached, that a message has a field of the same name as",
             {
                 "drive.py": "from geometry_msgs.msg import Twist\n"
@@ -243,6 +253,8 @@ class WaitsForCallback(RclpyRule):
                 ):
                     continue
                 name = next(name for name, functions in set_by.items() if functions)
+                if _is_spun_for(file, name):
+                    continue
                 if may_run_meanwhile(file, executed) and not _excludes(file, executed, setters):
                     continue
                 seen.add(node)
@@ -252,6 +264,15 @@ class WaitsForCallback(RclpyRule):
                     f"one never runs meanwhile, and {effect}"
                 )
                 yield self.report(file.module.location(node), message)
+
+
+def _is_spun_for(file: RclpyFile, name: str) -> bool:
+    """Tell whether a loop spins until an attribute is set, or an event."""
+    for loop in file.module.walk(ast.While):
+        asked = {node.attr for node in ast.walk(loop) if isinstance(node, ast.Attribute)}
+        if name in asked and any("spin" in attribute for attribute in asked):
+            return True
+    return False
 
 
 def _excludes(file: RclpyFile, executed: Executed, setters: set[ast.AST | None]) -> bool:
