@@ -130,6 +130,15 @@ class AttributeMissing(TypeRule):
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example(
+            "methods of a class of which only some are described, called on the class",
+            {
+                "turn.py": "from scipy.spatial.transform import Rotation\n"
+                "from serial import Serial\n\n"
+                "back = Rotation.inv(Rotation.identity())\n"
+                "print(back.apply([1, 0, 0]), Serial.BAUDRATES, Serial().is_open)\n"
+            },
+        ),
+        Example(
             "an array of numpy, which has neither the fields of a quaternion nor append()",
             {
                 "heading.py": "import numpy as np\n"

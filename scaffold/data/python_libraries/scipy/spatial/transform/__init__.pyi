@@ -5,20 +5,10 @@ from numpy import ndarray
 
 def __getattr__(name: str) -> Any: ...
 
-class Rotation:
-    align_vectors: Any
-    apply: Any
-    approx_equal: Any
-    as_davenport: Any
-    as_dcm: Any
-    as_mrp: Any
-    concatenate: Any
-    create_group: Any
-    from_davenport: Any
-    from_dcm: Any
-    from_mrp: Any
-    identity: Any
-    random: Any
+class _Open(type):
+    def __getattr__(cls, name: str) -> Any: ...
+
+class Rotation(metaclass=_Open):
     @classmethod
     def from_euler(cls, seq: str, angles: Any, degrees: bool = ...) -> Rotation: ...
     @classmethod
