@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
-from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has
+from scaffold.api import Diagnostic, Example, Package, RclpyRule, Report, Severity
+from scaffold.api.rclpy import NODE, NodeClass, RclpyFile, defined_by, has, names_of_bases
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -121,8 +121,21 @@ class NodeNotConstructed(RclpyRule):
             "6:9: Node.__init__() is called without self: TypeError; write super().__init__(...)",
         ),
         Example(
+            "two constructors with one underscore",
+            {"talker.py": _NODE_CONSTRUCTOR.format("_init_", _INIT.replace("__init__", "_init_"))},
+            "5:9: '_init_' is never called as a constructor; did you mean '__init__'?",
+        ),
+        Example(
             "a mixin for nodes",
             {"talker.py": _NODE_BASE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
+        ),
+        Example(
+            "a mixin for the nodes of another module",
+            {
+                "moving.py": _NODE_BASE.format("").replace("Talker", "Moving"),
+                "arm.py": "from moving import Moving\nfrom rclpy.node import Node\n\n\n"
+                "class Arm(Node, Moving):\n    pass\n",
+            },
         ),
         Example(
             "a node without a base class",
@@ -136,10 +149,10 @@ class NodeNotConstructed(RclpyRule):
         ),
     )
 
-    def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         yield from self._check_call(file)
         yield from self._check_constructor(file)
-        yield from self._check_base(file)
+        yield from self._check_base(package, file)
 
     def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
@@ -183,9 +196,9 @@ class NodeNotConstructed(RclpyRule):
             message = f"self.{used.attr} is used before Node.__init__() in line {at.line}"
             yield self.report(file.module.location(used), f"{message}: AttributeError")
 
-    def _check_base(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def _check_base(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for class_ in file.module.classes.values():
-            if _lacks_base(file, class_.node):
+            if _lacks_base(file, class_.node) and class_.name not in names_of_bases(package):
                 message = f"class {class_.name!r} uses methods of Node; inherit from Node"
                 yield self.report(class_, message)
 
@@ -241,7 +254,15 @@ def _is_text(nodes: list[ast.expr]) -> bool:
 
 def _calls_init(method: ast.AST) -> bool:
     return any(
-        isinstance(node, ast.Attribute) and node.attr == "__init__" for node in ast.walk(method)
+        isinstance(node, ast.Attribute)
+        and (node.attr == "__init__" or (node.attr in _MISSPELLED and _is_super(node.value)))
+        for node in ast.walk(method)
+    )
+
+
+def _is_super(node: ast.expr) -> bool:
+    return (
+        isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "super"
     )
 
 
