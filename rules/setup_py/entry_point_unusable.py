@@ -244,6 +244,8 @@ class EntryPointUnusable(Rule):
                 cause = (
                     (_MISSING if _MISSING in problem else "") if is_module else f"directory {root}"
                 )
+                if f" has no {entry.function!r}" in problem:
+                    cause = f"modules without {entry.function}"
                 cause = f"moved to {directory}" if directory else cause
                 yield self.report(entry, message, cause=cause)
 

@@ -41,6 +41,16 @@ class ScriptDirectoryDiffers(Rule):
     name = "script-directory-differs"
     examples = (
         Example(
+            "next to a CMakeLists.txt, where nothing reads it",
+            {
+                "package.xml": _MANIFEST.replace("_python", "_cmake"),
+                "CMakeLists.txt": "",
+                "setup.py": _SETUP.format(_ENTRY),
+                "setup.cfg": _CFG.format("other"),
+                **_NODE,
+            },
+        ),
+        Example(
             "a setup.cfg",
             {
                 "package.xml": _MANIFEST,
@@ -158,6 +168,8 @@ class ScriptDirectoryDiffers(Rule):
         wanted = f"$base/lib/{package.name}"
         if not package.setup_py.console_scripts or not package.manifest.name:
             return
+        if package.build_type == "ament_cmake":
+            return  # nothing runs setup.py there
         if name_used_elsewhere(package) or package.setup_py.keyword("cmdclass"):
             return  # commands of its own may set the directory
         for section, key in KEYS:
