@@ -120,11 +120,10 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     path, code = diagnostic.location.path, diagnostic.code
     is_copy = code not in _OF_TESTS and _is_of_copy(package, diagnostic)
     if not path.endswith(".py") or is_copy:
-        return is_copy and not (code.startswith(_OF_LINTERS) and runs_linter(package, diagnostic))
+        return is_copy and not _is_tested(package, diagnostic)
     if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
-    is_of_linters = code.startswith(_OF_LINTERS)
-    if is_of_linters and runs_linter(package, diagnostic):
+    if _is_tested(package, diagnostic):
         return False
     is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
     is_of_test = code.startswith((*_OF_PROGRAMS, _UNDECLARED)) and is_unrun_test(package, path)
@@ -132,9 +131,19 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
         return True
     if code.startswith(_OF_PROGRAMS):
         return is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
-    return is_of_linters and (
+    return code.startswith(_OF_LINTERS) and (
         is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
     )
+
+
+def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether a test of the package fails, whoever runs the code.
+
+    An undefined name in code that is not run is a matter of style, as an unused one is.
+    """
+    code = diagnostic.code
+    is_of_linters = code.startswith(_OF_LINTERS) and code != _UNDEFINED
+    return is_of_linters and runs_linter(package, diagnostic)
 
 
 def _is_of_copy(package: Package, diagnostic: Diagnostic) -> bool:

@@ -161,14 +161,16 @@ def test_a_linter_of_the_package_looks_at_all_files(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "scratch.py", UNDEFINED)
+    write(package / "old_scratch.py", "print 'hello'\n")
     annotated = "def talk(text):\n    said: Undefined = text\n    print(said)\n"
     write(package / "talker" / "annotated.py", annotated)
     depend = "  <test_depend>ament_flake8</test_depend>\n"
     write(package / "package.xml", MANIFEST.format(depend))
     test = "from ament_flake8.main import main\n\n\ndef test_flake8():\n    assert main([]) == 0\n"
     write(package / "test" / "test_flake8.py", test)
-    # An annotation that Python does not evaluate is a matter of style for that linter too.
-    assert severities(capsys, "F821") == {"scratch.py": "error", "talker/annotated.py": "warning"}
+    assert severities(capsys, "E999") == {"old_scratch.py": "error"}
+    # What Python does not evaluate is a matter of style for that linter too.
+    assert severities(capsys, "F821") == {"scratch.py": "warning", "talker/annotated.py": "warning"}
 
 
 def test_what_the_configuration_says_counts(
