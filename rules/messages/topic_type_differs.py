@@ -85,8 +85,10 @@ class TopicTypeDiffers(Rule):
             sides = topic.publishers, topic.subscriptions
             if not topic.is_plain_by_default or not _are_known(package, *sides):
                 continue
-            if all(keeps_default_name(package, x) for side in sides for x in side):
-                yield from self._check(name, *sides)
+            found = [*self._check(name, *sides)]
+            # Which costs more to find out than whether the types differ.
+            if found and all(keeps_default_name(package, x) for side in sides for x in side):
+                yield from found
         for name, service in services_of(package).items():
             if service.is_plain and _are_known(package, service.services, service.clients):
                 yield from self._check(name, service.services, service.clients)

@@ -47,13 +47,6 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
     return Check(package).run(rules)
 
 
-def kept(package: Package, earlier: Earlier) -> frozenset[str]:
-    """Return the keys of the parts of an earlier verdict that hold."""
-    check = Check(package, earlier)
-    check.end()
-    return frozenset(check.parts)
-
-
 class Check:
     """The rules at work on one package.
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression, type_rules
@@ -47,15 +48,23 @@ class TypeFindings:
     ) -> None:
         self._rules = rules
         self._earlier = {place: _of_types(item) for place, item in earlier.items()}
-        kept = {id(item): self._kept(item) for item in packages}
+        self._kept: Mapping[str, Part] = {}
+        """What is taken over in the package that is looked at."""
         self._check = TypeCheck(
             packages,
-            lambda package, path: path not in kept[id(package)] and is_wanted(package, path),
+            lambda package, path: path not in self._kept and is_wanted(package, path),
+            self._recalling,
         )
 
-    def _kept(self, package: Package) -> frozenset[str]:
-        earlier = self._earlier.get(package.directory)
-        return runner.kept(package, earlier) if earlier is not None else frozenset()
+    @contextmanager
+    def _recalling(self, package: Package) -> Iterator[None]:
+        """Let a package know what an earlier run found out about it."""
+        check = runner.Check(package, self._earlier.get(package.directory))
+        self._kept = check.parts
+        try:
+            yield
+        finally:
+            check.end()
 
     @property
     def failure(self) -> str:

@@ -8,6 +8,8 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from functools import cached_property
 
 from scaffold import distributions
 from scaffold.model.package import Package
@@ -78,12 +80,14 @@ class TypeCheck:
     Args:
         packages: The packages.
         is_wanted: Tells by package and path whether a file is to be checked.
+        recalling: Returns what is entered before a package is looked at, and left after it.
     """
 
     def __init__(
         self,
         packages: Sequence[Package],
         is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
+        recalling: Callable[[Package], AbstractContextManager[None]] = lambda _: nullcontext(),
     ) -> None:
         self.failure = ""
         """Why types are not checked; empty if they are."""
@@ -102,65 +106,69 @@ class TypeCheck:
         self._reached: dict[int, dict[str, Reads]] = {}
         self._suppressing: set[int] = set()
         self._packages = list(packages)  # so that no other gets its number
+        self._sources = Sources()
         try:
-            self._start(is_wanted)
+            for package in self._packages:
+                with recalling(package):
+                    for path in package.python_files:
+                        if is_wanted(package, path):
+                            self._add(package, path)
+            if self._asked or self._passing:
+                self._project = self._started("project", self._asked, _annotated, self._passing)
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
             self.close()
 
-    def _start(self, is_wanted: Callable[[Package, str], bool]) -> None:
-        wanted = [
-            (package, path)
-            for package in self._packages
-            for path in package.python_files
-            if is_wanted(package, path)
-        ]
-        if not wanted:
+    @cached_property
+    def _home(self) -> str:
+        """The environment with the stubs."""
+        return environment.directory(distributions.target(), self._directory)
+
+    @cached_property
+    def _stubbed(self) -> frozenset[str]:
+        """The importable packages that have stubs."""
+        entries = os.listdir(os.path.join(self._home, environment.packages(distributions.target())))
+        names = frozenset(name.removesuffix(".pyi") for name in entries)
+        return names - INCOMPLETE - partial_libraries()
+
+    @cached_property
+    def _cache(self) -> Cache:
+        target = environment.identity(distributions.target())
+        return Cache(f"{ty.identity()} {target} {sys.version_info[:2]}")
+
+    def _add(self, package: Package, path: str) -> None:
+        """Look up what is known of a file, and have the type checker asked for the rest."""
+        stubbed, sources = self._stubbed, self._sources
+        source = sources.get(package, path)
+        if source is None:
             return
-        home = self._environment()
-        target = distributions.target()
-        entries = os.listdir(os.path.join(home, environment.packages(target)))
-        partial = partial_libraries()
-        stubbed = frozenset(name.removesuffix(".pyi") for name in entries) - INCOMPLETE - partial
-        self._stubbed = stubbed
-        self._cache = Cache(
-            f"{ty.identity()} {environment.identity(target)} {sys.version_info[:2]}"
-        )
-        sources = Sources()
-        for package, path in wanted:
-            source = sources.get(package, path)
-            if source is None:
-                continue
-            reads = Reads()
-            with recorded(reads):
-                found = [sources.get(package, other) for other in callers(package, path)]
-            calling = [item for item in found if item is not None]
-            own = sources.reached(source)
-            roots = frozenset[str]().union(*(item.roots for item in own.values()))
-            is_relevant = _is_relevant(source, roots, stubbed)
-            of_callers = {caller.place: sources.reached(caller) for caller in calling}
-            reached = {**own}
-            for others in of_callers.values():
-                reached.update(others)
-            if _SUPPRESSION.search(source.data):
-                self._suppressing.add(id(package))
-            else:
-                reads.files.update(
-                    item.package.full_path(item.path) for item in reached.values() if item.path
-                )
-                self._reached.setdefault(id(package), {})[path] = reads
-            if not (is_relevant or calling) or _is_shadowed(source, stubbed | partial):
-                continue
-            key = self._cache.key(source, reached)
-            own_key = self._cache.key(source, own, "silent") if calling else ""
-            checked = Checked(source, calling, reached, is_relevant=is_relevant)
-            file = _File(checked, key, own_key, self._cache.get(key))
-            self._files.setdefault(id(package), []).append(file)
-            if file.diagnostics is None and not self._is_silent(file, of_callers):
-                self._asked.append(file)
-        if self._asked or self._passing:
-            self._home = home
-            self._project = self._started("project", self._asked, _annotated, self._passing)
+        reads = Reads()
+        with recorded(reads):
+            found = [sources.get(package, other) for other in callers(package, path)]
+        calling = [item for item in found if item is not None]
+        own = sources.reached(source)
+        roots = frozenset[str]().union(*(item.roots for item in own.values()))
+        is_relevant = _is_relevant(source, roots, stubbed)
+        of_callers = {caller.place: sources.reached(caller) for caller in calling}
+        reached = {**own}
+        for others in of_callers.values():
+            reached.update(others)
+        if _SUPPRESSION.search(source.data):
+            self._suppressing.add(id(package))
+        else:
+            reads.files.update(
+                item.package.full_path(item.path) for item in reached.values() if item.path
+            )
+            self._reached.setdefault(id(package), {})[path] = reads
+        if not (is_relevant or calling) or _is_shadowed(source, stubbed | partial_libraries()):
+            return
+        key = self._cache.key(source, reached)
+        own_key = self._cache.key(source, own, "silent") if calling else ""
+        checked = Checked(source, calling, reached, is_relevant=is_relevant)
+        file = _File(checked, key, own_key, self._cache.get(key))
+        self._files.setdefault(id(package), []).append(file)
+        if file.diagnostics is None and not self._is_silent(file, of_callers):
+            self._asked.append(file)
 
     def _is_silent(self, file: _File, of_callers: Mapping[str, Mapping[str, Source]]) -> bool:
         """Tell whether nothing is reported about a file; what it gets may be found out later."""
@@ -202,9 +210,6 @@ class TypeCheck:
         checked = [file.checked for file in asked]
         return Project(self._directory(name), self._home, checked, content, passing)
 
-    def _environment(self) -> str:
-        return environment.directory(distributions.target(), self._directory)
-
     def _directory(self, name: str) -> str:
         if not self._scratch:
             self._scratch = os.path.realpath(tempfile.mkdtemp(prefix="ros2-scaffold-"))
@@ -231,7 +236,8 @@ class TypeCheck:
                     file.checked.source.path: file.diagnostics for file in files if file.diagnostics
                 }
             for kept in (self._files, self._asked, self._waiting, self._passing):
-                kept.clear()  # with the texts of all files
+                kept.clear()
+            self._sources = Sources()  # without the texts of all files
         if self.failure:
             return {}
         return self._diagnostics.get(id(package), {})

@@ -25,7 +25,7 @@ _TEXT = re.compile(r'"[^"\\]*"')
 _NAME = re.compile(rf"[^\W\d][\w{MARK}]*")
 _PLAIN = frozenset(
     {name for name, value in vars(builtins).items() if isinstance(value, type)}
-    | {"Literal", "None", "False", "True", "Unknown"}
+    | {"Any", "Literal", "None", "False", "True", "Unknown"}
 )
 """Names in types that mean the same everywhere."""
 

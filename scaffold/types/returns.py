@@ -10,11 +10,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from scaffold.record import NamedTuple
 from scaffold.types.callbacks import function_body
 from scaffold.types.results import expression_at, imports, plain_result
+from scaffold.types.statements import definitions
 
 _KEPT = "_ros2_returned"
 _TYPE_OF = "_Ros2TypeOf"
@@ -87,7 +88,7 @@ def results(
         return Results(lines, heads, "")
     count = Counter(_NAMED.findall(text))
     attributes = _Attributes(text)
-    for function in _FUNCTION.finditer(text):
+    for function in definitions(_FUNCTION, text):
         decorator = _decorator(text, function.start())
         if decorator is None or function.start() in others:
             continue
@@ -166,6 +167,7 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
         inner.append(docstring.span())
     found: list[_Kept] = []
     own = [it for it in _ANY_WORD.finditer(body) if not _is_within(it.start(), inner)]
+    derived = _derived(body, taken) if taken and own else set[str]()
     for match in own:
         line = body.rfind("\n", 0, match.start()) + 1
         if "#" in body[line : match.start()]:
@@ -175,7 +177,7 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
             continue
         if body[line : match.start()].strip() or not _is_plain(value):
             return
-        if taken and not _is_independent(value, _derived(body, taken)):
+        if derived and not _is_independent(value, derived):
             return
         place = start + line
         name = f"{_KEPT}_{place}"
@@ -217,12 +219,15 @@ def _derived(body: str, names: Collection[str]) -> set[str]:
     return result
 
 
-def _assignments(body: str) -> Iterator[tuple[Sequence[str], str]]:
-    """Yield the names that a line gives a value, and what it gives them."""
+@lru_cache(maxsize=1)
+def _assignments(body: str) -> Sequence[tuple[Sequence[str], str]]:
+    """Return the names that lines give values, each time with what they give them."""
+    result: list[tuple[Sequence[str], str]] = []
     for match in _SET.finditer(body):
         targets = [target.strip() for target in match[1].split(",")]
         if all(map(str.isidentifier, targets)):
-            yield targets, match[2].strip()
+            result.append((targets, match[2].strip()))
+    return result
 
 
 class _Attributes:

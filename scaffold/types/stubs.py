@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
@@ -56,6 +57,7 @@ def library_stubs(distribution: Distribution, library: str = "") -> dict[str, st
     return dict(sorted(files.items()))
 
 
+@lru_cache(maxsize=1)
 def partial_libraries() -> frozenset[str]:
     """Return the importable names of the libraries of `partial_stubs`."""
     return frozenset(os.listdir(os.path.join(distributions.DATA, _PARTIAL)))

@@ -7,17 +7,40 @@ say nothing, and at each call it asks four times whether a name comes from ``typ
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Collection
+import sys
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
+from types import ModuleType
 from typing import TYPE_CHECKING
 
-from pyflakes.checker import (  # type: ignore[attr-defined]
-    Binding,
-    Checker,
-    _FieldsOrder,
-    _is_any_typing_member,
-)
-
 from scaffold.model.python.scopes import ScopeIndex
+
+
+@contextmanager
+def _without_doctest() -> Iterator[None]:
+    """Import pyflakes without what it looks for examples in docstrings with.
+
+    Nobody asks for them here, and the module takes twice as long to import as pyflakes.
+    """
+    name = "doctest"
+    if name in sys.modules:
+        yield
+        return
+    module = sys.modules[name] = ModuleType(name)
+    vars(module)["DocTestParser"] = type("DocTestParser", (), {"get_examples": None})
+    try:
+        yield
+    finally:
+        del sys.modules[name]
+
+
+with _without_doctest():
+    from pyflakes.checker import (  # type: ignore[attr-defined]
+        Binding,
+        Checker,
+        _FieldsOrder,
+        _is_any_typing_member,
+    )
 
 if TYPE_CHECKING:
     from pyflakes.messages import Message

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.catalog import ROS_PACKAGES, is_near, similar_package
 from scaffold.model.discovery.repos_files import is_fetched
+from scaffold.model.facts import fact
 from scaffold.model.launch.markup_file import is_known, markup_files
-from scaffold.model.launch.python_file import LaunchFile
+from scaffold.model.launch.python_file import LaunchFile, launch_paths
 from scaffold.model.launch.share_paths import is_never_used
 from scaffold.model.programs.executables import programs_of
 from scaffold.model.python.values import UNKNOWN, Unknown
@@ -62,25 +64,33 @@ def package_uses(package: Package) -> list[Reference]:
 
 
 def _in_python(package: Package) -> Iterator[Reference]:
-    for launch in LaunchFile.of_package(package):
-        for use in launch.package_uses:
-            call = use.action
-            executable: str | Unknown | None = None
-            at = use.location
-            if call is not None and call.kind != "ComposableNode":
-                executable = launch.text(call, "executable") or UNKNOWN
-                node = call.given.get("executable")
-                at = launch.location(node) if node is not None else at
-            optional = launch.is_optional(use.node) or (
-                call is not None and is_never_used(launch, call.call, frozenset())
-            )
-            yield Reference(use.name, use.location, executable, at, optional)
-        for program, node in launch.programs:
-            owner = _OWNERS.get(program)
-            if owner is not None:
-                at = launch.location(node)
-                optional = launch.is_optional(node)
-                yield Reference(owner, at, None, at, optional, program)
+    for path in launch_paths(package):
+        with suppress(ViewError):
+            yield from _in_launch_file(package, path)
+
+
+@fact
+def _in_launch_file(package: Package, path: str) -> tuple[Reference, ...]:
+    launch = LaunchFile.of(package, path)
+    result: list[Reference] = []
+    for use in launch.package_uses:
+        call = use.action
+        executable: str | Unknown | None = None
+        at = use.location
+        if call is not None and call.kind != "ComposableNode":
+            executable = launch.text(call, "executable") or UNKNOWN
+            node = call.given.get("executable")
+            at = launch.location(node) if node is not None else at
+        optional = launch.is_optional(use.node) or (
+            call is not None and is_never_used(launch, call.call, frozenset())
+        )
+        result.append(Reference(use.name, use.location, executable, at, optional))
+    for program, node in launch.programs:
+        owner = _OWNERS.get(program)
+        if owner is not None:
+            at = launch.location(node)
+            result.append(Reference(owner, at, None, at, launch.is_optional(node), program))
+    return tuple(result)
 
 
 def _in_xml(package: Package) -> Iterator[Reference]:

@@ -6,15 +6,18 @@ import ast
 import posixpath
 import re
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from scaffold.model.facts import fact
 from scaffold.model.install.share import share_of
 from scaffold.model.launch.files import DATA_DIRECTORIES
 from scaffold.model.launch.markup_file import markup_files
-from scaffold.model.launch.python_file import LaunchFile, SharePath
+from scaffold.model.launch.python_file import LaunchFile, SharePath, launch_paths
 from scaffold.model.workspace.gitignore import is_untracked
 from scaffold.record import NamedTuple
+from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
@@ -49,24 +52,33 @@ class NamedPath(NamedTuple):
 
 def paths_of(package: Package) -> Iterator[NamedPath]:
     """Yield the paths below share directories that launch files of a package name."""
-    for launch in LaunchFile.of_package(package):
-        for share_path in launch.share_paths:
-            if launch.is_optional(share_path.node) or _is_given_to_unknown(launch, share_path.node):
-                continue
-            if is_never_used(launch, share_path.node, frozenset()):
-                continue
-            if not _is_written(launch, share_path.node):
-                yield from _as_installed(package, launch, share_path)
+    for path in launch_paths(package):
+        with suppress(ViewError):
+            yield from _paths_of_launch_file(package, path)
     yield from _paths_of_nodes(package)
     for file in markup_files(package):
-        for path in file.paths:
-            if path.path:
-                yield NamedPath(path.package, path.path, path.location)
+        for named in file.paths:
+            if named.path:
+                yield NamedPath(named.package, named.path, named.location)
+
+
+@fact
+def _paths_of_launch_file(package: Package, path: str) -> tuple[NamedPath, ...]:
+    launch = LaunchFile.of(package, path)
+    return tuple(
+        named
+        for share_path in launch.share_paths
+        if not launch.is_optional(share_path.node)
+        and not _is_given_to_unknown(launch, share_path.node)
+        and not is_never_used(launch, share_path.node, frozenset())
+        and not _is_written(launch, share_path.node)
+        for named in _as_installed(package, launch, share_path)
+    )
 
 
 def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
     """Yield the paths that the modules of a package read, and nothing else."""
-    of_launch = {launch.path for launch in LaunchFile.of_package(package)}
+    of_launch = {*launch_paths(package)}
     for module in package.modules(mentioning=["get_package_share_"]):
         if module.path in of_launch or _is_of_tests(module.path):
             continue
