@@ -90,8 +90,8 @@ class NamedFileMissing(Rule):
         Example(
             "an empty directory",
             {"CMakeLists.txt": _INSTALL.format("DIRECTORY include/"), "include/": ""},
-            "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, then the "
-            "build stops",
+            "CMakeLists.txt:2:19: the directory include/ is empty: git does not keep it, and the "
+            "build of a clone stops",
         ),
         Example(
             "a directory that git ignores, and a package in a directory",
@@ -236,7 +236,8 @@ class NamedFileMissing(Rule):
         if not package.has_directory(path):
             return f"installs the directory {path}/, which does not exist: the build stops"
         if not any(name.startswith(f"{path}/") for name in package.files):
-            return f"the directory {path}/ is empty: git does not keep it, then the build stops"
+            kept = "git does not keep it, and the build of a clone stops"
+            return f"the directory {path}/ is empty: {kept}"
         return None
 
     def _is_own(self, path: str) -> bool:

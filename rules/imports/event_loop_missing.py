@@ -93,7 +93,7 @@ class EventLoopMissing(PythonRule):
                     "import loops\n\nasyncio.set_event_loop_policy(loops.Policy())", _OLD
                 ),
             },
-            "talker.py:10:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "talker.py:10:12: Python 3.14 creates no event loop here: RuntimeError; use "
             "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
@@ -103,7 +103,7 @@ class EventLoopMissing(PythonRule):
                 "talker.py": f"import asyncio\n\n\ndef loop():\n    return {_OLD}\n\n\n"
                 "def main():\n    loop().run_forever()\n",
             },
-            "talker.py:5:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "talker.py:5:12: Python 3.14 creates no event loop here: RuntimeError; use "
             "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
@@ -121,10 +121,10 @@ class EventLoopMissing(PythonRule):
                 "async def work():\n    Later()\n\n\n"
                 "def main():\n    rclpy.init()\n    rclpy.spin(Talker())\n",
             },
-            "10:21: Python 3.14 makes no event loop here: RuntimeError; use asyncio.run(), or set "
-            "one that asyncio.new_event_loop() makes",
-            "14:9: Python 3.14 makes no event loop here: RuntimeError; use asyncio.run(), or set "
-            "one that asyncio.new_event_loop() makes",
+            "10:21: Python 3.14 creates no event loop here: RuntimeError; use asyncio.run(), or "
+            "set one that asyncio.new_event_loop() makes",
+            "14:9: Python 3.14 creates no event loop here: RuntimeError; use asyncio.run(), or "
+            "set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
         Example(
@@ -134,9 +134,9 @@ class EventLoopMissing(PythonRule):
                 "listener.py": "import asyncio\n\n"
                 f"if __name__ == '__main__':\n    {_OLD}.close()\n",
             },
-            "listener.py:4:5: Python 3.14 makes no event loop here: RuntimeError; use "
+            "listener.py:4:5: Python 3.14 creates no event loop here: RuntimeError; use "
             "asyncio.run(), or set one that asyncio.new_event_loop() makes",
-            "talker.py:10:12: Python 3.14 makes no event loop here: RuntimeError; use "
+            "talker.py:10:12: Python 3.14 creates no event loop here: RuntimeError; use "
             "asyncio.run(), or set one that asyncio.new_event_loop() makes",
             distro="lyrical",
         ),
@@ -153,7 +153,7 @@ class EventLoopMissing(PythonRule):
             if is_handled(module, call, "RuntimeError") or is_asked_for(module, call, _NAME):
                 continue
             message = (
-                f"Python {target().python_version} makes no event loop here: RuntimeError; use "
+                f"Python {target().python_version} creates no event loop here: RuntimeError; use "
                 "asyncio.run(), or set one that asyncio.new_event_loop() makes"
             )
             yield self.report(module.location(call), message)

@@ -57,8 +57,8 @@ class InstanceAnnotations(PythonRule):
         Example(
             "an object",
             {"arguments.py": _CLASS.format("", "self.__annotations__")},
-            "9:21: objects of Python 3.14 have no '__annotations__': AttributeError; ask "
-            "type(self), or use dataclasses.fields(self)",
+            "9:21: instances have no '__annotations__' in Python 3.14: AttributeError; use "
+            "type(self).__annotations__ or dataclasses.fields(self)",
             distro="lyrical",
         ),
         Example(
@@ -66,8 +66,8 @@ class InstanceAnnotations(PythonRule):
             {"arguments.py": _CLASS.format("", "getattr(self, '__annotations__', {})")},
             Report(
                 "9:21",
-                "objects of Python 3.14 have no '__annotations__': this is the "
-                "default, whatever is annotated; ask type(self), or use "
+                "instances have no '__annotations__' in Python 3.14: this is the "
+                "default, whatever is annotated; use type(self).__annotations__ or "
                 "dataclasses.fields(self)",
                 severity=Severity.WARNING,
             ),
@@ -83,8 +83,8 @@ class InstanceAnnotations(PythonRule):
             for item in module.imports
         ):
             return
-        python = f"objects of Python {target().python_version} have no {_NAME!r}"
-        advice = "ask type(self), or use dataclasses.fields(self)"
+        python = f"instances have no {_NAME!r} in Python {target().python_version}"
+        advice = "use type(self).__annotations__ or dataclasses.fields(self)"
         for node in module.walk(ast.Attribute):
             match node:
                 case ast.Attribute(

@@ -93,14 +93,14 @@ class StaticTransformArguments(Rule):
             },
             Report(
                 "launch/a.launch.py:8:24",
-                "static_transform_publisher of Lyrical takes no arguments "
-                "without names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             Report(
                 "launch/b.launch.xml:2:63",
-                "static_transform_publisher of Lyrical takes no arguments "
-                "without names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             fixed={
@@ -114,8 +114,8 @@ class StaticTransformArguments(Rule):
             {"launch/a.launch.py": _LAUNCH.format(_ROOMY.format(*[""] * 8))},
             Report(
                 "8:24",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             fixed={
@@ -133,32 +133,32 @@ class StaticTransformArguments(Rule):
             },
             Report(
                 "launch/a.launch.py:11:24",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             Report(
                 "launch/a.launch.py:12:60",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             Report(
                 "launch/a.launch.py:13:60",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             Report(
                 "launch/a.launch.py:15:28",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             Report(
                 "launch/b.launch.xml:2:20",
-                "static_transform_publisher of Lyrical takes no arguments without "
-                "names; write --x, --y and so on",
+                "static_transform_publisher of Lyrical takes no positional arguments; "
+                "write --x, --y and so on",
                 fix="write the names",
             ),
             fixed={
@@ -206,16 +206,16 @@ class StaticTransformArguments(Rule):
                 "    yield Node(package='tf2_ros', executable=NODE,\n"
                 "               arguments=[*WORDS, '--ros-args', '-r', 'a:=b'])\n"
             },
-            "8:62: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "8:62: static_transform_publisher of Lyrical takes no positional arguments; write "
             "--x, --y and so on",
-            "10:26: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "10:26: static_transform_publisher of Lyrical takes no positional arguments; write "
             "--x, --y and so on",
             distro="lyrical",
         ),
         Example(
             "the arguments of ROS 1, with a period at the end",
             {"launch/a.launch.xml": _XML.format("0 0 0 0 0 0 base laser 100")},
-            "2:63: static_transform_publisher of Lyrical takes no arguments without names; write "
+            "2:63: static_transform_publisher of Lyrical takes no positional arguments; write "
             "--x, --y and so on",
             distro="lyrical",
         ),
@@ -233,7 +233,7 @@ class StaticTransformArguments(Rule):
         change = of_program(PROGRAM)
         if not change.is_removed:
             return
-        message = f"{PROGRAM} of {target().title} takes no arguments without names; {change.advice}"
+        message = f"{PROGRAM} of {target().title} takes no positional arguments; {change.advice}"
         for transform in static_transforms(package):
             words = transform.words
             flags = _FLAGS.get(len(words))

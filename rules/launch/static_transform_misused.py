@@ -115,8 +115,9 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("1e-1 .5 -.5 +0 inf 1.0f 1 a b"),
             },
-            "launch/a.launch.py:8:26: 'a' is no number: static_transform_publisher ends at once",
-            "launch/b.launch.py:8:34: 'pi' is no number: static_transform_publisher ends at once",
+            "launch/a.launch.py:8:26: 'a' is not a number: static_transform_publisher ends at once",
+            "launch/b.launch.py:8:34: 'pi' is not a number: static_transform_publisher ends at "
+            "once",
         ),
         Example(
             "a value without an option",
@@ -136,7 +137,7 @@ class StaticTransformMisused(Rule):
                 ),
                 "launch/c.launch.xml": _XML.format("--frame-id a --child-frame-id a"),
             },
-            "launch/a.launch.py:7:9: 5 arguments without names: static_transform_publisher ends "
+            "launch/a.launch.py:7:9: 5 positional arguments: static_transform_publisher ends "
             "at once; write --frame-id, --child-frame-id and --x, --y, ...",
             "launch/b.launch.py:7:9: angles and a quaternion: static_transform_publisher ends at "
             "once; give one of them",
@@ -153,7 +154,7 @@ class StaticTransformMisused(Rule):
             whole = transform.given if transform.attribute is not None else transform.location
             options = [n for n, word in enumerate(transform.words) if word.text.startswith("--")]
             for word in _refused(transform.words):
-                message = f"{word.text!r} is no number: {PROGRAM} ends at once"
+                message = f"{word.text!r} is not a number: {PROGRAM} ends at once"
                 yield self.report(word.location, message)
             if options:
                 yield from self._check_options(package, transform.words, options, whole)
@@ -161,7 +162,7 @@ class StaticTransformMisused(Rule):
             count = len(transform.words)
             if count not in _POSITIONAL and all(word.text != UNSAID for word in transform.words):
                 message = (
-                    f"{count} arguments without names: {PROGRAM} ends at once; "
+                    f"{count} positional arguments: {PROGRAM} ends at once; "
                     "write --frame-id, --child-frame-id and --x, --y, ..."
                 )
                 yield self.report(whole, message)

@@ -35,7 +35,9 @@ def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
     """Return what is wrong with what becomes z of a quaternion; empty if nothing."""
     if _is_angle(z):
         text = types.module.text(z)
-        return f"z of a quaternion is no angle: write z=sin({text} / 2.0) and w=cos({text} / 2.0)"
+        return (
+            f"z of a quaternion is not an angle: write z=sin({text} / 2.0) and w=cos({text} / 2.0)"
+        )
     angle = _whole_angle(types, holder, z)
     if angle:
         return f"a quaternion takes half the angle: write sin({angle} / 2.0) and cos({angle} / 2.0)"
@@ -86,7 +88,7 @@ def _read_problem(types: MessageTypes, value: ast.expr) -> str:
                 return ""
             text = types.module.text(holder)
             return (
-                "z of a quaternion is no angle: write "
+                "z of a quaternion is not an angle: write "
                 f"2.0 * math.atan2({text}.z, {text}.w), or euler_from_quaternion()"
             )
         case ast.Call(

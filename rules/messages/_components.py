@@ -97,4 +97,4 @@ def _of_zeros(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
     values = [types.facts.evaluator.evaluate(value) for value in parts.values()]
     is_zero = all(value == 0 and isinstance(value, int | float) for value in values)
     if "w" in parts and is_zero and not types.module.mentions("orientation_covariance"):
-        yield parts["w"], "a quaternion of zeros is no rotation: write w=1.0 for none"
+        yield parts["w"], "a quaternion of zeros is not a rotation: write w=1.0 for none"

@@ -59,8 +59,8 @@ def _stamped_apart(types: MessageTypes) -> Iterator[Flaw]:
         images = stamps.get((function, _PAIR[0]), [])
         is_pair = name != _PAIR[0] and len(values) == len(images) == 1
         if is_pair and _is_now(values[0]) and _is_now(images[0]):
-            message = "a camera info has the stamp of its image: with another one, what "
-            yield values[0], message + "synchronizes them finds no pair; copy it"
+            message = "camera info needs the stamp of its image: otherwise synchronizers find no "
+            yield values[0], message + "pair; copy it"
 
 
 def _is_now(node: ast.expr) -> bool:

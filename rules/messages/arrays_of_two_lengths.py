@@ -23,7 +23,7 @@ _PARALLEL: Mapping[str, tuple[str, tuple[str, ...]]] = {
 }
 
 _UNREAD = frozenset({("sensor_msgs/msg/JointState", name) for name in ("velocity", "effort")})
-_LATER = "robot_state_publisher does not look, others refuse it"
+_LATER = "robot_state_publisher does not check this, others reject it"
 
 
 class ArraysOfTwoLengths(MessageRule):
@@ -73,7 +73,7 @@ class ArraysOfTwoLengths(MessageRule):
             Report(
                 "8:49",
                 "velocity has 2 values for 1 names: robot_state_publisher does not "
-                "look, others refuse it; give one for each",
+                "check this, others reject it; give one for each",
                 severity=Severity.WARNING,
             ),
         ),

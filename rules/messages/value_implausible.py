@@ -72,12 +72,12 @@ class ValueImplausible(MessageRule):
             "a percentage; an encoding in capitals; bytes of a row; a yaw",
             {"talker.py": _NODE.format("80.0", "BGR8", "width", "self.yaw")},
             Report(
-                "13:30", ("percentage is a fraction from 0 to 1, not 80"), severity=Severity.WARNING
+                "13:30", "percentage is a fraction from 0 to 1, not 80", severity=Severity.WARNING
             ),
             "16:26: unknown encoding 'BGR8': cv_bridge raises an error; write 'bgr8'",
             "17:22: step is in bytes: a row of 'bgr8' has 3 * width",
-            "18:45: z of a quaternion is no angle: write z=sin(self.yaw / 2.0) and w=cos(self.yaw "
-            "/ 2.0)",
+            "18:45: z of a quaternion is not an angle: write z=sin(self.yaw / 2.0) and "
+            "w=cos(self.yaw / 2.0)",
         ),
         Example(
             "a share times 100; an encoding of one's own; a color",
@@ -89,7 +89,7 @@ class ValueImplausible(MessageRule):
             Report("b.py:5:24", "r is a fraction from 0 to 1, not 255", severity=Severity.WARNING),
             Report(
                 "talker.py:13:30",
-                "percentage is a fraction from 0 to 1, not a percentage; leave out 100",
+                "percentage is a fraction from 0 to 1, not a percentage; remove the factor 100",
                 severity=Severity.WARNING,
             ),
         ),
@@ -123,7 +123,7 @@ class ValueImplausible(MessageRule):
             },
             "10:24: a quaternion takes half the angle: write sin(yaw / 2.0) and cos(yaw / 2.0)",
             "15:11: this is half of the angle: multiply by 2.0",
-            "16:11: z of a quaternion is no angle: write 2.0 * math.atan2(pose.orientation.z, "
+            "16:11: z of a quaternion is not an angle: write 2.0 * math.atan2(pose.orientation.z, "
             "pose.orientation.w), or euler_from_quaternion()",
         ),
         Example(
@@ -240,7 +240,7 @@ class ValueImplausible(MessageRule):
             },
             "copy_pose.py:8:27: z is copied from pose.position.y, which is for y",
             "grow.py:12:25: w of this quaternion stays 1.0: it is another rotation; set it as well",
-            "zero.py:7:31: a quaternion of zeros is no rotation: write w=1.0 for none",
+            "zero.py:7:31: a quaternion of zeros is not a rotation: write w=1.0 for none",
         ),
         Example(
             "one stamp for an image and its camera info, and two",
@@ -259,8 +259,8 @@ class ValueImplausible(MessageRule):
                     "two": "self.get_clock().now().to_msg()",
                 }.items()
             },
-            "two.py:10:29: a camera info has the stamp of its image: with another one, what "
-            "synchronizes them finds no pair; copy it",
+            "two.py:10:29: camera info needs the stamp of its image: otherwise synchronizers find "
+            "no pair; copy it",
         ),
         Example(
             "fractions of a second",
@@ -314,7 +314,7 @@ def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
         low, high, meaning = _RANGES[key]
         return "" if low <= value <= high else f"{name} is {meaning}, not {value:g}"
     if key in _SHARES and _is_times_hundred(types, node):
-        return f"{name} is a fraction from 0 to 1, not a percentage; leave out 100"
+        return f"{name} is a fraction from 0 to 1, not a percentage; remove the factor 100"
     return ""
 
 

@@ -116,8 +116,8 @@ class NameInvalid(RclpyRule):
                     "        self.create_publisher(String, topic, 10)\n",
                 )
             },
-            "9:39: ROS 2 refuses this name: '\\\\' is not allowed",
-            "11:39: ROS 2 refuses this name: whitespace is not allowed",
+            "9:39: ROS 2 rejects this name: '\\\\' is not allowed",
+            "11:39: ROS 2 rejects this name: whitespace is not allowed",
         ),
         Example(
             "a program that is called like a test, and a test",
@@ -173,7 +173,7 @@ class NameInvalid(RclpyRule):
                 parts = _written_parts(file.evaluator.single_value(argument.node))
                 problem = next(filter(None, map(part_problem, parts)), None)
                 if problem:
-                    yield self.report(argument, f"ROS 2 refuses this name: {problem}")
+                    yield self.report(argument, f"ROS 2 rejects this name: {problem}")
                 continue
             # An empty default is there to be replaced.
             if entity.from_parameter and _has_gap(entity.name):

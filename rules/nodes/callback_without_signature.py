@@ -64,13 +64,13 @@ class CallbackWithoutSignature(PythonRule):
                 "        cls.heard = deque(maxlen=4)\n"
                 "        cls.node.create_subscription(String, 'chatter', cls.heard.append, 10)\n"
             },
-            "13:57: Python 3.12 knows no signature of 'collections.deque.append': rclpy raises "
+            "13:57: 'collections.deque.append' has no signature in Python 3.12: rclpy raises "
             "ValueError; pass lambda msg: cls.heard.append(msg)",
         ),
         Example(
             "a deque",
             {"listener.py": _NODE.format("deque()", "self.heard.append")},
-            "11:53: Python 3.12 knows no signature of 'collections.deque.append': rclpy raises "
+            "11:53: 'collections.deque.append' has no signature in Python 3.12: rclpy raises "
             "ValueError; pass lambda msg: self.heard.append(msg)",
         ),
     )
@@ -89,7 +89,7 @@ class CallbackWithoutSignature(PythonRule):
             if method in unknown:
                 text = module.text(callback)
                 message = (
-                    f"Python {target().python_version} knows no signature of '{method}': rclpy "
+                    f"'{method}' has no signature in Python {target().python_version}: rclpy "
                     f"raises ValueError; pass lambda msg: {text}(msg)"
                 )
                 yield self.report(module.location(callback), message)

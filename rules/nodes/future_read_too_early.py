@@ -84,7 +84,7 @@ class FutureReadTooEarly(RclpyRule):
             },
             Report(
                 "not_asked.py:10:16",
-                "answer may be None here: the wait has a timeout; ask whether the future is done()",
+                "answer may be None here: the wait has a timeout; check done() first",
                 severity=Severity.WARNING,
             ),
         ),
@@ -98,10 +98,7 @@ class FutureReadTooEarly(RclpyRule):
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
         for function in file.module.function_nodes:
             for read, text in _unasked(file, function):
-                message = (
-                    f"{text} may be None here: the wait has a timeout; ask whether the future is "
-                    "done()"
-                )
+                message = f"{text} may be None here: the wait has a timeout; check done() first"
                 yield self.report(file.module.location(read), message, severity=Severity.WARNING)
             for name, line in _futures(file.module, function).items():
                 if _waits(file.module, function):

@@ -58,8 +58,8 @@ class GoalNeverCanceled(RclpyRule):
         Example(
             "one thread",
             {"server.py": _NODE.format(_CANCEL, "")},
-            "17:16: never true in time: the only thread works on the goal, and reads requests to "
-            "cancel afterwards; use a MultiThreadedExecutor",
+            "17:16: never true in time: the only thread executes the goal and handles cancel "
+            "requests afterward; use a MultiThreadedExecutor",
         ),
         Example(
             "a goal that nobody asked to cancel",
@@ -68,7 +68,7 @@ class GoalNeverCanceled(RclpyRule):
                     "if goal_handle.is_cancel_requested:", "if self.failed:"
                 )
             },
-            "18:17: nobody asked to cancel the goal: canceled() raises RCLError; check "
+            "18:17: no cancel request was received: canceled() raises RCLError; check "
             "is_cancel_requested, or call abort()",
         ),
         Example(
@@ -78,7 +78,7 @@ class GoalNeverCanceled(RclpyRule):
                 .replace("if goal_handle.is_cancel_requested:", "if self.failed:")
                 .replace("    def work", "    async def work")
             },
-            "18:17: nobody asked to cancel the goal: canceled() raises RCLError; check "
+            "18:17: no cancel request was received: canceled() raises RCLError; check "
             "is_cancel_requested, or call abort()",
         ),
         Example(
@@ -132,8 +132,8 @@ class GoalNeverCanceled(RclpyRule):
                 yield self.report(file.module.location(asked), message)
             elif spins_in_one_thread(file) and _waits(file, server):
                 message = (
-                    "never true in time: the only thread works on the goal, and reads requests to "
-                    "cancel afterwards; use a MultiThreadedExecutor"
+                    "never true in time: the only thread executes the goal and handles cancel "
+                    "requests afterward; use a MultiThreadedExecutor"
                 )
                 yield self.report(file.module.location(asked), message)
 
@@ -160,7 +160,7 @@ class GoalNeverCanceled(RclpyRule):
             for function in work:
                 for call in _cancels(file, function):
                     message = (
-                        "nobody asked to cancel the goal: canceled() raises RCLError; "
+                        "no cancel request was received: canceled() raises RCLError; "
                         "check is_cancel_requested, or call abort()"
                     )
                     yield self.report(file.module.location(call), message)

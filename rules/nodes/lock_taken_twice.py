@@ -44,8 +44,8 @@ class LockTakenTwice(PythonRule):
         Example(
             "a plain lock",
             {"store.py": _NODE.format("Lock")},
-            "10:13: the lock of line 9 is taken again while it is held: the thread waits for "
-            "itself; use threading.RLock()",
+            "10:13: the lock of line 9 is taken again while it is held: deadlock; use "
+            "threading.RLock()",
         ),
         Example(
             "returns with the lock",
@@ -89,8 +89,8 @@ class LockTakenTwice(PythonRule):
         for held in (*_with_blocks(file), *_acquired_blocks(file)):
             for node in _taken_inside(file, held):
                 message = (
-                    f"the lock of line {held.line} is taken again while it is held: the thread "
-                    "waits for itself; use threading.RLock()"
+                    f"the lock of line {held.line} is taken again while it is held: deadlock; "
+                    "use threading.RLock()"
                 )
                 yield self.report(module.location(node), message)
                 break

@@ -58,12 +58,11 @@ class ParameterRepeated(RclpyRule):
                 "config/a.yaml": "talker:\n  ros__parameters:\n    rate: 3.0\n",
             },
             "talker.py:7:32: parameter 'rate' is declared automatically when config/a.yaml sets "
-            "it: ParameterAlreadyDeclaredException; ask has_parameter() first, or declare by hand",
+            "it: ParameterAlreadyDeclaredException; check has_parameter() first",
             Report(
                 "talker.py:8:32",
-                "parameter 'period' is declared automatically when something sets "
-                "it: ParameterAlreadyDeclaredException; ask has_parameter() first, "
-                "or declare by hand",
+                "parameter 'period' is declared automatically when something sets it: "
+                "ParameterAlreadyDeclaredException; check has_parameter() first",
                 severity=Severity.WARNING,
             ),
         ),
@@ -128,7 +127,7 @@ class ParameterRepeated(RclpyRule):
             where = f"{path} sets it" if path else "something sets it"
             message = (
                 f"parameter {name!r} is declared automatically when {where}: "
-                "ParameterAlreadyDeclaredException; ask has_parameter() first, or declare by hand"
+                "ParameterAlreadyDeclaredException; check has_parameter() first"
             )
             severity = None if path else Severity.WARNING
             yield self.report(parameter.name_location, message, severity=severity)

@@ -78,7 +78,7 @@ class SentBeforeKnown(RclpyRule):
             },
             Report(
                 "lost.py:13:9",
-                "no subscription knows the publisher yet: this message is lost; "
+                "no subscription has discovered the publisher yet: this message is lost; "
                 "publish it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL",
                 severity=Severity.WARNING,
             ),
@@ -141,8 +141,8 @@ class SentBeforeKnown(RclpyRule):
                 made = file.evaluator.single_value(func.value)
                 if made in lost and not _is_repeated(file, call) and _is_made_here(file, made):
                     message = (
-                        "no subscription knows the publisher yet: this message is lost; publish "
-                        "it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL"
+                        "no subscription has discovered the publisher yet: this message is lost; "
+                        "publish it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL"
                     )
                     at = file.module.location(call)
                     yield self.report(at, message, severity=Severity.WARNING)

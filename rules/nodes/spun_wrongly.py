@@ -134,7 +134,7 @@ class SpunWrongly(RclpyRule):
             Report(
                 "15:16",
                 "a MultiThreadedExecutor with one thread runs callbacks one at a "
-                "time; leave num_threads out",
+                "time; remove num_threads",
                 severity=Severity.WARNING,
             ),
         ),
@@ -187,7 +187,7 @@ class SpunWrongly(RclpyRule):
             if _has_one_thread(file, call):
                 message = (
                     "a MultiThreadedExecutor with one thread runs callbacks one at a time; "
-                    "leave num_threads out"
+                    "remove num_threads"
                 )
                 yield self.report(file.module.location(call), message, severity=Severity.WARNING)
             used = used_of_executor(file, call)

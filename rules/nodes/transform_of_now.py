@@ -46,14 +46,14 @@ class TransformOfNow(RclpyRule):
         Example(
             "for now",
             {"follower.py": _NODE.format("", "now")},
-            "16:58: lookup_transform() for now: the transform arrives later, so there is none "
-            "yet; use Time() for the latest, or a timeout",
+            "16:58: lookup_transform() at the current time: the transform arrives later; use "
+            "Time() for the latest, or a timeout",
         ),
         Example(
             "waits in the only thread",
             {"follower.py": _NODE.format("", "now, Duration(seconds=0.5)")},
-            "16:58: lookup_transform() for now waits in the thread that would receive the "
-            "transform: always a timeout; use Time(), or spin_thread=True",
+            "16:58: lookup_transform() at the current time waits in the thread that would receive "
+            "the transform: always a timeout; use Time(), or spin_thread=True",
         ),
         Example(
             "waits while another thread receives",
@@ -75,14 +75,14 @@ class TransformOfNow(RclpyRule):
             at = file.module.location(lookup.arguments["time"])
             if not _has_timeout(file, lookup):
                 message = (
-                    f"{lookup.method}() for now: the transform arrives later, so there is none "
-                    "yet; use Time() for the latest, or a timeout"
+                    f"{lookup.method}() at the current time: the transform arrives later; "
+                    "use Time() for the latest, or a timeout"
                 )
                 yield self.report(at, message)
             elif file.function_of(lookup.call) in alone and not is_spun_by_listener(file):
                 message = (
-                    f"{lookup.method}() for now waits in the thread that would receive the "
-                    "transform: always a timeout; use Time(), or spin_thread=True"
+                    f"{lookup.method}() at the current time waits in the thread that would "
+                    "receive the transform: always a timeout; use Time(), or spin_thread=True"
                 )
                 yield self.report(at, message)
 

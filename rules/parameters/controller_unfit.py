@@ -139,7 +139,7 @@ class ControllerUnfit(Rule):
         Example(
             "a rate with a point, and a type of ROS 1",
             _files("50.0", "position_controllers/JointTrajectoryController"),
-            "config/controllers.yaml:3:18: update_rate is an integer: with a double the "
+            "config/controllers.yaml:3:18: update_rate must be an integer: with a double the "
             "controller manager ends",
             "config/controllers.yaml:5:13: Jazzy has no controller "
             "'position_controllers/JointTrajectoryController': use "
@@ -226,7 +226,9 @@ class ControllerUnfit(Rule):
     def _check_manager(self, section: Section) -> Iterator[Diagnostic]:
         for entry in section.entries:
             if entry.name == "update_rate" and value_type(entry.value) == "double":
-                message = "update_rate is an integer: with a double the controller manager ends"
+                message = (
+                    "update_rate must be an integer: with a double the controller manager ends"
+                )
                 yield self.report(entry.value.location, message)
             if entry.name.endswith(_TYPE) and isinstance(entry.value, Scalar):
                 instead = _OF_ROS1.get(entry.value.text)

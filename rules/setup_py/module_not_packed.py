@@ -59,7 +59,7 @@ class ModuleNotPacked(Rule):
         Example(
             "none",
             {"setup.py": _SETUP.format(""), **_FILES},
-            "setup.py:3:1: packages leaves out 'talker', which the entry points start",
+            "setup.py:3:1: packages does not include 'talker', which the entry points start",
         ),
         Example(
             "excluded",
@@ -67,12 +67,12 @@ class ModuleNotPacked(Rule):
                 "setup.py": _SETUP.format("    packages=find_packages(include=['test']),\n"),
                 **_FILES,
             },
-            "setup.py:5:14: find_packages leaves out 'talker', which the entry points start",
+            "setup.py:5:14: find_packages does not include 'talker', which the entry points start",
         ),
         Example(
             "another name",
             {"setup.py": _SETUP.format("    packages=['demo'],\n"), **_FILES},
-            "setup.py:5:14: packages leaves out 'talker', which the entry points start",
+            "setup.py:5:14: packages does not include 'talker', which the entry points start",
             "setup.py:5:14: packages names 'demo', but there is no such directory: the build stops",
         ),
         Example(
@@ -131,7 +131,7 @@ class ModuleNotPacked(Rule):
             },
             Report(
                 "setup.py:5:14",
-                "packages leaves out talker.text: it is not installed; write "
+                "packages does not include talker.text: it is not installed; write "
                 "find_packages(exclude=['test'])",
                 fix="write find_packages(exclude=['test'])",
             ),
@@ -197,7 +197,7 @@ class ModuleNotPacked(Rule):
                 yield self.report(at, message, cause=f"directory {place}")
         for root in sorted(roots - {item.partition(".")[0] for item in names or ()}):
             if package.has_directory(root):
-                message = f"packages leaves out {root!r}, which the entry points start"
+                message = f"packages does not include {root!r}, which the entry points start"
                 yield self.report(at, message)
 
     def _check_found(
@@ -216,7 +216,7 @@ class ModuleNotPacked(Rule):
             if isinstance(is_left_out, Unknown):
                 return
             if is_left_out:
-                message = f"find_packages leaves out {root!r}, which the entry points start"
+                message = f"find_packages does not include {root!r}, which the entry points start"
                 yield self.report(keyword, message)
             elif package.glob(f"{root}/*.py") and not package.has(f"{root}/__init__.py"):
                 init = f"{root}/__init__.py"
@@ -245,7 +245,9 @@ class ModuleNotPacked(Rule):
         if "find_packages" in setup.module.index.bindings(setup.module.tree):
             start, end = setup.module.span(keyword.node)
             fix = Fix(f"write {_FIND}", (Edit("setup.py", start, end, _FIND),))
-        message = f"packages leaves out {', '.join(missing)}: it is not installed; write {_FIND}"
+        message = (
+            f"packages does not include {', '.join(missing)}: it is not installed; write {_FIND}"
+        )
         yield self.report(keyword, message, fix)
 
     def _check_places(self, package: Package) -> Iterator[Diagnostic]:

@@ -78,8 +78,8 @@ class TestsNotRun(Rule):
             {"setup.py": _SETUP.format(""), "test/test_talker.py": _TEST},
             Report(
                 "setup.py:3:1",
-                "nothing says that test/ needs pytest: colcon runs 0 "
-                "tests; add extras_require={'test': ['pytest']}",
+                "no extra requires pytest for test/: colcon runs 0 tests; add "
+                "extras_require={'test': ['pytest']}",
                 fix="add extras_require={'test': ['pytest']}",
             ),
             fixed={"setup.py": _SETUP.format(_EXTRA)},
@@ -222,7 +222,7 @@ class TestsNotRun(Rule):
         edit = setup_edit.insert(setup, _NEW)
         can_fix = edit is not None and setup.keyword("extras_require") is None
         directory = tests[0].partition("/")[0]
-        message = f"nothing says that {directory}/ needs pytest: colcon runs 0 tests; add {_NEW}"
+        message = f"no extra requires pytest for {directory}/: colcon runs 0 tests; add {_NEW}"
         yield self.report(setup, message, Fix(f"add {_NEW}", (edit,)) if edit and can_fix else None)
 
     def _check_tests_require(self, package: Package, setup: SetupPy) -> Iterator[Diagnostic]:

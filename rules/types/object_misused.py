@@ -209,7 +209,7 @@ class ObjectMisused(TypeRule):
         Example(
             "numbers that are called and unpacked",
             {"height.py": _NUMBER.format("nanoseconds()", "", ".x")},
-            "11:17: 'nanoseconds' is an int, not a method: TypeError; leave out the parentheses",
+            "11:17: 'nanoseconds' is an int, not a method: TypeError; remove the parentheses",
             "12:19: a bool cannot be looped over: TypeError",
         ),
         Example(
@@ -260,7 +260,7 @@ class ObjectMisused(TypeRule):
                 finding.kind == "not-callable" and not _is_self(owner)
             ):
                 message = f"{name!r} is {in_words(type_)}, not a method: TypeError"
-                return self.report(finding, f"{message}; leave out the parentheses")
+                return self.report(finding, f"{message}; remove the parentheses")
             case ast.Call(func=ast.Attribute(value=owner)) | ast.Attribute(value=owner) if (
                 finding.kind != "not-callable" and not _is_self(owner)
             ):

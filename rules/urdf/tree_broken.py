@@ -157,7 +157,7 @@ class TreeBroken(Rule):
             },
             Report(
                 "10:22",
-                "gazebo is about 'wheels', which is not a link or joint of this robot: "
+                "gazebo reference 'wheels' is not a link or joint of this robot: "
                 "Gazebo ignores it; closest: 'wheel'",
                 severity=Severity.WARNING,
             ),
@@ -255,7 +255,7 @@ class TreeBroken(Rule):
             if reference and links and not _is_among(reference, [*links, *joints]):
                 hint = _hint(package, reference, links)
                 message = (
-                    f"gazebo is about {reference!r}, which is not a link or joint of this robot: "
+                    f"gazebo reference {reference!r} is not a link or joint of this robot: "
                     f"Gazebo ignores it{hint}"
                 )
                 if _is_here(package, part):

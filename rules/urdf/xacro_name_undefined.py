@@ -200,14 +200,14 @@ class XacroNameUndefined(Rule):
                 "robot.xacro": '<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
                 '  <link name="a"/>\n  <xacro:if value="yes"/>\n</robot>\n'
             },
-            "3:20: 'yes' is no condition: xacro stops; write true, false, 0, 1 or ${...}",
+            "3:20: 'yes' is not a condition: xacro stops; write true, false, 0, 1 or ${...}",
         ),
         Example(
             "a file of URDF that nobody gives to xacro",
             {"robot.urdf": _PLAIN},
             Report(
                 "4:33",
-                "only xacro reads $(find ...), and this file is no xacro: write "
+                "only xacro reads $(find ...), which does not process this file: write "
                 "package:// and the package",
                 severity=Severity.WARNING,
             ),
@@ -249,7 +249,9 @@ class XacroNameUndefined(Rule):
                 for attribute in element.attributes.values():
                     is_plain = not robot.file.is_xacro and attribute.value.startswith("$(find ")
                     if is_plain and not _uses_xacro(package):
-                        message = "only xacro reads $(find ...), and this file is no xacro: write "
+                        message = (
+                            "only xacro reads $(find ...), which does not process this file: write "
+                        )
                         message += "package:// and the package"
                         yield self.report(attribute, message, severity=Severity.WARNING)
 
@@ -296,4 +298,4 @@ def _message_calls(package: Package, misfit: Misfit) -> str:
         return f"macro {macro!r} needs an element for its block {name!r}: xacro stops"
     if kind == "block unused":
         return f"macro {macro!r} has no block for <{name}>: xacro stops with 'Unused block'"
-    return f"{name!r} is no condition: xacro stops; write true, false, 0, 1 or ${{...}}"
+    return f"{name!r} is not a condition: xacro stops; write true, false, 0, 1 or ${{...}}"

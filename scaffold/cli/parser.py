@@ -50,7 +50,8 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the line and exit."""
-        terminal.error(f"{message}; see `{self.prog} --help`")
+        separator = " See" if message.endswith("?") else "; see"
+        terminal.error(f"{message}{separator} `{self.prog} --help`")
         sys.exit(USAGE_ERROR)
 
     def _print_message(self, message: str, file: object = None) -> None:

@@ -69,7 +69,7 @@ def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config)
             no_longer += f" (without --keep {names})" if names else ""
         yield (
             f"{_listed(directories)}: recorded as {what} for {titles}{no_longer}; "
-            "`ros2-scaffold update` brings what its templates have for that"
+            "`ros2-scaffold update` applies the changes of the templates for that"
         )
     named = distro.wanted(None, settings)
     usual = named or [distributions.named(distributions.DEFAULT)]

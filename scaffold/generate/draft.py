@@ -375,8 +375,8 @@ def _remarks(renderer: Renderer, context: Mapping[str, object], user: User) -> t
     if user.guessed:
         maintainer = f"{context['maintainer_name']} <{context['maintainer_email']}>"
         remarks.append(
-            f"the maintainer is {maintainer}, as git knows no other: set user.name and "
-            "user.email with `git config --global`, or "
+            f"the maintainer is {maintainer}, because git has no user.name and user.email: set "
+            "them with `git config --global`, or set "
             f"maintainer_name and maintainer_email in the table [new] of {_config_file()}"
         )
     return tuple(remarks)

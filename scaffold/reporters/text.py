@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import TextIO
 
 from scaffold.check.result import Result
-from scaffold.diagnostic import Diagnostic
+from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions
@@ -61,13 +61,18 @@ def line(
     return f"{head} {printable(diagnostic.text)} [{diagnostic.name}]"
 
 
+def _by_number(item: tuple[tuple[str, str, Severity], int]) -> tuple[int, str]:
+    (code, _, _), number = item
+    return -number, code
+
+
 def _statistics(results: Sequence[Result], out: TextIO) -> None:
     """Write how often each code is reported, the most frequent first."""
     diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
     numbers = Counter((item.code, item.name, item.severity) for item in diagnostics)
     fixable = {item.code for item in diagnostics if item.fix is not None}
     width = len(str(max(numbers.values(), default=0)))
-    for (code, name, severity), number in numbers.most_common():
+    for (code, name, severity), number in sorted(numbers.items(), key=_by_number):
         mark = "[*]" if code in fixable else "[ ]"
         out.write(f"{number:>{width}}  {severity.value:<7}  {code:<6} {mark} {name}\n")
     if fixable:

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from scaffold.check import registry, runner
+from scaffold.check import docs, registry, runner
 from scaffold.check.examples import package_of
 from scaffold.check.rule import Example, Rule
 from scaffold.configuration import content
@@ -22,6 +22,7 @@ from tests.check.examples import assert_reported, assert_suppressible
 
 TraceFunction = Callable[[FrameType, str, Any], Any]
 
+ROOT = Path(__file__).parents[2]
 RULES = registry.load(content.roots("rules"))
 FILES = [path for root in content.roots("rules") for path in sorted(Path(root).glob("*/*.py"))]
 """Rules, and what those of an area share."""
@@ -67,6 +68,14 @@ def test_is_documented(rule: type[Rule]) -> None:
 def test_declares_and_shows_every_severity(rule: type[Rule]) -> None:
     shown = {report.severity or rule.severity for x in rule.examples for report in x.reports}
     assert shown == {rule.severity, *rule.other_severities}
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
+def test_page_is_current(rule: type[Rule]) -> None:
+    """A change of the severity or of a text changes the page of the rule."""
+    page = ROOT / "docs" / "rules" / f"{rule.code}.md"
+    written = page.read_text(encoding="utf-8") if page.is_file() else ""
+    assert written == docs.page(rule), "run `make docs`"
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)

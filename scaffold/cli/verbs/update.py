@@ -128,7 +128,7 @@ def _next(directory: str, moved: Sequence[Distribution]) -> str:
 
     names = ",".join(item.name for item in moved)  # the configuration may name others
     return (
-        f"The package is now for {distributions.titles(moved)}. What your own code needs for "
-        "it:\n"
+        f"The package is now for {distributions.titles(moved)}. To see what your own code "
+        "needs:\n"
         f"    ros2-scaffold check --distro {names} {quote(directory)}"
     )

@@ -324,8 +324,12 @@ def _no_choice(word: str, choices: Sequence[str]) -> str:
     if not closest and len(word) >= _TELLING:
         closest = [choice for choice in by_lower if choice.startswith(word[:_TELLING].lower())]
     hint = f"; did you mean {' or '.join(by_lower[item] for item in closest)}?" if closest else ""
-    return f"{word!r} is not one of {', '.join(choices)}{hint}"
+    is_short = len(choices) <= _LISTED or not hint
+    listed = ", ".join(choices) if is_short else f"the {len(choices)} choices"
+    return f"{word!r} is not one of {listed}{hint}"
 
 
 _TELLING = 3
+_LISTED = 15
+"""So many choices are listed although a hint names the closest ones."""
 """Letters at the start of a word that identify it: ``GPLv3``, ``BSD``."""

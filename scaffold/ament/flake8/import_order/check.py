@@ -161,7 +161,7 @@ def _compare(
     at = (statement.line, statement.column)
     is_same = style.is_same_section(before, statement)
     if style.key(statement) < style.key(before):
-        message = f"'{statement.shown}' belongs before '{before.shown}' of line {before.line}"
+        message = f"'{statement.shown}' belongs before '{before.shown}' in line {before.line}"
         if statement.group != before.group:
             message += f": {GROUPS[statement.group]} before {GROUPS[before.group]}"
         yield Finding("I100", *at, message)

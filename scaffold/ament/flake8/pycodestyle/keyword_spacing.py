@@ -28,7 +28,7 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
         if code == "E251":
             message = "whitespace around the '=' of a keyword argument or default"
         else:
-            message = "whitespace is missing around the '=' of an annotated argument"
+            message = "missing whitespace around the '=' of an annotated argument"
         yield Finding(code, row, column + 1, message)
     is_for_all = linters.of_target().since("pycodestyle", 2, 9)
     for token, following in pairwise(logical.tokens):
@@ -42,7 +42,7 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
             )
         ):
             row, column = token.end
-            message = f"whitespace is missing after '{token.string}'"
+            message = f"missing whitespace after '{token.string}'"
             yield Finding("E275", row, column + 1, message)
 
 

@@ -55,7 +55,7 @@ ARITHMETIC_CANDIDATES = r"|[-+*/@]"
 _OPERATOR = r"[^,\s](\s*)(?:[-+*/|!<=>%&^]+|:=)(\s*)"
 _KEYWORD = rf"(\s*)\b(?:{'|'.join(sorted(_KEYWORDS))})\b(\s*)"
 
-_ONE_SIDED = "whitespace is missing on a side of an operator"
+_ONE_SIDED = "missing whitespace around operator"
 
 
 def check(logical: LogicalLine) -> Iterator[Finding]:
@@ -92,7 +92,7 @@ def _tight_punctuation(logical: LogicalLine) -> Iterator[Finding]:
         if (item[0] == ":" and (is_slice or following == "=")) or item[0] + following == ",)":
             continue
         row, column = logical.position(at)
-        yield Finding("E231", row, column + 1, f"whitespace is missing after '{item[0]}'")
+        yield Finding("E231", row, column + 1, f"missing whitespace after '{item[0]}'")
 
 
 class _Scan:
@@ -112,7 +112,7 @@ class _Scan:
             if token.type in SILENT or token.type == ERRORTOKEN:
                 continue
             if token.type == OP and token.string in (",", ";", ":") and self._is_tight(token):
-                yield token.start, "E231", f"whitespace is missing after '{token.string}'"
+                yield token.start, "E231", f"missing whitespace after '{token.string}'"
             if self.wanted:
                 yield from self._behind(token)
             elif token.type in (OP, NAME) and self.before is not None:
@@ -162,10 +162,10 @@ class _Scan:
         if isinstance(wanted, bool) or wanted[1]:
             yield before.end, "E225", _ONE_SIDED
         elif before.string == "%":
-            yield wanted[0], "E228", "whitespace is missing around '%'"
+            yield wanted[0], "E228", "missing whitespace around '%'"
         elif before.string != "**":
             code = "E226" if before.string in _ARITHMETIC else "E227"
-            yield wanted[0], code, f"whitespace is missing around '{before.string}'"
+            yield wanted[0], code, f"missing whitespace around '{before.string}'"
         self.wanted = False
 
     def _in_front(self, token: Token, before: Token) -> Iterator[tuple[Position, str, str]]:

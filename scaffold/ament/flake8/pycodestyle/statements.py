@@ -361,7 +361,7 @@ def late_imports(text: PythonText) -> Iterator[Finding]:
         if first in ("import", "from") and logical.text.startswith(f"{first} "):
             if seen_code:
                 row, column = logical.position(0)
-                yield Finding("E402", row, column + 1, "import below other code of the module")
+                yield Finding("E402", row, column + 1, "import not at the top of the file")
         elif (first.startswith("__") and re.match(_DUNDER, logical.text)) or first.startswith(
             _BEFORE_IMPORTS
         ):
