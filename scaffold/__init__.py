@@ -1,3 +1,3 @@
-"""ros2-scaffold: generate, lint, fix, build and prove ROS 2 Python packages."""
+"""ros2-scaffold: generate, lint, fix, build and observe ROS 2 Python packages."""
 
 __version__ = "0.1.0"

@@ -1,4 +1,4 @@
-"""The start of ``ros2-scaffold`` and ``python -m scaffold``, which may be interrupted at once."""
+"""Entry point of ``ros2-scaffold`` and ``python -m scaffold``; handles an early Ctrl-C."""
 
 from __future__ import annotations
 

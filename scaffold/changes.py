@@ -1,12 +1,12 @@
 """What distributions removed, deprecated or changed: ``scaffold/data/changes.toml``.
 
-The keys of an entry: ``removed`` and ``deprecated`` are the first distributions where it is so,
-``changed`` is the first with the new meaning; ``use`` is the last part of the name that takes its
-place, where ``*`` is what the same sign at the end of the old name stands for; ``since`` is the
-first distribution that has this name, all of them without it; ``advice`` is for people. Of a call,
-``since`` is the first distribution whose version of it takes the argument in question. With
-``having`` or ``without``, an entry of a name is about the calls of it, and the calls that are
-given it, with or without that argument. ``numpy.dtype.name`` is the string ``"name"`` as a type.
+The keys of an entry: ``removed`` and ``deprecated`` are the first distributions for which this is
+true, and ``changed`` is the first one with the new meaning. ``use`` is the last component of the
+replacement, in which ``*`` is the text that the ``*`` at the end of the old name matched. ``since``
+is the first distribution that has the replacement (if absent, all have it), or for a call, the
+first one that accepts the argument. ``advice`` is text for the user. With ``having`` or
+``without``, an entry is about calls with or without that argument. ``numpy.dtype.name`` is the
+string ``"name"`` used as a dtype.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How wide text is on a terminal, and how it is made to fit."""
+"""The display width of text on a terminal, and wrapping and truncation to a width."""
 
 from __future__ import annotations
 

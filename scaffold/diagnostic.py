@@ -1,4 +1,4 @@
-"""What a rule reports about a place, and how to fix it."""
+"""A finding of a rule: its location, message, severity and fix."""
 
 from __future__ import annotations
 

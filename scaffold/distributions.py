@@ -1,7 +1,7 @@
-"""The distributions of ROS 2: what is known of each, and which one packages are checked for.
+"""The distributions of ROS 2: their properties, and the current target.
 
-What differs between distributions is data in ``scaffold/data/<name>/``. Code asks the target for a
-fact, never for its name.
+The differences between distributions are data in ``scaffold/data/<name>/``. Code asks the target
+for a property, never for its name.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Changes to files, and the fixes that they make up."""
+"""Edits of files, and fixes made of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may go wrong through no fault of this tool: one clear line for the user each."""
+"""Errors that the user can resolve, each with a one-line message."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
-"""Foreign text for terminals: names, contents and messages may hold characters that terminals obey.
+"""Escapes control and invisible characters in text for terminals.
 
-Shown as they are: letters, digits, punctuation, symbols and the space of every language. Spelled
-out, as in a Python literal: control characters (C0, C1, among them NUL, ESC and CR), marks that
-turn the direction of text or have no width, other spaces, line and paragraph separators, bytes that
-are not text, and what Unicode has not assigned.
+Letters, digits, punctuation, symbols and the ASCII space are kept. Control characters (C0 and C1),
+bidirectional and zero-width characters, other spaces, line and paragraph separators, undecodable
+bytes and unassigned code points are escaped as in a Python literal.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The text of one file, and the places in it."""
+"""The text of a file, and locations in it."""
 
 from __future__ import annotations
 

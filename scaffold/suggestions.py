@@ -1,4 +1,4 @@
-"""Which known name a word is nearly: for hints, where input may hold thousands of both."""
+"""Suggests known names that are similar to a misspelled one."""
 
 from __future__ import annotations
 

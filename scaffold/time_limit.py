@@ -1,4 +1,4 @@
-"""A bound on the CPU time that one file may cost, so that it cannot hold up all others."""
+"""A limit on the CPU time spent on one file."""
 
 from __future__ import annotations
 

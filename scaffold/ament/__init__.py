@@ -1,4 +1,4 @@
-"""The verdicts of ament's linters: Python style at ruff's speed, and those about other files."""
+"""Reimplementation of ament's linters: the same findings, faster, with fixes."""
 
 from __future__ import annotations
 

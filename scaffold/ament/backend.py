@@ -1,4 +1,4 @@
-"""Python style and docstrings of packages, with the verdict of the target's ament linters."""
+"""Python style and docstrings of packages, as the target's ament linters report them."""
 
 from __future__ import annotations
 

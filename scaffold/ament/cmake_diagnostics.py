@@ -1,4 +1,4 @@
-"""What the findings of lint_cmake mean to a person: codes, messages and fixes."""
+"""Diagnostics for the findings of lint_cmake: codes, messages and fixes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Copyright notices and license headers of source files, judged as ament_copyright does."""
+"""Copyright notices and license headers of source files, as ament_copyright parses them."""
 
 from __future__ import annotations
 

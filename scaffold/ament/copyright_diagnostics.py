@@ -1,4 +1,4 @@
-"""What is wrong with notices, license headers and repository files: codes and messages."""
+"""Diagnostics about copyright notices, license headers and repository files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which files the linters of ament look at."""
+"""The files that the linters of ament check."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Findings by content: a file that was checked before needs neither ruff nor our rules.
+"""A cache of style findings by file content.
 
 One small file per checked file, named after a digest of its bytes and of everything else that the
 findings depend on. A cache that cannot be read or written is ignored.

@@ -1,7 +1,7 @@
-"""The verdict of ament_lint_cmake: the layout of CMake files, checked in one pass.
+"""Reimplementation of ament_lint_cmake: the layout of CMake files, checked in one pass.
 
 As in the linter, commands are matched by a pattern at the start of a line, and a comment begins at
-the first ``#``, even inside of quotes.
+the first ``#``, even inside quotes.
 """
 
 from __future__ import annotations

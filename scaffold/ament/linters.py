@@ -1,7 +1,7 @@
-"""The linters of Python style that the target has, with their versions.
+"""The Python style linters of the target distribution, with their versions.
 
-They are ``[linters]`` in the profile of a distribution. A check asks for the version that brought
-or changed a verdict, or whether a plugin is there.
+They are in ``[linters]`` in the profile of a distribution. Checks whose behavior changed ask for
+the version of a linter, or whether a plugin is installed.
 """
 
 from __future__ import annotations

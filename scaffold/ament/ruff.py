@@ -1,8 +1,8 @@
 """Runs ruff in the background and reads its diagnostics.
 
-Two passes over the same files: rules that are stable, and pycodestyle's whitespace rules, which
-ruff still calls a preview; ``preview`` would change the verdict of the stable ones. Nothing of the
-user's configuration is read.
+It makes two passes over the same files: one for stable rules and one for the whitespace rules of
+pycodestyle, which need ``preview``; that would change the findings of the stable rules. ruff reads
+no configuration of the user.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The configurations that a package's own tests check its files with.
+"""The linter configurations with which the tests of a package check its files.
 
-A linter that no test of the package runs uses the configuration that ament ships with.
+For a linter that no test of the package runs, ament's default configuration applies.
 """
 
 from __future__ import annotations

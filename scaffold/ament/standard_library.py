@@ -1,4 +1,4 @@
-"""The modules of the standard library of a Python, where the linters ask for them."""
+"""The standard library modules of a Python version, as the linters look them up."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Whether a package runs a linter of ament in its own tests, and on which files.
+"""Which linters of ament the tests of a package run, and on which files.
 
-The arguments of those of Python style, which have configurations, are in `calls`.
+The arguments of the Python style linters are in `calls`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The verdict on one file: our own rules and the diagnostics of ruff put together."""
+"""The style findings of one file: those of our own rules and of ruff, merged."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The findings of ament_xmllint about XML files and package.xml: codes, messages and fixes."""
+"""Diagnostics for the findings of ament_xmllint: codes, messages and fixes."""
 
 from __future__ import annotations
 

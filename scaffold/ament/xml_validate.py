@@ -1,8 +1,7 @@
-"""A program that validates XML documents, so that libxml2 can be killed if it takes too long.
+"""A subprocess that validates XML documents, so that libxml2 can be killed on a timeout.
 
-Run by ``scaffold.ament.xmllint`` in a process of its own, with bounds on time and memory; its
-argument is the directory that lxml is in. Jobs come in on the standard input, and for each of them
-a line of JSON goes out as soon as it is done.
+``scaffold.ament.xmllint`` starts it with limits on time and memory; the argument is the directory
+that contains lxml. It reads jobs from standard input and writes one line of JSON for each.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The verdict of ament_xmllint: XML files that can be read and that fit their schemas."""
+"""Reimplementation of ament_xmllint: XML files are well-formed and match their schemas."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The names that a rule file may import: a stable interface, in rooms like the model.
+"""The stable interface for rule files, with one module per topic, as in ``scaffold.model``.
 
-docs/api.md lists all of them, with examples.
+docs/api.md lists all names, with examples.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Names that ROS knows: packages, keys of rosdep, and their transitive dependencies."""
+"""Known ROS names: packages, rosdep keys, and their transitive dependencies."""
 
 from __future__ import annotations
 

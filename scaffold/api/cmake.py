@@ -1,4 +1,4 @@
-"""CMakeLists.txt: commands, what they install, find and generate."""
+"""CMakeLists.txt: its commands, and what they install, find and generate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The distribution of ROS 2 that packages are checked for, and what is known of it."""
+"""The target distribution of ROS 2 and its properties."""
 
 from __future__ import annotations
 

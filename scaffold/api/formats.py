@@ -1,4 +1,4 @@
-"""XML and YAML with the place of every part."""
+"""XML and YAML documents with source locations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a package installs, and where."""
+"""The files that a package installs, and where."""
 
 from __future__ import annotations
 

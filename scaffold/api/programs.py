@@ -1,4 +1,4 @@
-"""What the programs of a package do when they run."""
+"""The programs of a package: executables, entry points, threads, executors."""
 
 from __future__ import annotations
 

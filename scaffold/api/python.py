@@ -1,4 +1,4 @@
-"""Python files: names, scopes, calls, and values that are certain."""
+"""Python files: names, scopes, calls, and static evaluation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the rclpy code of a file says: nodes, publishers, timers, callbacks."""
+"""The use of rclpy in a file: nodes, publishers, timers, callbacks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""URDF and xacro files, and the bridge to a simulation."""
+"""URDF and xacro files, and ros_gz_bridge configurations."""
 
 from __future__ import annotations
 

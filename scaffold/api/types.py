@@ -1,4 +1,4 @@
-"""What the type checker reports, and the exact names in its messages."""
+"""Findings of the type checker, and the exact names in its messages."""
 
 from __future__ import annotations
 

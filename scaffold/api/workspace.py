@@ -1,4 +1,4 @@
-"""The packages around one."""
+"""The other packages of the workspace."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Adjustments of findings by the configuration: other severities, and less style."""
+"""Adjusts findings to the configuration: severities, exclusions, style."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""The codes of ament's linters that judge a package, as rules that the engine runs.
+"""Rule classes for the ament codes that concern a whole package.
 
-Those of Python style are not among them: one process judges all files of a package by all of them.
+The codes of Python style are not included: they are checked for all files of a package in one
+process.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Checks some packages of a workspace that was sent to a worker of a cluster."""
+"""Checks a batch of packages on a worker of a cluster."""
 
 from __future__ import annotations
 

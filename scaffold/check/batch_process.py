@@ -1,7 +1,7 @@
-"""Checks batches in processes of their own, on a worker of a cluster.
+"""Runs batches in separate processes on a worker of a cluster.
 
-A worker has threads; the current directory, the environment and the target that packages are
-checked with are those of a process.
+A worker has threads, but the current directory, the environment and the target distribution belong
+to a process.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Reports merge conflict markers in files as such, and not as syntax errors."""
+"""Reports merge conflict markers in files, instead of the syntax errors they cause."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leaves out what is found in code that does not run on the target distribution."""
+"""Drops findings in code that does not run on the target distribution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SC: findings about the tool itself, its configuration, and files that it cannot read."""
+"""SC codes: findings about the tool, its configuration, and unreadable files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs the examples of rules, which are tests and documentation."""
+"""Runs the examples of rules, which are both tests and documentation."""
 
 from __future__ import annotations
 

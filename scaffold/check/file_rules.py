@@ -1,4 +1,4 @@
-"""Rules that read one kind of file: they say which, and are asked file by file."""
+"""Base classes for rules that read one kind of file and are called once per file."""
 
 from __future__ import annotations
 

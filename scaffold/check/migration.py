@@ -1,4 +1,4 @@
-"""What a move to another distribution changes: what is found for it and not for the one before."""
+"""Compares the findings for two distributions: what a migration breaks or changes."""
 
 from __future__ import annotations
 

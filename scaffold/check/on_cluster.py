@@ -1,4 +1,4 @@
-"""A check on the workers of a cluster: they get the sources, and check a part of them each."""
+"""Distributes a check over the workers of a cluster."""
 
 from __future__ import annotations
 

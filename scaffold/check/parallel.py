@@ -1,4 +1,4 @@
-"""Spreads a check over worker processes by size; its results and their order are the same."""
+"""Distributes a check over worker processes by size; results keep their order."""
 
 from __future__ import annotations
 

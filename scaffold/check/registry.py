@@ -1,4 +1,4 @@
-"""Loads rule files by path: a file in ``rules/<area>/`` is a rule, nothing else to register."""
+"""Loads rule files: each file in ``rules/<area>/`` is a rule, without registration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The codes of rules that were merged into others or moved to another area."""
+"""Former codes of rules that were merged into others or moved to another area."""
 
 from __future__ import annotations
 

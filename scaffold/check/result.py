@@ -1,4 +1,4 @@
-"""What a run of `check` found: in each package, and counted."""
+"""The result of `check`: findings per package, and their counts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The contract of a rule file: one class with metadata, examples and ``check``."""
+"""The base class of rules: metadata, examples and ``check``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs rules on one package; whatever happens, the other rules still run."""
+"""Runs rules on one package; a rule that crashes does not stop the others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which codes ``--select`` and ``--ignore`` ask for: by code, prefix, name, area or ``ALL``."""
+"""Resolves ``--select`` and ``--ignore``: codes, prefixes, names, areas or ``ALL``."""
 
 from __future__ import annotations
 

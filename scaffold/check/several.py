@@ -1,4 +1,4 @@
-"""A check for several distributions: each finding once, with those that it holds for."""
+"""Merges checks for several distributions: each finding once, with its distributions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Findings about types: of the type checker for new and edited files, else of an earlier run."""
+"""Type checker findings, from a new run or from the cache."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rules made of what the type checker reports: one run over all packages answers all of them."""
+"""Base class of rules that turn reports of the type checker into findings."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The command line: one module per verb, each parses, calls and reports."""
+"""The command line: one module per verb, which parses, calls the engine and reports."""

@@ -1,4 +1,4 @@
-"""Which rules run and how, by the configuration and the flags of `check`."""
+"""The selection of rules and their settings, from the configuration and the flags."""
 
 from __future__ import annotations
 

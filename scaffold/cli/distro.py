@@ -1,4 +1,4 @@
-"""Which distributions a verb works for: the flag, the configuration, the record, the default."""
+"""The target distributions of a verb: flag, configuration, record or default."""
 
 from __future__ import annotations
 

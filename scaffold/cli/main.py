@@ -1,4 +1,4 @@
-"""``ros2-scaffold VERB``: finds the verb, keeps the exit codes."""
+"""``ros2-scaffold VERB``: dispatches to the verb and ensures the exit codes."""
 
 from __future__ import annotations
 

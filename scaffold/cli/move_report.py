@@ -1,4 +1,4 @@
-"""What ``migrate`` prints: packages with what happens to them, as text and as data."""
+"""The report of ``migrate``: findings per package, as text and as data."""
 
 from __future__ import annotations
 

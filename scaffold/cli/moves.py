@@ -1,4 +1,4 @@
-"""Moves packages to another distribution in memory: what is found, fixed and left."""
+"""Migrates packages in memory: findings, fixes, and what is left."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where packages come from that move to another distribution, each by its own record."""
+"""The distribution that each package is migrated from."""
 
 from __future__ import annotations
 

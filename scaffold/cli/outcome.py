@@ -1,4 +1,4 @@
-"""How a run of `check` ends: its notes, its report and what is remembered of it, its exit code."""
+"""The end of a run of `check`: notes, report, cache entry, exit code."""
 
 from __future__ import annotations
 

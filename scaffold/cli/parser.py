@@ -1,4 +1,4 @@
-"""The command line of every verb; the one definition for the shell, ros2cli and completion."""
+"""The argument parser of all verbs, for the shell, ros2cli and completion."""
 
 from __future__ import annotations
 

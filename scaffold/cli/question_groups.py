@@ -1,4 +1,4 @@
-"""The questions of templates as flags, in groups that people read on a screen of 80 columns."""
+"""Questions of templates as flags, in groups for `--help`."""
 
 from __future__ import annotations
 

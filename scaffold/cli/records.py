@@ -1,4 +1,4 @@
-"""What the records in packages say that they are for, after packages have moved."""
+"""Updates the recorded distribution of packages after a migration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the report of a check goes: standard output or a file, and the summary of a job."""
+"""The destination of a report: standard output or a file, and the job summary."""
 
 from __future__ import annotations
 

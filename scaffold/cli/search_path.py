@@ -1,7 +1,7 @@
-"""Keeps the checked repository off Python's search path.
+"""Removes the current directory from Python's module search path.
 
-``python -m`` and an empty entry of ``PYTHONPATH`` put the current directory on it, in front of the
-standard library: a ``json.py`` of a stranger would run.
+``python -m`` and an empty entry in ``PYTHONPATH`` put the current directory before the standard
+library: a ``json.py`` in the checked repository would be executed.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Reads the configuration for a verb, and tells the user which of it was ignored."""
+"""Loads the configuration for a verb, and warns about what is ignored."""
 
 from __future__ import annotations
 

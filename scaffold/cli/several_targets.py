@@ -1,4 +1,4 @@
-"""``check`` for several distributions: one check for each, and one report."""
+"""``check`` for several distributions: one check for each, one report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks what an editor has not saved yet: standard input, in place of a file of a package."""
+"""Checks standard input in place of a file of a package, for editors."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The distribution of ROS 2 that the README, the containers and the workflows of a repository name.
+"""Finds the distribution named in the README, containers and workflows of a repository.
 
-It is not what packages are checked for: that a README is old is no reason for another verdict. A
-report for another distribution than the author has says so in one line.
+It does not select the target, because findings should not depend on an outdated README. If the
+report is for another distribution, a note says so.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""One line of a terminal that says what is going on, and for how long."""
+"""A status line on a terminal: the current activity and its duration."""
 
 from __future__ import annotations
 

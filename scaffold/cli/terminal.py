@@ -1,7 +1,7 @@
 """The only access to standard output and error; ``tests/cli/test_terminal.py`` ensures that.
 
-Foreign text is neutralized on its way (``scaffold.printable``). Standard output that cannot be
-written ends the run; standard error that cannot be written changes nothing but what is seen.
+Text from checked files is escaped (``scaffold.printable``). If standard output cannot be written,
+the run ends; if standard error cannot be written, only the messages are lost.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What verbs that write do alike: hold the package, and say what an earlier run left."""
+"""Common code of verbs that write: locks the package, reports interrupted runs."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""A Dask cluster: work is handed to its workers, and comes back as it is done."""
+"""Distribution of work over a Dask cluster."""

@@ -1,4 +1,4 @@
-"""The connection to a Dask cluster: tasks go out, every result comes back once."""
+"""The connection to a Dask cluster: submits tasks, returns each result once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Directories as bytes: a worker gets them at the same paths below a directory of its own."""
+"""Directory trees as bytes: workers unpack them at the same relative paths."""
 
 from __future__ import annotations
 

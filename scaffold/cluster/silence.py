@@ -1,4 +1,4 @@
-"""Who in a cluster is no longer heard: a network that is cut need not close a connection."""
+"""Detects silent workers and schedulers: a network failure may not close a connection."""
 
 from __future__ import annotations
 

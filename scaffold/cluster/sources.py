@@ -1,4 +1,4 @@
-"""Packages as bytes: their sources travel to workers."""
+"""The sources of packages as bytes, for workers."""
 
 from __future__ import annotations
 

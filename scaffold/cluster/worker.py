@@ -1,4 +1,4 @@
-"""What runs on the workers of a cluster: they need this tool, of the same version."""
+"""The functions that run on workers, which need the same version of this tool."""
 
 from __future__ import annotations
 

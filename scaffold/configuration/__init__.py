@@ -1,1 +1,1 @@
-"""What the user and the project configure, and which of it is trusted."""
+"""Configuration of the user and the project, and trust."""

@@ -1,12 +1,13 @@
 """The configuration files, and the origin of each value.
 
-``ros2-scaffold.toml``, or ``[tool.ros2-scaffold]`` in ``pyproject.toml``, is the project's: `check`
-looks for it where everything that it checks is, other verbs in the current directory, and both
-above that. ``$XDG_CONFIG_HOME/ros2-scaffold/config.toml`` is the user's. A table ``[check]`` of the
-project wins over the user's key by key; flags win over both. `keys` says what there is.
+``ros2-scaffold.toml``, or ``[tool.ros2-scaffold]`` in ``pyproject.toml``, belongs to the project:
+`check` looks for it in the common directory of everything that it checks, other verbs in the
+current directory, and both in the directories above. ``$XDG_CONFIG_HOME/ros2-scaffold/config.toml``
+belongs to the user. The project's file overrides the user's key by key; flags override both. `keys`
+defines the keys.
 
-The project's file is data of strangers. What is code, the content directories, it may name only if
-the user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
+The project's file is untrusted data. It may name content directories, which are code, only if the
+user trusts its directory (docs/adr/0002-no-import-of-user-code.md).
 """
 
 from __future__ import annotations

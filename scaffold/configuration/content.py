@@ -1,4 +1,4 @@
-"""Where rules and templates are: in the wheel, in a checkout, in the user's own directories."""
+"""The directories with rules and templates: wheel, checkout, and the user's own."""
 
 from __future__ import annotations
 

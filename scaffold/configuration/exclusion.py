@@ -1,4 +1,4 @@
-"""The files that `exclude` skips, by patterns of paths relative to the configuration."""
+"""The files that `exclude` excludes, by patterns relative to the configuration."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Content that is a revision of a git repository: ``URL@REV``.
 
-A repository is fetched only if the user trusts its address by name. What was fetched is kept in the
-user's cache: tags and commits that are there need no network, branches are fetched each time.
+A repository is fetched only if the user trusts its address. Fetched content is kept in the user's
+cache: cached tags and commits need no network, branches are fetched each time.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""The directories whose configuration may name rules and templates, which are code.
+"""The trusted directories and repositories, whose rules and templates may be loaded.
 
-The user trusts them by name, and git repositories that content comes from by their addresses. A
-directory is trusted exactly, as git's ``safe.directory``: not what
-is below it. The list is a file of the user's configuration, a line for each: the owner that the
-directory had then, and its real path. Whoever puts another directory there is another owner.
+The user trusts directories by path, and git repositories by address. Trust applies to exactly that
+directory, like git's ``safe.directory``, not to those below it. The list is a file in the user's
+configuration, with the real path of each directory and its owner at that time: if another user
+replaces the directory, it is no longer trusted.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""What is there of ROS 2 on this machine, what is missing, and what will cost hours."""
+"""Diagnoses the ROS 2 environments of this machine and common mistakes."""

@@ -1,4 +1,4 @@
-"""What the doctor finds."""
+"""A finding of ``doctor``."""
 
 from __future__ import annotations
 

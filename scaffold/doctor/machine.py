@@ -1,4 +1,4 @@
-"""The machine as the doctor reads it: variables and files; nothing is run or sourced."""
+"""A snapshot of variables and files for ``doctor``; nothing is run or sourced."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the doctor has to say, for people and for programs."""
+"""The report of ``doctor``, as text and as JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lines for the start file of a shell: ROS 2, the workspace, an alias, completion."""
+"""Lines for the startup file of a shell: ROS 2, the workspace, an alias, completion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A workspace of colcon: its sources, and what was built of them."""
+"""A colcon workspace: its sources, and its build and install spaces."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What is on disk: files, trees of them, and the user's cache."""
+"""File system access: files, file trees and the user's cache."""

@@ -1,8 +1,8 @@
-"""The user's cache: files that may be dropped at any time, and that nothing damaged is read from.
+"""The user's cache: sealed files that may be deleted at any time.
 
-A file is sealed: it starts with a head, which says who wrote it and of what, and with a checksum of
-its data. One that has another head or that is damaged is ignored. This module is imported
-by every start and imports next to nothing.
+A file starts with a header, which identifies the writer and the inputs, and a checksum of its data.
+Files with another header, and damaged ones, are ignored. Every start imports this module, so it
+imports almost nothing.
 """
 
 from __future__ import annotations

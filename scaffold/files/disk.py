@@ -1,10 +1,10 @@
-"""The file system as `check` sees it: every answer is noted, so that it can be asked again.
+"""The file system as `check` sees it: every access is recorded, for the cache.
 
-A verdict is as good as the answers that it was made of. All that `check` looks at in packages and
-around them is asked here; while ``holds`` finds the same answers, the verdict is the same. Files
-count by their bytes, not by their times: a checkout, a copy or a clock cannot fool that.
+All accesses of `check` to packages and their surroundings go through here. While ``holds`` finds
+the same answers, cached results are valid. Files are compared by content, not by modification time,
+so checkouts, copies and wrong clocks do no harm.
 
-This module is imported by every start of the tool and imports next to nothing.
+Every start imports this module, so it imports almost nothing.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where the user keeps configuration and caches, as the XDG base directories say.
+"""The user's directories for configuration and caches, by the XDG specification.
 
 A relative directory does not count: it would be one of the checked repository.
 """

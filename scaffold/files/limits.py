@@ -1,4 +1,4 @@
-"""How large a file may be to be read: far above what people write."""
+"""Size limits for files, far above what people write."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Temporary files and directories: unguessable names, never an existing file or link."""
+"""Temporary files and directories with unpredictable names; existing ones are not reused."""
 
 from __future__ import annotations
 

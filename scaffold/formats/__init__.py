@@ -1,1 +1,1 @@
-"""Text formats, read with the exact place of every part."""
+"""Parsers for text formats, with exact source locations."""

@@ -1,4 +1,4 @@
-"""Finds the conflict markers that a merge leaves in a file."""
+"""Finds conflict markers of git in a file."""
 
 from __future__ import annotations
 

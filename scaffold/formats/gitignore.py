@@ -1,4 +1,4 @@
-"""Files with patterns of what git ignores, as gitignore(5) defines them."""
+"""Patterns of ``.gitignore`` files, as gitignore(5) defines them."""
 
 from __future__ import annotations
 

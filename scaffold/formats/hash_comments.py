@@ -1,4 +1,4 @@
-"""Comments that begin with ``#``, as CMake, Python, YAML and shells have them."""
+"""Comments that begin with ``#``, as in CMake, Python, YAML and shells."""
 
 from __future__ import annotations
 

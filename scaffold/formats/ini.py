@@ -1,4 +1,4 @@
-"""setup.cfg: sections and options with their places, read the way setuptools reads them."""
+"""setup.cfg: sections and options with locations, parsed as setuptools does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An XML file as elements that know the exact place of every part of them."""
+"""XML elements with the exact location of each part."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Error messages about XML files, more helpful than those of expat."""
+"""Error messages for malformed XML, clearer than those of expat."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads XML files with expat; positions are characters of the text."""
+"""Parses XML with expat; positions are character offsets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A YAML file as a tree with places, read from the parser's events.
+"""YAML documents as trees with locations, built from parser events.
 
 Aliases stay aliases, so a file that multiplies itself costs no more than its length; nothing is
 built from tags.

@@ -1,1 +1,1 @@
-"""The generator: templates and their questions, answers, context, rendered files."""
+"""The generator: templates, questions, answers and rendered files."""

@@ -1,7 +1,7 @@
-"""Checks a draft before anything of it is written: by all rules, and by ament's style.
+"""Checks a package in memory before it is written: rules, and ament's style.
 
-The rules take as long to load as a package takes to draft. `ahead` has a second process load them
-meanwhile; it runs them as soon as it receives the package, and the first process checks style.
+Loading the rules takes as long as drafting a package. `ahead` starts a second process, which loads
+them meanwhile and runs them when it receives the package, while the first process checks style.
 """
 
 from __future__ import annotations

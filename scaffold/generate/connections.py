@@ -1,4 +1,4 @@
-"""What connects the nodes of a package: types, and on topics the quality of service."""
+"""The topics, services and actions that connect nodes: types and QoS."""
 
 from __future__ import annotations
 

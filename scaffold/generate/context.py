@@ -1,4 +1,4 @@
-"""The variables of templates: answers, and the names and texts derived from them."""
+"""The variables of templates: answers, and names and texts derived from them."""
 
 from __future__ import annotations
 

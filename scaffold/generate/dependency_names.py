@@ -1,4 +1,4 @@
-"""Whether the dependencies that a user names exist, before a package is made with them."""
+"""Validates the names of dependencies that the user gives."""
 
 from __future__ import annotations
 

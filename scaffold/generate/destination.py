@@ -1,4 +1,4 @@
-"""Whether a new package may be created where the user wants it."""
+"""Validates the directory for a new package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Turns the user's answers into a package in memory."""
+"""Builds a package in memory from the user's answers."""
 
 from __future__ import annotations
 

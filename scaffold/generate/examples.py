@@ -1,4 +1,4 @@
-"""The examples of templates: packages that must be right, and show what a template is for."""
+"""The examples of templates, which are tests and documentation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sources that the authors of a package wrote: no tests, launch files or vendored code."""
+"""The sources of a package that its authors wrote: no tests, launch or vendored files."""
 
 from __future__ import annotations
 

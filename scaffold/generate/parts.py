@@ -1,4 +1,4 @@
-"""The parts of a package besides its frame: nodes, interfaces, programs."""
+"""The parts of a package: nodes, interfaces and programs."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The git repository that a package is in: what some programs read at its top and nowhere else.
+"""Files that belong at the root of the git repository around a package.
 
 GitHub reads workflows there, pre-commit its configuration, and editors a dev container. A template
-lists such files as ``repository``. For a package below the top of a repository their paths begin
-with `MARK`; everywhere else they are files of the package, which may become a repository.
+lists such files as ``repository``. If a package is below the root of a repository, their paths
+begin with `MARK`; otherwise they are files of the package, which may become a repository.
 """
 
 from __future__ import annotations

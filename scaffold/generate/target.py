@@ -1,4 +1,4 @@
-"""The distributions that a package is for: what templates know of them."""
+"""The target distributions of a package, as a template variable."""
 
 from __future__ import annotations
 

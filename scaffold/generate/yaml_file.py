@@ -1,7 +1,8 @@
-"""Plain data from a YAML file that a user wrote: texts, numbers, yes and no, lists and mappings.
+"""Parses YAML files of users, in a subset of YAML without aliases and tags.
 
-A subset of YAML, so that no file expands without end, builds an object or is ambiguous: a
-date stays the text it is, a key is a text and there once, and aliases and tags are refused.
+The result consists of strings, numbers, booleans, lists and dictionaries. A date stays a string,
+keys are unique strings, and aliases and tags are rejected, so that no file expands without bound,
+constructs an object or is ambiguous.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Names that ROS developers know: packages, their transitive dependencies, and manifest keys."""
+"""Known ROS names: packages, their transitive dependencies, and rosdep keys."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Facts: small values made of files, for whoever need not look at the files themselves.
+"""Facts: small cached values computed from files, so that dependents need not reparse.
 
-What depends on a fact holds until its value changes, whatever else changes in the files; and of
-files that have not changed since an earlier run, facts are known without parsing them.
+Results that depend on a fact are valid until its value changes, whatever else changes in the files.
+Facts about unchanged files come from the cache without parsing.
 """
 
 from __future__ import annotations

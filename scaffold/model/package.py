@@ -1,4 +1,4 @@
-"""A package: its files, and lazy views of them, each parsed once."""
+"""A package: its files, and lazily parsed views of them."""
 
 from __future__ import annotations
 

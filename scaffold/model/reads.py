@@ -1,7 +1,7 @@
-"""Which files a view of a package, or what a rule found, was made of.
+"""Records the files from which a view of a package, or a finding, was derived.
 
-The content of files of the usual formats is followed file by file; after any other change in a
-package everything in it is checked again.
+Changes of content in files of the usual formats invalidate only what depends on those files; any
+other change in a package invalidates everything in it.
 """
 
 from __future__ import annotations

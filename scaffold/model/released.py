@@ -1,4 +1,4 @@
-"""Released packages: what each brings along, from their manifests."""
+"""Released packages and their dependencies, from their manifests."""
 
 from __future__ import annotations
 

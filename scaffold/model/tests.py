@@ -1,4 +1,4 @@
-"""The tests of a package: which functions pytest and unittest call, and with which fixtures."""
+"""The tests of a package: functions that pytest and unittest call, and their fixtures."""
 
 from __future__ import annotations
 

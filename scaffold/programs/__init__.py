@@ -1,1 +1,1 @@
-"""Other programs: where they are, and how this one was installed."""
+"""External programs: how to find and run them, and how this tool was installed."""

@@ -1,4 +1,4 @@
-"""Programs that pip installs together with this tool: ruff and the type checker."""
+"""Programs that pip installs with this tool: ruff and the type checker."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Runs git so that the repository around cannot make it run anything else.
+"""Runs git such that the configuration of a repository cannot execute programs.
 
-A ``.git/config`` may name programs: a file system monitor, hooks, pagers. Git itself looks at the
-owner of a repository only, and an unpacked archive has the owner who unpacked it.
+A ``.git/config`` may name programs: a file system monitor, hooks, pagers. Git itself checks only
+the owner of a repository, and an unpacked archive belongs to the user who unpacked it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""Files as a commit of git has them, and files that differ from it.
+"""Exports the files of a git commit, and lists the files that differ from it.
 
-Only objects are read. Filters, text conversions and transports, which `.git/config` and
-`.gitattributes` may name, are programs: they are never started, and neither is anything of the
-tree that is exported.
+Only git objects are read. Filters, text conversions and transports in `.git/config` and
+`.gitattributes` are programs: they are never started, and nothing in the exported tree is executed.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""How this tool was installed, for the commands that its messages advise.
+"""How this tool was installed, for the commands that its messages suggest.
 
-It is on no package index. A message that names it there would send users to whoever takes the
-name, so a command names the source that the tool came from, or a clone.
+The tool is on no package index, and somebody else could register its name there. So the commands
+name the source from which the tool was installed, or a clone.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Finds programs on the PATH, but none of the current directory: that is a stranger's."""
+"""Finds programs on the PATH, except in the current directory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which distribution of ROS 2 the wheels in a Python environment are; one holds one of them."""
+"""Finds the ROS 2 distribution whose wheels a Python environment contains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reporters: functions that write the results of a check to a stream."""
+"""Reporters: each writes the results of a check to a stream."""
 
 from __future__ import annotations
 

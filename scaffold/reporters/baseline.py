@@ -1,7 +1,7 @@
-"""A baseline: findings that a project has accepted, so that only new ones are reported.
+"""Baselines: accepted findings, so that only new ones are reported.
 
-A file in JSON with an entry for each finding, sorted, one per line: git merges what two branches
-add. An entry holds no line number, so it fits after the lines around it have moved.
+A baseline is a JSON file with one sorted entry per line, so that git can merge the additions of two
+branches. Entries contain no line numbers, so they still match after lines have moved.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Fixes as places in files, for the programs that read a report."""
+"""Fixes as text edits with positions, for machine-readable reports."""
 
 from __future__ import annotations
 

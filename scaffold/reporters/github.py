@@ -1,4 +1,4 @@
-"""Annotations of a workflow of GitHub, and the summary of its job."""
+"""GitHub workflow annotations, and the job summary."""
 
 from __future__ import annotations
 

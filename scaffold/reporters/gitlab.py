@@ -1,4 +1,4 @@
-"""Code Quality of GitLab: a JSON array for ``artifacts: reports: codequality``."""
+"""GitLab Code Quality reports."""
 
 from __future__ import annotations
 

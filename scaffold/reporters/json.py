@@ -1,4 +1,4 @@
-"""One JSON object for programs."""
+"""The JSON report."""
 
 from __future__ import annotations
 

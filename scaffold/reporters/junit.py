@@ -1,4 +1,4 @@
-"""JUnit, as ``colcon test-result`` and CI servers read it: a case per rule and file."""
+"""JUnit reports for ``colcon test-result`` and CI servers: a case per rule and file."""
 
 from __future__ import annotations
 

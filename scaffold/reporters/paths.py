@@ -1,4 +1,4 @@
-"""Paths as a user would type them, and as services know them."""
+"""Paths relative to the current directory or to the repository root."""
 
 from __future__ import annotations
 

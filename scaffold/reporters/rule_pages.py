@@ -1,4 +1,4 @@
-"""The documentation of the rules behind some findings, and where it is."""
+"""The documentation pages of rules, and their URLs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SARIF 2.1.0, for code scanning and for editors."""
+"""SARIF 2.1.0 reports, for code scanning and editors."""
 
 from __future__ import annotations
 

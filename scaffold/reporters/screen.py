@@ -1,4 +1,4 @@
-"""The report on a terminal: errors first, one entry per cause, no more than fits the screen."""
+"""The report on a terminal: errors first, one entry per cause, one screen."""
 
 from __future__ import annotations
 

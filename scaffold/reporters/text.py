@@ -1,4 +1,4 @@
-"""Text for people: a screen that shows what matters, or a line for each finding in a file."""
+"""The text report: a screen on a terminal, one line per finding elsewhere."""
 
 from __future__ import annotations
 

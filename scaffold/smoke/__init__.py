@@ -1,1 +1,1 @@
-"""Builds packages, runs their executables and compares what they do with what they say."""
+"""Builds packages, runs their executables, and compares behavior with the source."""

@@ -1,4 +1,4 @@
-"""What the sources of a package say that its executables do."""
+"""The behavior of executables that the sources of a package declare."""
 
 from __future__ import annotations
 

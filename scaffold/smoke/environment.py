@@ -1,7 +1,7 @@
-"""Which ROS 2 to build and run with, and the variables that make it work.
+"""Selects the ROS 2 environment to build and run with, and its variables.
 
-The first of these is taken: the environment that the user has sourced, an installation below
-``/opt/ros``, and the ROS wheels in the Python environment of this tool.
+The first of these is used: the sourced environment, an installation in ``/opt/ros``, and the ROS
+wheels in the Python environment of this tool.
 """
 
 from __future__ import annotations

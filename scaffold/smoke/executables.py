@@ -1,4 +1,4 @@
-"""Runs the executables of packages at the same time, and judges each."""
+"""Runs the executables of packages in parallel, and evaluates each."""
 
 from __future__ import annotations
 

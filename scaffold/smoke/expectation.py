@@ -1,4 +1,4 @@
-"""What the source of an executable says it does, against what was seen."""
+"""Compares an observed executable with what its source declares."""
 
 from __future__ import annotations
 

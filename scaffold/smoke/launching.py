@@ -1,4 +1,4 @@
-"""Launch files of packages: run like all executables together, in a domain of their own."""
+"""Runs launch files of packages, each in a separate domain."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leads managed nodes through their states, and takes down what comes of each transition."""
+"""Drives lifecycle nodes through their states and records the transitions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Watching an executable from another process."""
+"""Observes an executable from another process."""
 
 from __future__ import annotations
 

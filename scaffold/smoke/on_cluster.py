@@ -1,4 +1,4 @@
-"""Runs packages on the workers of a cluster, and puts the results together."""
+"""Runs packages on the workers of a cluster, and merges the results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Building packages without running them."""
+"""Builds packages without running them."""
 
 from __future__ import annotations
 

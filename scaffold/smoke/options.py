@@ -1,4 +1,4 @@
-"""How a smoke run is done."""
+"""The options of a smoke run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a smoke run finds out: plain data for the reporters."""
+"""The results of a smoke run, as plain data for the reporters."""
 
 from __future__ import annotations
 

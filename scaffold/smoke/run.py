@@ -1,4 +1,4 @@
-"""One run of one executable: start it, watch it, stop it, and leave nothing behind."""
+"""Runs one executable: starts, observes and stops it, and cleans up."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which packages of a workspace are run, and which are built because those need them."""
+"""Selects the packages to run, and those to build because others need them."""
 
 from __future__ import annotations
 

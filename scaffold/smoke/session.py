@@ -1,4 +1,4 @@
-"""Builds packages, runs and observes every executable, and says what is wrong."""
+"""A smoke session: builds packages, runs and observes every executable, reports problems."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Running the tests of packages with ``colcon test``, and reading what they have written."""
+"""Runs the tests of packages with ``colcon test``, and reads the results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All executables of a package in one domain: do their nodes connect?"""
+"""Runs all executables of a package in one domain, and checks their connections."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What packages need of ROS and an environment lacks: named before the build."""
+"""Dependencies that the environment lacks, reported before the build."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Types of what ROS programs call: stubs of the libraries and of the interfaces."""
+"""Type checking of ROS code: stubs for libraries and interfaces, and the type checker."""

@@ -1,4 +1,4 @@
-"""Files with lines that are added for a type checker, and the numbers that lines had before."""
+"""Inserts lines into files for the type checker, and maps line numbers back."""
 
 from __future__ import annotations
 

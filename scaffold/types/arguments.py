@@ -1,9 +1,9 @@
-"""What functions are given by calls, for a type checker that looks at no calls.
+"""Passes argument types from call sites to functions, for the type checker.
 
-``self.say('hello')`` tells what ``say(self, text)`` gets. A line before the call keeps the argument
-under a global name, and a line at the start of the function takes it from there: the type checker
-infers both by itself. An argument is kept in a list, so that ``'hello'`` counts as any str. What
-the author says about the type of the parameter is left out then: no call has to keep to it.
+``self.say('hello')`` implies the type of ``text`` in ``say(self, text)``. A line before the call
+stores the argument in a global name, and a line at the start of the function assigns it to the
+parameter: the type checker infers both. The argument is stored in a list, so that ``'hello'`` is
+any str. The annotation of the parameter is removed, because nothing enforces it.
 """
 
 from __future__ import annotations

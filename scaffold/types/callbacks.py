@@ -1,7 +1,7 @@
-"""What callbacks get: written into the files that a type checker reads, whatever is there.
+"""Annotates callback parameters with message types, for the type checker.
 
-``create_subscription(String, 'chatter', self.on_chatter, 10)`` says what ``on_chatter(self, msg)``
-is called with, as plainly as an annotation. What is added is on the line of the ``def`` alone.
+``create_subscription(String, 'chatter', self.on_chatter, 10)`` implies the parameter type of
+``on_chatter(self, msg)``. Annotations are added on the line of the ``def`` only.
 """
 
 from __future__ import annotations

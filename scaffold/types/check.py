@@ -1,4 +1,4 @@
-"""Types of packages: one run of the type checker over all of them, started in the background."""
+"""Runs the type checker once over all packages, in the background."""
 
 from __future__ import annotations
 

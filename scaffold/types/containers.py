@@ -1,8 +1,8 @@
-"""What is kept in dictionaries and lists that are made empty, for a type checker.
+"""Infers the element types of initially empty containers, for the type checker.
 
-``self.latest = {}`` says nothing about what is in it; ``self.latest[name] = msg`` does. A line
-before it keeps the value under a global name, and the empty dictionary becomes one of such values.
-If anything else may put something into it, it stays as it is.
+``self.latest = {}`` has no element type; ``self.latest[name] = msg`` implies it. A line before that
+assignment stores the value in a global name, and the empty dictionary becomes one of such values.
+If other code may add elements, it is not changed.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The stubs as the type checker reads them: a Python environment that holds nothing else.
+"""A Python environment that contains only the stubs, for the type checker.
 
-It is written once for each version of the stubs, into the user's cache, and found by its name.
+It is written to the user's cache once for each version of the stubs.
 """
 
 from __future__ import annotations

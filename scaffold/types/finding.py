@@ -1,4 +1,4 @@
-"""A report of the type checker about a place of a file, with what the code there is."""
+"""A report of the type checker: its location, message and source code."""
 
 from __future__ import annotations
 

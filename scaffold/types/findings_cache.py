@@ -1,4 +1,4 @@
-"""What the type checker reported about files, by their content and that of all they import."""
+"""A cache of type checker reports, keyed by a file and everything it imports."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Stubs of messages, services and actions, rendered from their definitions.
+"""Renders stubs of messages, services and actions from their definitions.
 
-Each interface has a private module, as in generated code (``std_msgs/msg/_string.pyi``), and the
-public module of its kind exports it. So a type checker reads the interfaces that a program
-uses, and no others.
+Each interface has a private module, as in generated code (``std_msgs/msg/_string.pyi``), which the
+public module of its kind exports, so that a type checker reads only the interfaces that a program
+uses.
 """
 
 from __future__ import annotations

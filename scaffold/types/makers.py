@@ -1,7 +1,7 @@
-"""Functions that return an object of a class that they are given, for a type checker.
+"""Overloads for functions that instantiate a class given as argument.
 
-``def make(kind): return kind()`` returns a Pose if it is given Pose. A head before the function,
-as of an overload, says so; the function itself stays as it is.
+``def make(kind): return kind()`` returns a Pose if its argument is Pose. An overload is added
+before the function, which is not changed.
 """
 
 from __future__ import annotations

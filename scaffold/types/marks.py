@@ -1,8 +1,9 @@
-"""Marks names in stubs with where they are defined, so that messages name them exactly.
+"""Renames classes in stubs so that messages contain their exact module.
 
-A type checker calls a class by its last name: ``Node`` may be that of rclpy, of launch or of the
-user. In the stubs that it reads, ``class Node`` of ``rclpy.node`` is called ``Node·rclpy·node``,
-with ``Node = Node·rclpy·node`` after it. What a message calls ``Node·rclpy·node`` is that class.
+A type checker prints only the last component of a class name: ``Node`` may be that of rclpy, of
+launch or of the user. In the stubs for it, ``class Node`` of ``rclpy.node`` is renamed to
+``Node·rclpy·node``, followed by ``Node = Node·rclpy·node``. Then ``Node·rclpy·node`` in a message
+is exactly that class.
 """
 
 from __future__ import annotations

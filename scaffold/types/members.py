@@ -1,4 +1,4 @@
-"""What the stubs say about a class, a function or a module: names, for hints in messages."""
+"""The members of classes, functions and modules in the stubs, for hints in messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a value comes from, as far as that decides whether its type is certain."""
+"""Where a value comes from, to decide whether its inferred type is certain."""
 
 from __future__ import annotations
 

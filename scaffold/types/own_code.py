@@ -1,7 +1,7 @@
-"""Reports about the classes and functions of the workspace itself, as far as they are certain.
+"""Reports about classes and functions of the workspace itself, where they are certain.
 
-The names of stubs are marked, those of the user's code are not: a report is about the user's code
-if a file that is imported defines what the report names.
+Names in stubs are marked, names in user code are not: a report is about user code if an imported
+file of the workspace defines the name in the message.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""What a file passes to functions and classes of other modules of its package.
+"""The arguments that a file passes to functions and classes of other modules.
 
-Methods that its own classes inherit from there are among them: ``self.send('hello')``.
+These include inherited methods: ``self.send('hello')``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Modules of Python that only some versions have, as far as people use them."""
+"""Standard library modules that only some Python versions have."""
 
 from __future__ import annotations
 

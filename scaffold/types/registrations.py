@@ -1,8 +1,7 @@
-"""Callbacks that are not named where they are registered: out of tables, lambdas and partials.
+"""Callbacks that are registered indirectly: in loops, lambdas and partials.
 
 ``for topic, kind, callback in [('odom', Odometry, self.on_odom), ...]`` with
-``self.create_subscription(kind, topic, callback, 10)`` registers ``on_odom`` as plainly as a call
-of its own.
+``self.create_subscription(kind, topic, callback, 10)`` registers ``on_odom`` like a direct call.
 """
 
 from __future__ import annotations

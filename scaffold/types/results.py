@@ -1,6 +1,6 @@
-"""What functions without annotations return, as far as that is plain whatever they are given.
+"""Return types of unannotated functions that do not depend on arguments.
 
-``return self.x, self.y`` and ``return Pose()`` are plain, and so is what some methods of ROS give.
+Examples are ``return self.x, self.y`` and ``return Pose()``, and the results of some ROS methods.
 """
 
 from __future__ import annotations

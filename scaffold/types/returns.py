@@ -1,8 +1,7 @@
-"""What functions give their callers, for a type checker that looks only at their heads.
+"""Infers return types of functions, for the type checker.
 
-``return self.frames[0]`` tells what a function gives. A line before it keeps the value under a
-global name, and the head of the function names the type of that. The same is done with what a
-generator yields.
+For ``return self.frames[0]``, a line before it stores the value in a global name, and the return
+annotation of the function is the type of that name. The same is done with the values of generators.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""The Python files of a workspace, where a type checker finds them, and what they import.
+"""Copies the Python files of a workspace to where they are importable once installed.
 
-Where a file goes depends on how it is imported once it is installed: the Python package of the
-name of a ROS package is importable by all, every other file (programs, tests, launch files) by
-nobody. What a file imports is read off its text, as all that a type checker may look at.
+The Python package with the name of the ROS package is importable by all files; other files
+(programs, tests, launch files) are not importable. The imports of a file are found in its text, and
+determine which files the type checker reads.
 """
 
 from __future__ import annotations

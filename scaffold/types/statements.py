@@ -1,7 +1,7 @@
-"""Where statements, definitions and names are in a text, as far as that is plain from its lines.
+"""Finds statements, definitions and names in source text without parsing it.
 
-Most is found with ``str.find``, which is many times as fast as an expression that is tried at each
-place.
+Most searches use ``str.find``, which is many times faster than a regular expression tried at each
+position.
 """
 
 from __future__ import annotations

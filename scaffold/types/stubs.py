@@ -1,4 +1,4 @@
-"""Stubs (``.pyi``) of a distribution: its libraries, and all interfaces that are known."""
+"""The stubs (``.pyi``) of a distribution: libraries and interfaces."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Runs ty, a type checker, in the background and reads what it reports.
+"""Runs ty, a type checker, in the background and parses its output.
 
-It runs in a directory that holds nothing but what was put there for it, with a configuration and an
-environment of its own: nothing of the user's is read but the files to check.
+ty runs in a directory that contains only the files written for it, with its own configuration and
+environment: it reads nothing of the user's but the files to check.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The directory with stubs that editors and type checkers read."""
+"""Writes the stubs directory for editors and type checkers."""
 
 from __future__ import annotations
 

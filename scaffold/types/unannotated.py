@@ -1,8 +1,8 @@
-"""Python files without what their authors say about types: a type checker then sees what is so.
+"""Removes annotations that may be wrong, for the type checker.
 
-An annotation may be wrong, as nothing checks it: ``topic: String`` where a str is passed. What
-takes its place has the same length, so that everything else stays where it is. Parameters of
-callbacks keep theirs: what they subscribe to is what they get, unless they are given another value.
+Nothing enforces annotations: ``topic: String`` may be wrong if a str is passed. The replacement has
+the same length, so that locations do not change. Parameters of callbacks keep their annotations
+unless they are called with other values, because the subscription determines their type.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Types as the type checker writes them, and as people read them."""
+"""Formats type names of the type checker for messages."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Writing files: planned, locked, all of it or nothing."""
+"""Writes files atomically: planned, locked, all or nothing."""

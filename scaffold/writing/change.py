@@ -1,4 +1,4 @@
-"""What happens to a file: its state before and after, and how it is called in messages."""
+"""A change of a file: its state before and after, and its name in messages."""
 
 from __future__ import annotations
 

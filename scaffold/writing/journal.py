@@ -1,7 +1,7 @@
-"""The changes that a journal lists, and how far they are done.
+"""The changes listed in a journal, and which of them are done.
 
-A change is done when the stage holds what was before, and not done when it holds what comes after.
-The same step with both swapped undoes it.
+A change is done if the stage contains the old content, and not done if it contains the new content.
+Undoing a change is the same step with both exchanged.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A lock per directory: one process at a time reads a package, decides and writes it.
+"""A lock per directory: one process at a time reads and writes a package.
 
-The lock is on the directory itself. It leaves no file behind, every container that mounts the
-directory sees it, and the kernel releases it when its holder ends, however it ends. A file system
-that cannot lock directories, such as NFS, gets a lock file in the user's cache instead.
+The lock is on the directory itself: it leaves no file behind, is visible in every container that
+mounts the directory, and is released by the kernel when its holder ends. If a file system cannot
+lock directories, such as NFS, a lock file in the user's cache is used instead.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""New files and directories, with the owner and the bits that people expect.
+"""Creates files and directories with the expected owner, mode and attributes.
 
-A file that replaces another one gets its owner, mode and extended attributes, access lists
-included. Hard links are not kept: the other names keep the old content. What root creates in a
-directory of somebody else belongs to them, not to root.
+A file that replaces another one gets its owner, mode and extended attributes, including access
+control lists. Hard links are not preserved: other links keep the old content. Files that root
+creates in a directory of another user belong to that user.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Changes of a `WritePlan` as a patch that ``git apply`` takes."""
+"""Formats the changes of a `WritePlan` as a patch for ``git apply``."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Writing files: a plan is made first, then all of it happens or nothing.
+"""Plans all writes of a run, and then performs all of them or none.
 
-All verbs that write do it through a plan. A new directory appears whole: it is written next to its
-place under a hidden name and renamed. Changes of an existing one are a transaction, which compares
-each file with what was read when the plan was made.
+All verbs that write use a plan. A new directory is written next to its destination under a hidden
+name and then renamed. Changes in an existing directory are a transaction, which compares each file
+with its content at planning time.
 """
 
 from __future__ import annotations

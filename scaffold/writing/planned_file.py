@@ -1,4 +1,4 @@
-"""One file of a plan, and what writing it would do."""
+"""A file in a plan, and the effect of writing it."""
 
 from __future__ import annotations
 

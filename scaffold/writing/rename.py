@@ -1,6 +1,7 @@
-"""Renames that never overwrite anything: into a free place, or an exchange of two files.
+"""Renames that never overwrite: to a free path, or by exchanging two files.
 
-Linux does both in one step. Elsewhere, and on file systems that cannot, several steps come close.
+Linux can do both in one step. On other systems, and on file systems without support, several steps
+are needed, which are almost as safe.
 """
 
 from __future__ import annotations

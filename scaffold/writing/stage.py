@@ -1,4 +1,4 @@
-"""The hidden directory of a package that changes wait in."""
+"""The hidden directory in which changes of a package are staged."""
 
 from __future__ import annotations
 

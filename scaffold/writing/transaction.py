@@ -1,14 +1,13 @@
-"""Changing files of a package: all of them or none, even if the process is killed.
+"""Changes several files of a package atomically, even if the process is killed.
 
-What is written waits in a hidden directory, the stage, next to a journal. Each file is then
-exchanged with the one that it replaces: new content goes to its place and the old file to the
-stage in one step of the kernel, and what came out is compared with what was read. Removing the
-journal is what makes the changes final; until then they can be taken back, by the process itself
-or by the next one that finds the journal.
+New content is first written to a hidden directory, the stage, next to a journal. Each file is then
+exchanged with its replacement in one atomic step of the kernel, and the replaced content is
+compared with what was read. Removing the journal commits the changes; until then they can be rolled
+back, by this process or by the next one that finds the journal.
 
-Files at the top of the repository belong to the same transaction: their paths lead there from the
-package, and its stage and journal are theirs. All of them are on one file system, or the first
-rename fails and nothing is written.
+Files at the root of the repository belong to the same transaction: their paths are relative to the
+package, which holds the stage and the journal. All of them must be on one file system: otherwise
+the first rename fails and nothing is written.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """All codes for what ament's linters report on Jazzy: names, severities, fixes, documentation.
 
-Those of ament_flake8 and ament_pep257 are the codes that people know from flake8 and pydocstyle,
-a line each in ``scaffold/data/style_codes.txt``; what the ini file of the one and the convention
-``ament`` of the other leave out is optional. The other linters of ament have no codes of their own:
-ours are in a module for each linter.
+The codes of ament_flake8 and ament_pep257 are those of flake8 and pydocstyle, one line each in
+``scaffold/data/style_codes.txt``; codes that ament's configuration disables are marked optional.
+The other linters of ament have no codes: this project defines them, in one module per linter.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What is known of a code for what a linter of ament reports."""
+"""The metadata of a code that a linter of ament reports."""
 
 from __future__ import annotations
 

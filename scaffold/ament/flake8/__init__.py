@@ -1,1 +1,1 @@
-"""The verdict of ament_flake8: flake8 and its plugins on Jazzy."""
+"""Reimplementation of ament_flake8: flake8 and its plugins, as on Jazzy."""

@@ -1,7 +1,7 @@
 """A001 to A006: names that hide a builtin or a module of the standard library.
 
-The verdict is that of flake8-builtins: from 2.5 on it has codes of their own for imports, modules
-and the arguments of lambdas.
+The findings are those of flake8-builtins; since 2.5 it has separate codes for imports, modules and
+the arguments of lambdas.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """C400 to C420: calls that a literal or a comprehension would replace.
 
-flake8-comprehensions looks at names and syntax alone; ruff also asks whether the name still refers
-to the builtin, and places some findings at the argument instead of the call.
+flake8-comprehensions checks names and syntax only. ruff also checks that the name refers to the
+builtin, and reports some findings at the argument instead of the call.
 """
 
 from __future__ import annotations

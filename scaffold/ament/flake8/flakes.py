@@ -1,7 +1,7 @@
-"""F codes: what pyflakes reports, with the fixes that ruff has for the same.
+"""F codes: pyflakes itself, with the fixes of ruff for the same findings.
 
-pyflakes itself, which ament_flake8 runs, is the verdict. It walks the tree that is parsed anyway,
-in a twentieth of the time of a cold check.
+pyflakes walks the syntax tree that has been parsed already, which takes a twentieth of a cold
+check.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""F824: ``global`` and ``nonlocal`` for names that their function never assigns."""
+"""F824: ``global`` and ``nonlocal`` for names that the function never assigns."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``# noqa`` the way flake8 reads it; pydocstyle's own way is in ``definitions``."""
+"""``# noqa`` as flake8 parses it; the variant of pydocstyle is in ``definitions``."""
 
 from __future__ import annotations
 

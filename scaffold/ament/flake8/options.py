@@ -1,7 +1,8 @@
-"""The options of flake8, and which codes they report, as flake8 7.0 reads and decides them.
+"""The options of flake8 7.0 and its plugins, and the codes that they select.
 
-The options of the plugins that Jazzy has belong to them. `read` takes the text of a configuration
-file; nothing else of the user's configuration counts, because ament_flake8 always names one file.
+These include the options of the plugins that Jazzy installs. `read` takes the text of a
+configuration file; no other configuration of the user applies, because ament_flake8 always passes
+one file.
 """
 
 from __future__ import annotations

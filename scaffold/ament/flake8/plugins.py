@@ -1,4 +1,4 @@
-"""B901, CNL100 and D001: small plugins of flake8 that some distributions have.
+"""B901, CNL100 and D001: small flake8 plugins that only some distributions have.
 
 flake8-blind-except, flake8-class-newline and flake8-deprecated: Jazzy has none of them.
 """

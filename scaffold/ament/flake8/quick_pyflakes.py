@@ -1,7 +1,7 @@
-"""pyflakes in three fifths of its time: the same visit of a syntax tree, in fewer steps.
+"""pyflakes with a faster visitor: the same findings in three fifths of the time.
 
-At each node the original asks for all scopes; it visits operators, contexts and constants, which
-say nothing, and at each call it asks four times whether a name comes from ``typing``.
+The original evaluates all scopes at each node, visits operators, contexts and constants, for which
+it does nothing, and checks four times at each call whether a name comes from ``typing``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Q000 to Q003: single quotes for strings, double quotes for docstrings and long strings.
 
-That is ament's configuration; a package's own may differ.
+This is ament's configuration; that of a package may differ.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""The verdict of ament_pep257: pydocstyle on Jazzy."""
+"""Reimplementation of ament_pep257: pydocstyle, as on Jazzy."""

@@ -1,4 +1,4 @@
-"""The codes of pydocstyle 6.3.0, and which of them ament_pep257 and flake8-docstrings report."""
+"""The codes of pydocstyle 6.3.0, and which of them each linter reports."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Docstrings checked by pydocstyle itself, for the codes that our port does not have.
+"""Runs pydocstyle itself, for codes that the reimplementation lacks.
 
-Codes for missing docstrings and options such as ignored decorators are in no default configuration.
-Where a package enables them, pydocstyle reads the file as well; messages, places and fixes of what
-both report are still ours.
+Codes for missing docstrings, and options such as ignored decorators, are in no default
+configuration. If a package enables them, pydocstyle checks the file as well; for findings of both,
+our messages, locations and fixes are used.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Modules, classes and functions with their docstrings, the way pydocstyle cuts them."""
+"""Modules, classes and functions with their docstrings, as pydocstyle parses them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fixes for docstrings: their form only; anything that is not plain is left alone."""
+"""Fixes for the form of docstrings; docstrings with unusual quoting are not fixed."""
 
 from __future__ import annotations
 

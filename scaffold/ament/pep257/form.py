@@ -1,4 +1,4 @@
-"""D2xx to D4xx: the form of docstrings, with pydocstyle's verdict.
+"""D2xx to D4xx: the form of docstrings, as pydocstyle checks it.
 
 Each check yields codes with their messages for one definition. The sections of docstrings are
 checked in ``sections``.

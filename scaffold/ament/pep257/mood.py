@@ -1,6 +1,6 @@
 """D401: whether the first word of a docstring is an imperative.
 
-The words are pydocstyle's own lists. They are read as files: importing pydocstyle takes longer
+The word lists are pydocstyle's. They are read as files, because importing pydocstyle takes longer
 than checking a package.
 """
 

@@ -1,7 +1,7 @@
-"""Compares our port of pydocstyle's rules with pydocstyle itself, for ``check --reference``.
+"""``check --reference``: compares the reimplementation with pydocstyle itself.
 
-Slow by design: pydocstyle is imported and every file is read again. What differs is a defect of
-ros2-scaffold, never of the checked package.
+It is slow, because it imports pydocstyle and reads every file again. A difference is a bug in
+ros2-scaffold, never in the checked package.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Fixes of the sections of docstrings: names, dashes below them, and the blank lines between."""
+"""Fixes for the sections of docstrings: names, underlines and blank lines."""
 
 from __future__ import annotations
 

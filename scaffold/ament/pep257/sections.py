@@ -1,7 +1,7 @@
 """D214, D215, D405 to D417: the sections of docstrings.
 
-Without a convention pydocstyle reads a docstring in NumPy's style when it has a section of that
-style, and in Google's style otherwise; both demand dashes below the name of a section.
+Without a configured convention, pydocstyle checks NumPy style if a docstring has a section of that
+style, else Google style; both require a line of dashes below section names.
 """
 
 from __future__ import annotations

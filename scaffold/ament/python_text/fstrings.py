@@ -1,6 +1,6 @@
-"""F-strings as tokens of their parts, as on Python 3.12, or as one string, as before.
+"""Tokens of f-strings: split into parts as on Python 3.12, or one string as before.
 
-The linters see what the Python of their distribution sees: from 3.12 on, spaces, operators and
+The linters see the tokens of the Python of their distribution: since 3.12, spaces, operators and
 line breaks inside the braces count.
 """
 

@@ -1,8 +1,8 @@
-"""Logical lines of a file that Python can parse, found without tokens.
+"""Logical lines of a file that parses, found without the tokenizer.
 
-Tokens take a fifth of the time of a style check, and few lines need them. Here one search finds
-strings and comments, and brackets are counted in what is left of each row; what is out of the
-ordinary is left to the tokenizer.
+Tokenizing takes a fifth of the time of a style check, and few lines need tokens. Here, one regular
+expression finds strings and comments, and brackets are counted in the rest of each row; unusual
+files are left to the tokenizer.
 """
 
 from __future__ import annotations

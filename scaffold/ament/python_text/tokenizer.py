@@ -1,4 +1,4 @@
-"""Tokens as the linters of the target see them, whatever Python is running."""
+"""Tokens as the linters of the target see them, whatever Python runs this tool."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The kinds of tokens, under the same names in every Python."""
+"""The token types, with the same names on every Python version."""
 
 from __future__ import annotations
 

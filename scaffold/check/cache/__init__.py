@@ -1,1 +1,1 @@
-"""What earlier runs of `check` leave in the user's cache."""
+"""Results of earlier runs of `check` in the user's cache."""

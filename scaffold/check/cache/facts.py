@@ -1,4 +1,4 @@
-"""Tells which facts of an earlier run are still the same after some files were edited."""
+"""Decides which cached facts are still valid after some files were edited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks only the packages whose earlier results no longer hold, and remembers the new ones."""
+"""Checks only the packages whose cached results are stale, and caches the new ones."""
 
 from __future__ import annotations
 

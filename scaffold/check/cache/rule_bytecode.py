@@ -1,7 +1,7 @@
-"""The code of all rule files of a directory in one file of the user's cache.
+"""Bytecode of all rule files of a directory in one file of the user's cache.
 
-Two hundred files are looked up, opened and read for longer than their code runs. The one file is
-used only while every rule file has the stamp that it had, so it may be dropped at any time.
+Finding, opening and reading two hundred files takes longer than executing them. The one file is
+used only while no rule file has changed, so it may be deleted at any time.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""What earlier runs of `check` found and reported, and what they accessed (docs/adr/0006).
+"""Findings and reports of earlier runs, with what they accessed (docs/adr/0006).
 
-Two small files in the user's cache: one for what is found, by what findings depend on, and one for
-what was reported, which also depends on how it is shown. A file that is damaged, of another version
-of the tool or of another Python is as good as none. This module is imported by every start and
-imports next to nothing; ``scaffold.check.cache.results`` knows what packages are.
+There are two small files per run in the user's cache: one with the findings, keyed by everything
+that affects findings, and one with the report, which also depends on the display options. Damaged
+files, and those of other versions of the tool or of Python, are ignored. Every start imports this
+module, so it imports almost nothing; ``scaffold.check.cache.results`` handles packages.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a worker process learnt about packages, for the process that started it."""
+"""Transfers what a worker process read about packages to its parent process."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Applies fixes in memory until nothing is left to fix."""
+"""Applies fixes in memory until no more apply."""

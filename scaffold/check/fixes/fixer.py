@@ -1,4 +1,4 @@
-"""Applies fixes in memory: whole fixes that do not overlap, and checks again until none is left."""
+"""Applies non-overlapping fixes to a package in memory, in rounds."""
 
 from __future__ import annotations
 

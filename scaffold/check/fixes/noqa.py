@@ -1,7 +1,8 @@
-"""Gives each finding a fix that silences it: ``noqa: CODE`` in the comment syntax of its file.
+"""Fixes that add ``noqa: CODE``, in the comment syntax of each file.
 
-The fixer applies these as any others, in rounds: a comment may make its line too long, which is
-then silenced as well. A finding without such a fix is in a place where no comment can be.
+The fixer applies these like other fixes, in rounds: if a comment makes its line too long, the next
+round suppresses that as well. A finding without such a fix is at a place where no comment is
+possible.
 """
 
 from __future__ import annotations

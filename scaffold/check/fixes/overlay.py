@@ -1,4 +1,4 @@
-"""Files of a package with changes in memory on top of them."""
+"""A file tree with in-memory changes on top of the files of a package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether an edited file can still be read: better no fix than a broken file."""
+"""Rejects fixes after which an edited file no longer parses."""
 
 from __future__ import annotations
 

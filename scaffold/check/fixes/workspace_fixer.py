@@ -1,9 +1,8 @@
-"""Fixes the packages of a workspace in memory, until nothing more can be fixed in any of them.
+"""Fixes all packages of a workspace in memory, until no more fixes apply.
 
-Most fixes are of style, and the rules would look again at each file that one edits: so style is
-fixed before they look. A fix in one package may change what is found in another. So all packages
-are checked, then all are fixed, and those that changed or that accessed a changed one are checked
-again.
+Most fixes are of style, and each edit of a file would run the rules on it again, so style is fixed
+first. A fix in one package may change the findings of another: all packages are checked, then all
+are fixed, and those that changed or that read a changed one are checked again.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Questions and progress on a terminal."""
+"""Interactive questions and progress bars."""

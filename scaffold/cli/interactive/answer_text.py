@@ -1,4 +1,4 @@
-"""Answers as text: to be edited, as somebody types them, and as the flags of a command."""
+"""Conversion of answers to text: for editing, and as command-line flags."""
 
 from __future__ import annotations
 

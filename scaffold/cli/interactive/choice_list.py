@@ -1,4 +1,4 @@
-"""A list on a terminal that one or several names are chosen from."""
+"""A list for choosing one or several names on a terminal."""
 
 from __future__ import annotations
 

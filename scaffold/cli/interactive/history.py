@@ -1,4 +1,4 @@
-"""The answers so far, so that somebody can go back to the question before."""
+"""The answers so far, for going back to the previous question."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A progress bar where people wait: on a terminal, for long work, and removed afterward."""
+"""A progress bar for long work on a terminal, removed afterward."""
 
 from __future__ import annotations
 

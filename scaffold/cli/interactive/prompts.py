@@ -1,7 +1,7 @@
-"""Questions on a terminal: a line of text, one of some choices, several of them.
+"""Prompts: a line of text, one of several choices, any number of choices.
 
-Everything is shown in ASCII and broken between words, for terminals of any width. Where the
-terminal cannot move its cursor (``TERM=dumb``) the choices are listed and answered by name.
+Output is ASCII and wrapped at word boundaries, for terminals of any width. If the terminal cannot
+move its cursor (``TERM=dumb``), the choices are listed and answered by name.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Asks one question of a template on a terminal, in the way that suits the type of its answer."""
+"""Prompts for one question of a template, according to the type of its answer."""
 
 from __future__ import annotations
 

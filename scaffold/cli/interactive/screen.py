@@ -1,4 +1,4 @@
-"""The terminal that questions are asked on: its size, its abilities, and plain lines on it."""
+"""The terminal for prompts: its size, its capabilities, and plain output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``ros2-scaffold new`` on a terminal, without a name: asks the few questions that matter."""
+"""``ros2-scaffold new`` without a name on a terminal: asks for the essentials."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The verbs of the command line, one module each: its flags and what it does."""
+"""The verbs of the command line: one module each, with flags and implementation."""
 
 from __future__ import annotations
 

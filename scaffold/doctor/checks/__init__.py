@@ -1,6 +1,6 @@
-"""One module for each thing that costs beginners hours: its function ``check`` yields findings.
+"""Checks for common environment mistakes: one module each, with a function ``check``.
 
-The name of a module is the name of its findings; nothing has to be registered.
+A module is named after its findings; nothing has to be registered.
 """
 
 from __future__ import annotations

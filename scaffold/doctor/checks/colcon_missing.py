@@ -1,4 +1,4 @@
-"""There is ROS 2, and nothing to build packages with."""
+"""ROS 2 is installed, but colcon is not."""
 
 from __future__ import annotations
 

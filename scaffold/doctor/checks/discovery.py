@@ -1,4 +1,4 @@
-"""Variables that decide which nodes find each other, and their changes between distributions."""
+"""Variables that control discovery, and their changes between distributions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ROS_DOMAIN_ID is no number that works."""
+"""ROS_DOMAIN_ID is not a usable number."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parts of two distributions of ROS in one shell, or in one workspace."""
+"""Two distributions of ROS are mixed in one shell or one workspace."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ROS 2 is installed, and the shell does not know it."""
+"""ROS 2 is installed, but not sourced."""
 
 from __future__ import annotations
 

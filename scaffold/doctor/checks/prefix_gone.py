@@ -1,4 +1,4 @@
-"""The shell names an installation or a workspace that is not there any more."""
+"""The environment refers to an installation or workspace that no longer exists."""
 
 from __future__ import annotations
 

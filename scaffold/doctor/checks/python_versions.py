@@ -1,4 +1,4 @@
-"""PYTHONPATH names directories of another Python version than the one that runs."""
+"""PYTHONPATH has directories of another Python version than the running one."""
 
 from __future__ import annotations
 

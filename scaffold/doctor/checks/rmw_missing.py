@@ -1,4 +1,4 @@
-"""The middleware that is asked for is not installed."""
+"""The middleware that RMW_IMPLEMENTATION selects is not installed."""
 
 from __future__ import annotations
 

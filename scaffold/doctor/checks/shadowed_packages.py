@@ -1,4 +1,4 @@
-"""The same package in two places that are sourced: the first hides the others."""
+"""A package is sourced from two places: the first one hides the other."""
 
 from __future__ import annotations
 

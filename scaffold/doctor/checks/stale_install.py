@@ -1,4 +1,4 @@
-"""What is installed in the workspace is not what is in its sources."""
+"""The install space of the workspace differs from its sources."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A Python environment is active in which ROS 2 does not work."""
+"""The active Python environment does not work with ROS 2."""
 
 from __future__ import annotations
 

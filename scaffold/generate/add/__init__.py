@@ -1,1 +1,1 @@
-"""Adds parts and extras to a package that exists."""
+"""``add``: adds parts and extras to an existing package."""

@@ -1,4 +1,4 @@
-"""Which executables of CMake are nodes: those that use rclcpp."""
+"""Finds the C++ nodes of a package: CMake executables that use rclcpp."""
 
 from __future__ import annotations
 

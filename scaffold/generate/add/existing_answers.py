@@ -1,4 +1,4 @@
-"""What an existing package has decided, as answers to the questions of templates."""
+"""Derives answers to the questions of templates from an existing package."""
 
 from __future__ import annotations
 

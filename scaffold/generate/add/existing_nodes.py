@@ -1,4 +1,4 @@
-"""The nodes of an existing package, as the files of an extra see them."""
+"""The nodes of an existing package, as variables for the templates of extras."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Adds fields and constants to a message, a service or an action that a package defines already."""
+"""Adds fields and constants to an existing message, service or action."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Adds to a generated package: files not changed since become what `new` generates."""
+"""Adds to a generated package by rendering it again with the new part."""
 
 from __future__ import annotations
 

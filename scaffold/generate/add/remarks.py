@@ -1,4 +1,4 @@
-"""What the user should know of a new node and the others of its package."""
+"""Notes for the user about a new node and the other nodes of its package."""
 
 from __future__ import annotations
 

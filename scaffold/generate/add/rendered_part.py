@@ -1,4 +1,4 @@
-"""Renders what is added to a package: a node, an interface, a program or an extra."""
+"""Renders a part to be added: a node, an interface, a program or an extra."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Edits that add a part to an existing package: existing text keeps its form.
+"""Edits that add a part to an existing package and keep the formatting.
 
-Each module edits one kind of file: a function on its text gives the new text and, where an edit
-is not safe, the lines to write by hand. What is there already is left alone, so that a second run
-changes nothing.
+Each module edits one kind of file: a function takes its text and returns the new text and, where an
+edit is not safe, the lines to add by hand. Additions that exist already are not repeated, so a
+second run changes nothing.
 """

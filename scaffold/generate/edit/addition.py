@@ -1,4 +1,4 @@
-"""What is added to a package, and the outcome of each edit."""
+"""The addition to a package, and the result of each edit."""
 
 from __future__ import annotations
 

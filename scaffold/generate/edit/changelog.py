@@ -1,4 +1,4 @@
-"""Adds lines to the next release in a CHANGELOG.rst like those that are there."""
+"""Adds entries to the next release in CHANGELOG.rst, in the style of existing ones."""
 
 from __future__ import annotations
 

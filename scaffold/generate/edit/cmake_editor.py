@@ -1,4 +1,4 @@
-"""A CMakeLists.txt that is edited step by step: programs, directories, tests."""
+"""Step-by-step edits of a CMakeLists.txt: programs, directories, tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Edits the files of a package so that they mention what is added."""
+"""Edits all files of a package that must mention an addition."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a package keeps its Python programs and tests: new ones go next to them."""
+"""Where a package keeps its Python programs and tests, for new ones."""
 
 from __future__ import annotations
 

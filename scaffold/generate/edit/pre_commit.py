@@ -1,4 +1,4 @@
-"""What an existing configuration of pre-commit is missing."""
+"""Finds the hooks that an existing pre-commit configuration lacks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Adds a part to a README.md like ours: rows of tables, commands, sections."""
+"""Adds a part to a generated README.md: table rows, commands, sections."""
 
 from __future__ import annotations
 

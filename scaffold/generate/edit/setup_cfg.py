@@ -1,4 +1,4 @@
-"""Adds executables to setup.cfg, where the author declares them there."""
+"""Adds executables to setup.cfg, if the entry points are there."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""What generated nodes put into messages, services and actions: code, checks, words.
+"""Code and text with which generated nodes fill messages, services and actions.
 
-What makes a payload is imported when one is asked for: most packages need a single kind.
+Modules for services, actions and messages are imported on demand, because most packages need only
+one of them.
 """
 
 from __future__ import annotations

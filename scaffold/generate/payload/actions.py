@@ -1,4 +1,4 @@
-"""How nodes ask for an action and work on it."""
+"""Code of nodes that send goals, and of those that execute them."""
 
 from __future__ import annotations
 

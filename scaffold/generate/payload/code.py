@@ -1,4 +1,4 @@
-"""Blocks of code: lines with tokens for what depends on their place, loops, local names."""
+"""Code blocks with placeholders that depend on their place, loops and local names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people expect of a topic by the type of its messages: name, quality of service, rate."""
+"""Conventional topic names, QoS and rates by message type."""
 
 from __future__ import annotations
 

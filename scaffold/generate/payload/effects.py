@@ -1,4 +1,4 @@
-"""What statements do to the fields of a message: what a test of the node has to see."""
+"""The fields that statements set, for the assertions of generated tests."""
 
 from __future__ import annotations
 

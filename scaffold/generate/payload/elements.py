@@ -1,4 +1,4 @@
-"""Elements of arrays: their names, their values."""
+"""Elements of array fields: their names and values."""
 
 from __future__ import annotations
 

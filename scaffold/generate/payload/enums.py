@@ -1,4 +1,4 @@
-"""Constants that are the values of a field."""
+"""Constants of an interface that are the values of a field."""
 
 from __future__ import annotations
 

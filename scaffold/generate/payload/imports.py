@@ -1,4 +1,4 @@
-"""What code needs to import."""
+"""The imports of generated code."""
 
 from __future__ import annotations
 

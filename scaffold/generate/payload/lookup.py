@@ -1,4 +1,4 @@
-"""Finds the interfaces that users name, with every message that they contain."""
+"""Finds interfaces by name, with all the messages that they contain."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a node fills a message."""
+"""Code that fills a message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What templates get for an interface: code that fills it, and words about it."""
+"""The template variables for an interface: code that fills it, and descriptions."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a node makes of the messages that it receives, by the types of its input and its output.
+"""Code that computes an output message from an input message, by their types.
 
-A pair of types that is not here passes messages on, if both are the same, or publishes example
-values for each message that arrives.
+For other pairs of types, messages are passed on if both types are the same; otherwise example
+values are published for each message that arrives.
 """
 
 from __future__ import annotations

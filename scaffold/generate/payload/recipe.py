@@ -1,4 +1,4 @@
-"""Recipes: how people fill the messages that they publish most."""
+"""Recipes: how to fill common messages with realistic values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a node fills a section of a service or an action."""
+"""Code that fills a section of a service or an action, such as its request."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How nodes ask and answer a service."""
+"""Code of nodes that call services, and of those that answer them."""
 
 from __future__ import annotations
 

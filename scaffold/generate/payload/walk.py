@@ -1,4 +1,4 @@
-"""Fills a message field by field, as its names, types and constants tell."""
+"""Fills a message field by field, guided by names, types and constants."""
 
 from __future__ import annotations
 

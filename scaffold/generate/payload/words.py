@@ -1,4 +1,4 @@
-"""What the names of fields tell: quantities with their units, texts, flags."""
+"""What the names of fields imply: quantities and their units, texts, flags."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The types of answers: from what the user wrote to a value, or one clear line."""
+"""The types of answers: each parses user input, or raises a one-line error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Answers that the user need not give again: configuration, git, login."""
+"""Default answers from the configuration, git and the login."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The fields of a new interface, as a user writes them: lines such as ``float64 distance``."""
+"""Parses field definitions of new interfaces, such as ``float64 distance``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The names a user may give: packages, nodes, topics; and the names made of them."""
+"""Validates names of packages, nodes and topics, and derives names from them."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Quality of service as a user names it, and as rclpy writes it.
+"""Parses quality of service from the command line, and renders it for rclpy.
 
-A user gives a depth, the name of a profile, or settings with commas between them, such as
+Users write a depth, the name of a profile, or settings separated by commas, such as
 ``best_effort,depth=5``. A setting is ``key=value``, a value that only one key has, a depth, or a
-profile whose other settings hold.
+profile that provides the other settings.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Collects answers from flags, an answers file and the user's configuration.
 
-The flags are the questions of all templates. Of the sources of an answer the first that has one
-wins: flag, answers file, configuration, the default of the template, the user (git, login).
+The flags are the questions of all templates. The first source with an answer is used: flag, answers
+file, configuration, default of the template, user (git, login).
 """
 
 from __future__ import annotations

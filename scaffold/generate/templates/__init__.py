@@ -1,1 +1,1 @@
-"""Templates: what they declare, and how they are rendered."""
+"""Templates: their declaration and rendering."""

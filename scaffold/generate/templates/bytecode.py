@@ -1,4 +1,4 @@
-"""Compiled templates in the user's cache: compiling takes Jinja longer than all else in ``new``."""
+"""A cache of compiled Jinja templates in the user's cache."""
 
 from __future__ import annotations
 

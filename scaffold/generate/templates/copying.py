@@ -1,4 +1,4 @@
-"""Copies a template, or a file of one, to start a template of one's own from."""
+"""Copies a template, or one of its files, as a starting point for your own."""
 
 from __future__ import annotations
 

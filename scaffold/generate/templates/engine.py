@@ -1,4 +1,4 @@
-"""Jinja for one package: finds, compiles and renders files of templates and short texts."""
+"""The Jinja environment for one package: finds, compiles and renders templates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What templates use to write text into files of a language."""
+"""Jinja filters that escape text for the language of a file."""
 
 from __future__ import annotations
 

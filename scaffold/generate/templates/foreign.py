@@ -1,8 +1,7 @@
-"""Templates that are not built in, rendered in a process of their own.
+"""Renders templates that are not built in, in a subprocess with limits.
 
-Jinja's sandbox keeps a template from what it must not touch; it does not keep it from asking for
-gigabytes or from never coming to an end. The process has bounds on memory and time, and when it
-dies nothing has been written.
+Jinja's sandbox restricts access, but neither memory nor time. The subprocess has limits on both,
+and nothing has been written when it is killed.
 """
 
 from __future__ import annotations

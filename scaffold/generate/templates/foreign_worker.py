@@ -1,4 +1,4 @@
-"""The process that renders templates which are not built in; `foreign` starts it."""
+"""The subprocess of `foreign`, which renders templates that are not built in."""
 
 from __future__ import annotations
 

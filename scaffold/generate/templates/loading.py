@@ -1,4 +1,4 @@
-"""Reads the templates of content directories: their places, manifests and questions."""
+"""Loads templates from content directories: manifests, questions and files."""
 
 from __future__ import annotations
 

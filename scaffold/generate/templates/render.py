@@ -1,4 +1,4 @@
-"""Renders the files of a package in memory; what is not built in, in a process of its own."""
+"""Renders the files of a package in memory."""
 
 from __future__ import annotations
 

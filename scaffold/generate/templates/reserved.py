@@ -1,4 +1,4 @@
-"""Names that questions of templates cannot have: they would shadow something of ours."""
+"""Names that questions may not have, because they would shadow template variables."""
 
 from __future__ import annotations
 

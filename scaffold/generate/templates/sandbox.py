@@ -1,4 +1,4 @@
-"""Limits of templates: no Python internals, no files but their own, no endless loops."""
+"""The Jinja sandbox: no Python internals, no other files, no endless loops."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 """Templates: directories with a ``template.yaml`` and ``*.jinja`` files.
 
-A package is built from layers: that of every package, one for its build type, those of its parts
-(nodes, interfaces, programs) and of its extras. The name of a directory is the name of the
-template, and the folder that it lies in is its role; a later content directory replaces a
-template of the same name.
+A package is rendered from layers: the package template, the build type, its parts (nodes,
+interfaces, programs) and its extras. The name of a directory is the name of the template, and its
+parent directory is the role; a later content directory overrides templates with the same name.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""The sidecar of a package's record: each file as the templates gave it, one line per file.
+"""The rendered base of each file of a package, in a sidecar of its record: one line per file.
 
-A line is the path, the hash and the compressed text, with tabs between them. The lines are sorted
-by path, and git keeps those of both sides in a merge (docs/adr/0007-packages-keep-their-origin.md).
+A line consists of the path, the hash and the compressed text, separated by tabs. The lines are
+sorted by path, and git keeps the lines of both sides in a merge
+(docs/adr/0007-packages-keep-their-origin.md).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the templates gave for a package into which two branches have each put something."""
+"""The rendered bases of a package in which two merged branches each added a part."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Three-way merges of one file, as git makes them."""
+"""Three-way merges of single files with git."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a package remembers of its making: the answers, and a hash of each file as it was written.
+"""The record in a package: its answers, and a hash of each generated file.
 
-``update`` merges what changed in the templates since then. The templates of that time may be gone
-when it runs, so a sidecar holds what they gave (docs/adr/0007-packages-keep-their-origin.md).
+``update`` merges the template changes since then. The old templates may not exist any more, so a
+sidecar contains their output (docs/adr/0007-packages-keep-their-origin.md).
 """
 
 from __future__ import annotations

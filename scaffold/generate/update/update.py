@@ -1,4 +1,4 @@
-"""Brings what changed in the templates into a package that was made with older ones."""
+"""Merges template changes into a package that was generated earlier."""
 
 from __future__ import annotations
 

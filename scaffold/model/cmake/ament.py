@@ -1,4 +1,4 @@
-"""What the commands of ament_cmake in a CMakeLists.txt amount to."""
+"""The effects of ament_cmake commands in a CMakeLists.txt."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The condition of an ``if()`` of CMake with three values, where the distribution decides it."""
+"""Evaluates ``if()`` conditions of CMake to true, false or unknown."""
 
 from __future__ import annotations
 

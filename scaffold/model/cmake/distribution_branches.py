@@ -1,6 +1,6 @@
-"""Branches of CMakeLists.txt that are for other distributions.
+"""Branches of CMakeLists.txt that do not run on the target distribution.
 
-They ask for ROS_DISTRO, or for the version of a package that every distribution has one of.
+Their conditions test ROS_DISTRO, or the version of a package that every distribution has.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Edits of CMakeLists.txt that keep comments, order and formatting.
 
-Every function returns ``None`` when the file has errors or offers no safe place, and no edits
-when there is nothing to do.
+Each function returns ``None`` if the file has errors or no safe place for the edit, and no edits if
+nothing has to be done.
 """
 
 from __future__ import annotations

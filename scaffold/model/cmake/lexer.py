@@ -1,8 +1,8 @@
-r"""CMakeLists.txt as tokens: the same ones that CMake's own lexer makes.
+r"""Tokenizes CMakeLists.txt as CMake's own lexer does.
 
-The grammar, in words: an unquoted argument ends at a space, a parenthesis, ``#`` or ``"``; inside
-of one, ``$(X)`` and ``a"b c"`` are kept together (the legacy forms); ``\`` takes the next character
-along; ``[==[`` opens a bracket that only ``]==]`` closes, a comment if ``#`` precedes it.
+An unquoted argument ends at a space, a parenthesis, ``#`` or ``"``; within it, ``$(X)`` and ``a"b
+c"`` are kept together (the legacy forms). ``\`` escapes the next character. ``[==[`` opens a
+bracket argument that only ``]==]`` closes, or a comment if ``#`` precedes it.
 """
 
 from __future__ import annotations

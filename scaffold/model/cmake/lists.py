@@ -1,4 +1,4 @@
-"""CMakeLists.txt: its commands, what it finds, and what it installs."""
+"""CMakeLists.txt: its commands, found packages and installed files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""CMakeLists.txt as commands, with every mistake that CMake itself would stop at."""
+"""Parses CMakeLists.txt into commands, and reports every syntax error of CMake."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ``rosidl_generate_interfaces`` in a CMakeLists.txt generates."""
+"""The interfaces that ``rosidl_generate_interfaces`` generates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The commands of CMake and ament, and the targets that a CMakeLists.txt defines."""
+"""The known commands of CMake and ament, and the targets of a CMakeLists.txt."""
 
 from __future__ import annotations
 

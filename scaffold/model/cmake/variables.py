@@ -1,4 +1,4 @@
-"""The values of variables of a CMakeLists.txt, as far as the file itself determines them."""
+"""The values of CMake variables, as far as the file itself determines them."""
 
 from __future__ import annotations
 

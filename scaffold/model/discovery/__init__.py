@@ -1,1 +1,1 @@
-"""Which packages the paths given by a user select."""
+"""Finds the packages below the paths that a user gives."""

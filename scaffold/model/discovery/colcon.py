@@ -1,4 +1,4 @@
-"""Where colcon finds packages: below a directory, and in the workspace around one."""
+"""Finds packages as colcon does: below a directory, and in the workspace around it."""
 
 from __future__ import annotations
 

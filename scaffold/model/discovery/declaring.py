@@ -1,4 +1,4 @@
-"""What it takes to declare a dependency: a line in package.xml, unless it would close a cycle."""
+"""How to declare a dependency without closing a dependency cycle."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What lies among the sources of a user and is not theirs to change.
+"""Files that somebody else maintains, which `check` excludes by default.
 
-Submodules, what git ignores, vendored code and the copies that editors and synchronization leave
-behind. It is checked where somebody names it, or a directory in it.
+These are git submodules, files that git ignores, vendored code, and the copies that editors and
+file synchronization leave behind. They are checked if the user names them or a directory in them.
 """
 
 from __future__ import annotations

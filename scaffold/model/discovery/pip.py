@@ -1,4 +1,4 @@
-"""What pip is asked for: by pyproject.toml, and by files of requirements around a package."""
+"""Requirements for pip: in pyproject.toml, and in requirements files."""
 
 from __future__ import annotations
 

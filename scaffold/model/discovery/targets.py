@@ -1,4 +1,4 @@
-"""Finding packages below the paths that a user gives, the way colcon does."""
+"""Finds the packages to check below the paths that a user gives, as colcon does."""
 
 from __future__ import annotations
 

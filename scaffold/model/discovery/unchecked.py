@@ -1,8 +1,8 @@
-"""The packages next to those that are checked, in the same workspace or repository.
+"""Packages of the same workspace that are not checked, but may be depended on.
 
-Who gives one package, such as a hook does, still has the others around it: what it takes from them
-is judged as if all had been given. They are looked for only when a name is not known otherwise,
-by their manifests alone; more of one is read only when a rule needs it.
+If only one package is given, for example by a hook, its dependencies on the others are checked as
+if all had been given. They are searched only for unknown names, by their manifests; other files of
+them are read when a rule needs them.
 """
 
 from __future__ import annotations

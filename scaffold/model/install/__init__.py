@@ -1,1 +1,1 @@
-"""What a package installs, and where."""
+"""The files that a package installs, and where."""

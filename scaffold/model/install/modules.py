@@ -1,4 +1,4 @@
-"""The Python modules of a package itself, by the names that it imports them by."""
+"""The importable Python modules of a package."""
 
 from __future__ import annotations
 

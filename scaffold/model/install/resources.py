@@ -1,4 +1,4 @@
-"""Which files of a package its Python modules read from next to themselves."""
+"""Files that Python modules of a package read relative to themselves."""
 
 from __future__ import annotations
 

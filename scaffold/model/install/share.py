@@ -1,4 +1,4 @@
-"""What a package installs below ``share/<package>``, and from where."""
+"""The files installed below ``share/<package>``, and their sources."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Python files that nobody runs: neither installed nor imported, or kept as a copy of old code."""
+"""Python files that nothing runs: not installed, not imported, or backup copies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The interfaces that a package can use: messages, services and actions, with their fields."""
+"""The interfaces available to a package: messages, services and actions."""
 
 from __future__ import annotations
 

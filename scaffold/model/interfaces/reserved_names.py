@@ -1,4 +1,4 @@
-"""Names that the code generated of interfaces cannot have."""
+"""Names that interfaces cannot use, because the generated code would not compile."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where definitions of interfaces come from: the workspace, installed packages, the bundle."""
+"""Where interface definitions come from: workspace, installed packages, bundle."""
 
 from __future__ import annotations
 

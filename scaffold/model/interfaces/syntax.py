@@ -1,7 +1,7 @@
-"""Reads .msg, .srv and .action definitions: fields, constants, and everything that is wrong.
+"""Parses .msg, .srv and .action files, and reports every error.
 
-The verdict is that of rosidl_adapter, which turns these files into IDL when a package is built:
-what it refuses is a problem here, with its place; what it takes is taken, with the same values.
+The findings are those of rosidl_adapter, which converts these files to IDL during the build: what
+it rejects is reported with its location, and what it accepts is accepted with the same values.
 """
 
 from __future__ import annotations

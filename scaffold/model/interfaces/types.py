@@ -1,4 +1,4 @@
-"""Types, names and values as .msg files spell them."""
+"""Types, names and values as written in .msg files."""
 
 from __future__ import annotations
 

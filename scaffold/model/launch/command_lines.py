@@ -1,4 +1,4 @@
-"""The command lines of programs that launch files start, word by word."""
+"""The command lines of programs that launch files start, split into arguments."""
 
 from __future__ import annotations
 

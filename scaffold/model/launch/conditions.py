@@ -1,7 +1,7 @@
-"""What conditions of launch are worth on the target, where they ask for ROS_DISTRO.
+"""Evaluates launch conditions on the target, if they depend on ROS_DISTRO.
 
-What is not known, such as a launch argument, stays a hole in a text; a condition that has some may
-still be decided by the rest of it.
+Unknown parts, such as launch arguments, are placeholders in the text; a condition that contains
+them may still be decided by its other parts.
 """
 
 from __future__ import annotations

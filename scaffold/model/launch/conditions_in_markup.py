@@ -1,4 +1,4 @@
-"""The substitutions in the attributes of launch files in XML and YAML."""
+"""Evaluates substitutions in the attributes of launch files in XML and YAML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The conditions of actions in Python launch files."""
+"""Evaluates the conditions of actions in Python launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which launch configurations have a value when a launch file runs."""
+"""The launch configurations that have a value when a launch file runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Actions of launch files that are for other distributions: their conditions ask for ROS_DISTRO."""
+"""Launch actions that do not run on the target distribution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""In which order a launch file executes its actions, and what they read by then."""
+"""The order in which a launch file executes actions, and the values they read."""
 
 from __future__ import annotations
 

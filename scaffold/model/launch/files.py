@@ -1,4 +1,4 @@
-"""Which files of a package are launch files, and which others belong next to them at run time."""
+"""The launch files of a package, and the other files in their directories."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What launch files include, and the arguments that they give and need."""
+"""The launch files that a launch file includes, with given and required arguments."""
 
 from __future__ import annotations
 

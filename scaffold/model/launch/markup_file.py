@@ -1,4 +1,4 @@
-"""What launch files in XML and YAML say: nodes and packages, with places."""
+"""Launch files in XML and YAML: nodes and packages, with locations."""
 
 from __future__ import annotations
 

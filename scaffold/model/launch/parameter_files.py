@@ -1,4 +1,4 @@
-"""Which nodes read which parameter files, and which sections of them are for which node."""
+"""Which nodes read which parameter files, and which sections."""
 
 from __future__ import annotations
 

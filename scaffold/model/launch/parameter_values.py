@@ -1,4 +1,4 @@
-"""The types of parameters that launch files give one by one."""
+"""The types of parameters that launch files set directly."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a Python launch file says, without running it."""
+"""Static analysis of a Python launch file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The packages and programs that launch files name, in Python and in XML."""
+"""The packages and programs that launch files refer to."""
 
 from __future__ import annotations
 

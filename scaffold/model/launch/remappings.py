@@ -1,4 +1,4 @@
-"""Remappings of launch files, and the names that the nodes have to be remapped."""
+"""Remappings in launch files, and the names that the nodes use."""
 
 from __future__ import annotations
 

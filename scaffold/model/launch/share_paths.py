@@ -1,4 +1,4 @@
-"""Whether the files that launch files name are installed."""
+"""Whether the files that launch files refer to are installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the actions, substitutions and handlers of launch take, as Jazzy has them."""
+"""The parameters of launch actions, substitutions and handlers, as on Jazzy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a Python launch file uses substitutions as if they had a text while it is read."""
+"""Substitutions that a Python launch file uses as if they were already text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""package.xml: what the manifest of a package says, and where."""
+"""package.xml: the values of the manifest, with locations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which of two names of a package is the wrong one."""
+"""Which of two different names of a package is the correct one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text that a generator left to be filled in."""
+"""Placeholder text that a generator wrote."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the Python code of a package needs from other packages: its imports, as manifest keys."""
+"""The dependencies that the Python imports of a package require."""
 
 from __future__ import annotations
 

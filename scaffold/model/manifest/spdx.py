@@ -1,4 +1,4 @@
-"""How people spell licenses, and the SPDX identifiers that they mean."""
+"""SPDX license identifiers, and common other spellings of them."""
 
 from __future__ import annotations
 

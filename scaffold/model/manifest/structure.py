@@ -1,8 +1,8 @@
-"""The elements of package.xml, where and how often they may occur: formats 1 to 3.
+"""The allowed elements of package.xml, their order and number: formats 1 to 3.
 
-The verdict is that of the schemas which ament_xmllint uses, with two deliberate exceptions: a
-dot in a version is a dot (their pattern lets any character pass), and a document type declaration
-is refused by the reader. What differs from them in the other direction would be a defect.
+The findings are those of the schemas that ament_xmllint uses, with two deliberate exceptions: in a
+version, only a dot separates numbers (the pattern of the schemas accepts any character), and
+document type declarations are rejected.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The tags of dependencies in package.xml, and what each declares a package for."""
+"""The dependency tags of package.xml, and the dependency types they declare."""
 
 from __future__ import annotations
 

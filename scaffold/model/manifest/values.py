@@ -1,4 +1,4 @@
-"""The values that a package.xml may hold: which are well-formed, format by format the same."""
+"""Validation of the values in package.xml, for each format."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an action client is given: feedback and results, each inside of a message of rclpy."""
+"""Feedback and results as an action client receives them, wrapped in messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a value that Python code gives to a field of a message fits its type."""
+"""Whether a value fits the type of the message field that it is assigned to."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which message an expression of rclpy code is, where that is certain."""
+"""Infers the message type of expressions in rclpy code, where it is certain."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values of numpy that fields of messages do not take for numbers of Python."""
+"""NumPy values that message fields reject although they look like numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages that are created and published, and whose header certainly lacks its stamp or frame."""
+"""Messages that are published without a stamp or frame in their header."""
 
 from __future__ import annotations
 

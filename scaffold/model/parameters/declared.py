@@ -1,4 +1,4 @@
-"""Which parameters a node declares, and whether the list is certainly complete."""
+"""The parameters that a node declares, and whether the list is complete."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Parameter files: which nodes they are for, and what they give them.
+"""Parameter files: the nodes that they are for, and the values that they set.
 
-The rules are those of rcl's parser, which is not PyYAML: a word is a boolean, a number or text
-as rcl_yaml_param_parser sees it.
+Values are parsed as rcl_yaml_param_parser does, not as PyYAML does: the two differ in which words
+are booleans, numbers or strings.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Names of topics that parameters hold, and whether the package sets them to others."""
+"""Parameters that hold topic names, and whether the package changes them."""
 
 from __future__ import annotations
 

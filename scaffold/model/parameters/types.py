@@ -1,4 +1,4 @@
-"""Of which type a parameter is, when several nodes may be given it."""
+"""The type of a parameter that several nodes may declare."""
 
 from __future__ import annotations
 

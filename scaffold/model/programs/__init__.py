@@ -1,1 +1,1 @@
-"""What the programs of a package do when they run."""
+"""The programs of a package: what runs, and how."""

@@ -1,4 +1,4 @@
-"""Waiting for what the waiting thread itself would have to do."""
+"""Calls that wait for work that only the waiting thread could do."""
 
 from __future__ import annotations
 

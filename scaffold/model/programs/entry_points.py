@@ -1,4 +1,4 @@
-"""What the Python programs of a package run: their functions, the nodes they make."""
+"""The entry points of the Python programs of a package, and the nodes they create."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The programs that ``ros2 run`` finds in a package, and the nodes that they are."""
+"""The executables that ``ros2 run`` finds, and their nodes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What programs do with executors, and what they do after a shutdown of rclpy."""
+"""The use of executors in programs, and what runs after rclpy.shutdown()."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether rclpy is initialized before a program makes its first node."""
+"""Whether rclpy is initialized before a program creates its first node."""
 
 from __future__ import annotations
 

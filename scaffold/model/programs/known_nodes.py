@@ -1,4 +1,4 @@
-"""The nodes in the Python code of packages, as other files see them."""
+"""The nodes in the Python code of a package, for use by other files."""
 
 from __future__ import annotations
 

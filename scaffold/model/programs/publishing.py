@@ -1,4 +1,4 @@
-"""Whether a publisher publishes at all, and how often."""
+"""Whether a publisher ever publishes, and how often."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which threads may run callbacks, and which callbacks exclude each other."""
+"""The threads that may run callbacks, and mutually exclusive callbacks."""
 
 from __future__ import annotations
 

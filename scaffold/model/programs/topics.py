@@ -1,4 +1,4 @@
-"""Who publishes and subscribes to which topic in a package, as far as that is plain."""
+"""The publishers and subscriptions of each topic in a package, where known."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Python files: names, scopes, and values that are certain."""
+"""Python files: names, scopes, and static evaluation."""

@@ -1,4 +1,4 @@
-"""How much code a Python file may hold: far above what people write."""
+"""Size limits for Python files, far above what people write."""
 
 from __future__ import annotations
 

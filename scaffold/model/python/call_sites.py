@@ -1,4 +1,4 @@
-"""Where functions and constructors of a file are called, if that can be known."""
+"""The call sites of functions and constructors in a file, if all are known."""
 
 from __future__ import annotations
 

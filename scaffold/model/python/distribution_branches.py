@@ -1,6 +1,6 @@
-"""Branches of a Python file that are for other distributions: they ask for ROS_DISTRO.
+"""Branches of a Python file that do not run on the target distribution.
 
-They ask for the version of Python as well, which the distribution decides.
+Conditions on the Python version count as well, because the distribution determines it.
 """
 
 from __future__ import annotations

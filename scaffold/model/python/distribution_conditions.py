@@ -1,4 +1,4 @@
-"""Conditions on the distribution: what they are worth on the target, and what stays open."""
+"""Evaluates conditions on the distribution: true, false or unknown on the target."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Static evaluation of expressions: the value where it is certain, else UNKNOWN."""
+"""Static evaluation of expressions: the value if it is certain, else UNKNOWN."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Facts about Python modules that other files ask for: what they import and define."""
+"""Facts about Python modules for other files: their imports and definitions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether an exception goes unnoticed: the code expects it, asks first, or never runs."""
+"""Code whose exceptions do not matter: guarded, caught or never executed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What handlers catch, and what ``with`` expects: the names of exceptions."""
+"""The exceptions that handlers and ``with`` statements catch, by name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that say whether an import went well: what a ``try`` binds, with and without it."""
+"""Flags that record whether an optional import succeeded."""
 
 from __future__ import annotations
 

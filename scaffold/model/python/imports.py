@@ -1,4 +1,4 @@
-"""The imports of a file, and what keeps each of them from running or from failing."""
+"""The imports of a file, and the conditions under which each runs or may fail."""
 
 from __future__ import annotations
 

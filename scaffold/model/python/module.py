@@ -1,4 +1,4 @@
-"""A Python file as data: its imports, its top-level names, and the place of every node."""
+"""A Python file as data: syntax tree, imports, top-level names, locations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the bytes of a Python file to its syntax tree, and what is wrong with a broken one."""
+"""Parses Python source, and explains syntax errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a function returns, and whether it may come to its end without doing so."""
+"""The values that a function returns, and whether it may return none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The version of Python that code runs on, as far as the distribution decides it."""
+"""The Python version that code runs on, as far as the distribution determines it."""
 
 from __future__ import annotations
 

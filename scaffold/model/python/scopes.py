@@ -1,4 +1,4 @@
-"""Which names are bound where: Python's scopes, from the syntax tree alone."""
+"""Scopes and bindings of names, from the syntax tree."""
 
 from __future__ import annotations
 

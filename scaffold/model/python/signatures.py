@@ -1,4 +1,4 @@
-"""Check calls against the signatures of functions in the package."""
+"""Checks calls against the signatures of functions in the package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conditions under which tests are skipped, or expected to fail: marks of pytest and unittest."""
+"""Conditions under which tests are skipped or expected to fail."""
 
 from __future__ import annotations
 

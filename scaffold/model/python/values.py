@@ -1,4 +1,4 @@
-"""Values that expressions are worth, and what Python does with known ones."""
+"""The results of Python operations on known values."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What the rclpy code of one file says."""
+"""The use of rclpy in a single file."""

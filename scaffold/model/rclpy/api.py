@@ -1,4 +1,4 @@
-"""The names that rclpy has on the target distribution, and of which of its classes an object is."""
+"""The names in rclpy on the target distribution, and the classes of objects."""
 
 from __future__ import annotations
 

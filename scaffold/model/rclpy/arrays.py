@@ -1,4 +1,4 @@
-"""Arrays of NumPy in code, and the types that it names by strings."""
+"""NumPy arrays in code, and dtypes that strings name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What nodes have of their own, and what they read of themselves."""
+"""The attributes that a node sets and reads on ``self``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which functions are callbacks, and what they call in turn."""
+"""The callbacks of a file, and the functions that they call."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Calls that mean something else on the target than on the distribution they come from."""
+"""Calls whose meaning differs between the source and the target distribution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Uses of names that the target distribution does not have any more, or that will go."""
+"""Uses of names that the target distribution removed or deprecated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the names of a module are worth for other modules of the package."""
+"""The values of module-level names, for other modules of the package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the calls that create something on a node to entities."""
+"""Turns calls that create something on a node into entities."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rclpy code creates, as data: publishers, timers, parameters ..., with places."""
+"""The entities that rclpy code creates: publishers, timers, parameters and others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What attributes, parameters and arguments in the code of a node are worth."""
+"""Static evaluation of attributes, parameters and arguments in node code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the rclpy code of a Python file says: nodes, what they create, how they are run."""
+"""The rclpy view of a Python file: nodes, entities, and how they are run."""
 
 from __future__ import annotations
 

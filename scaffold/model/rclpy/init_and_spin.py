@@ -1,4 +1,4 @@
-"""How rclpy is started, run and ended."""
+"""Calls that initialize, spin and shut down rclpy."""
 
 from __future__ import annotations
 

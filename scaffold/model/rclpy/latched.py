@@ -1,4 +1,4 @@
-"""The topics whose last message everybody expects to get, however late they come."""
+"""Well-known latched topics, whose last message late subscribers must get."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The calls that log with loggers of rclpy."""
+"""Calls of rclpy loggers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ROS 2 accepts as names of topics, services, nodes and namespaces."""
+"""Valid names of topics, services, nodes and namespaces in ROS 2."""
 
 from __future__ import annotations
 

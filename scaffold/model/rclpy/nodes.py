@@ -1,4 +1,4 @@
-"""The nodes that a file makes: classes of their own, and objects."""
+"""The nodes that a file creates: subclasses of Node, and node objects."""
 
 from __future__ import annotations
 

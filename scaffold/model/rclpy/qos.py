@@ -1,4 +1,4 @@
-"""The quality of service that an expression evaluates to, and whether two of them fit."""
+"""Static evaluation of QoS profiles, and whether two are compatible."""
 
 from __future__ import annotations
 

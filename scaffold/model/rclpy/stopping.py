@@ -1,4 +1,4 @@
-"""Code that runs only while a node is being stopped."""
+"""Code that runs only during the shutdown of a node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Times and durations of rclpy that are used in another unit than they are in."""
+"""rclpy times and durations that are used in the wrong unit."""
 
 from __future__ import annotations
 

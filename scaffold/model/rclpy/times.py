@@ -1,4 +1,4 @@
-"""The clocks that times of rclpy are of, and what is left of a time in whole seconds."""
+"""The clocks of rclpy times, and times truncated to whole seconds."""
 
 from __future__ import annotations
 

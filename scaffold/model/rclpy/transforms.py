@@ -1,4 +1,4 @@
-"""How code uses tf2: buffers, and what is looked up in them."""
+"""The use of tf2 in code: buffers, listeners and lookups."""
 
 from __future__ import annotations
 

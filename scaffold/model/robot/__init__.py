@@ -1,1 +1,1 @@
-"""What describes a robot: URDF and xacro files, and the bridge to its simulation."""
+"""Robot descriptions: URDF and xacro files, and ros_gz_bridge configurations."""

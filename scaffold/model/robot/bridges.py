@@ -1,6 +1,6 @@
-"""Configurations of ros_gz_bridge: which topics of ROS and of Gazebo it connects.
+"""Configurations of ros_gz_bridge: the topics of ROS and Gazebo that it connects.
 
-Read in ros_gz 1.0 (Jazzy): ``bridge_config.cpp`` and ``mappings.py``.
+Derived from ros_gz 1.0 (Jazzy): ``bridge_config.cpp`` and ``mappings.py``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-r"""What xacro makes of the text of an attribute, as far as it is known without arguments.
+r"""Evaluates xacro expressions in attributes, as far as possible without arguments.
 
-A part that only a run knows stays in the text, between two ``\0``: two texts with the same
-unknown part are the same.
+Parts that are only known at run time are kept in the text between two ``\0``: texts with the same
+unknown part compare equal.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""URDF and xacro files of a package and of those around it."""
+"""The URDF and xacro files of a package and of its workspace."""
 
 from __future__ import annotations
 

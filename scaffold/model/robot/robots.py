@@ -1,4 +1,4 @@
-"""The robots of a package: files that stand for themselves, and the parts that others include."""
+"""The robots of a package: top-level files, as opposed to included parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which files of a package its setup.py installs."""
+"""The package data that setup.py installs."""
 
 from __future__ import annotations
 

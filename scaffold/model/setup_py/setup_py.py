@@ -1,4 +1,4 @@
-"""setup.py as data: what the call of setup() says."""
+"""setup.py as data: the arguments of setup()."""
 
 from __future__ import annotations
 

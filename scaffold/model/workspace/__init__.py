@@ -1,1 +1,1 @@
-"""The packages around one, and what the machine knows of others."""
+"""The workspace around a package, and packages known to this machine."""

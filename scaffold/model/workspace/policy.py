@@ -1,4 +1,4 @@
-"""What the configuration of a project says that rules have to know."""
+"""Project settings that rules read, such as allowed licenses."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The keys that rosdep resolves, as its own cache on this machine knows them.
+"""The keys in rosdep's local cache.
 
-``rosdep update`` stores each of its sources as a pickle of plain dictionaries. A pickle can run
-code when it is loaded, so only plain containers and texts are let in. Loading all takes longer
-than the check of a package, so a key is first looked for in the bytes.
+``rosdep update`` stores each of its sources as a pickle of plain dictionaries. Unpickling can
+execute code, so only plain containers and strings are allowed. Loading them all takes longer than
+checking a package, so a key is first searched in the raw bytes.
 """
 
 from __future__ import annotations

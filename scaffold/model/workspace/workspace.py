@@ -1,4 +1,4 @@
-"""The packages of a workspace, by name, and which of them a verdict needs."""
+"""The packages of a workspace by name, and the dependencies of results on them."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Cleanup: leaves nothing behind, however a run ends."""
+"""Cleanup after a run, however it ends."""

@@ -1,4 +1,4 @@
-"""The signals that ask for the end of a run, and what becomes of the run then."""
+"""Signals that interrupt a run, and how the run ends then."""
 
 from __future__ import annotations
 

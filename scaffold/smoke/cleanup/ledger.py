@@ -1,8 +1,8 @@
-"""What a run has started and made, written down so that a later run can remove it.
+"""A ledger of started processes and created files, so that a later run can clean up.
 
-A ledger is a file of JSON lines in the user's state directory. Its run holds a lock on it, which
-the kernel takes back however the run ends: a ledger without a lock belongs to a dead run. The
-supervisors of the run add the processes and the shared memory that they see.
+A ledger is a file of JSON lines in the user's state directory. The run holds a lock on it, which
+the kernel releases when the process ends: a ledger without a lock belongs to a dead run. The
+supervisors of the run add the processes and shared memory that they see.
 """
 
 from __future__ import annotations

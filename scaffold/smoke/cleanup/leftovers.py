@@ -1,4 +1,4 @@
-"""What killed runs have left behind: listed in their ledgers, removed by the next run."""
+"""Cleans up after killed runs, by their ledgers."""
 
 from __future__ import annotations
 

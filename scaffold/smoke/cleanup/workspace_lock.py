@@ -1,4 +1,4 @@
-"""One run at a time in a workspace: two would build over each other."""
+"""A lock that allows one run at a time in a workspace."""
 
 from __future__ import annotations
 

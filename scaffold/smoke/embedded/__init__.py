@@ -1,1 +1,1 @@
-"""What the ROS wheels lack: interfaces that the bundle knows are generated and built."""
+"""Builds interface packages that the ROS wheels lack, from the bundled definitions."""

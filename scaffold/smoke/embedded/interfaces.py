@@ -1,4 +1,4 @@
-"""Interface packages that the ROS wheels lack: built once, and remembered between runs."""
+"""Builds interface packages that the ROS wheels lack, and caches the results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Interface packages of the bundle, written so that colcon can build them."""
+"""Writes bundled interface packages as sources that colcon can build."""
 
 from __future__ import annotations
 

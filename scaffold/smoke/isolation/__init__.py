@@ -1,1 +1,1 @@
-"""Keeps one executable under test apart from everything else."""
+"""Isolates an executable under test from everything else."""

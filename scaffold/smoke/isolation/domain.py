@@ -1,4 +1,4 @@
-"""A ROS domain for every executable under test, so that none sees the messages of another."""
+"""A separate ROS domain for each executable under test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shared memory that processes leave behind: Fast DDS when it is killed, others by mistake."""
+"""Shared memory segments that processes leave behind, such as those of Fast DDS."""
 
 from __future__ import annotations
 

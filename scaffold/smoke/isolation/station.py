@@ -1,4 +1,4 @@
-"""A place to run one executable: a ROS domain of its own, with an observer in it."""
+"""A slot for running one executable: a ROS domain with an observer."""
 
 from __future__ import annotations
 

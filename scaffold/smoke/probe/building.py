@@ -1,4 +1,4 @@
-"""Messages made of plain data, and the values of their fields."""
+"""Builds messages from plain data, and reads values of their fields."""
 
 from __future__ import annotations
 

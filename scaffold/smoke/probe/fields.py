@@ -1,4 +1,4 @@
-"""The values that fields of messages take."""
+"""Records the values of selected message fields."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What nodes write to the log, as they publish it on ``/rosout``."""
+"""Records log messages from ``/rosout``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The observing node: looks at the graph, subscribes to what is new, and reports."""
+"""The observing node: watches the graph, subscribes to new topics, and reports."""
 
 from __future__ import annotations
 

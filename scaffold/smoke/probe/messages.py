@@ -1,4 +1,4 @@
-"""Messages as JSON knows them."""
+"""Converts messages to JSON data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parameters of nodes, with their values: each node is asked once."""
+"""Reads the parameters of nodes, once per node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The quality of service of the endpoints of a topic."""
+"""The quality of service of publishers and subscriptions."""
 
 from __future__ import annotations
 

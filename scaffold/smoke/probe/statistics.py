@@ -1,4 +1,4 @@
-"""Figures about a stream of numbers, in a memory that does not grow with it."""
+"""Streaming statistics in constant memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the observer does to executables: calls of services and actions, and messages."""
+"""Stimuli for executables: service calls, goals and messages."""
 
 from __future__ import annotations
 

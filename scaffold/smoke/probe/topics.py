@@ -1,4 +1,4 @@
-"""What is received on a topic."""
+"""Records the messages of a topic."""
 
 from __future__ import annotations
 

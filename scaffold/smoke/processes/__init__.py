@@ -1,1 +1,1 @@
-"""The processes of a run, those that escape included."""
+"""The processes of a run, including those that detach."""

@@ -1,4 +1,4 @@
-"""The relevant lines of what a build or an executable has written."""
+"""Extracts the relevant lines from the output of a build or an executable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Starting processes and ending them, with all that they have started."""
+"""Starts processes, and ends them with all their descendants."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What commands leave behind once they have ended: processes, and shared memory."""
+"""Processes and shared memory that remain after a command has ended."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs one command so that nothing in it outlives the run, whatever the command or we do.
+"""A subprocess that runs one command and ends all of its descendants.
 
 This is a process of its own, between ``smoke`` and the command. It is the subreaper of all that the
 command starts: what detaches itself comes back here. Its life hangs on a socket. When that closes,

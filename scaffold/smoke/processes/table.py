@@ -1,4 +1,4 @@
-"""The processes of this machine, as the kernel lists them."""
+"""The process table of this machine."""
 
 from __future__ import annotations
 

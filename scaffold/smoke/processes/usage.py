@@ -1,4 +1,4 @@
-"""Memory and processor time of a command and of all that it has started."""
+"""CPU time and memory of a command and all its descendants."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures, quality of service, parameters and logs in words that people read."""
+"""Formats measurements, QoS, parameters and logs as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A smoke run as annotations of a workflow of GitHub, and the summary of its job."""
+"""GitHub workflow annotations and a job summary of a smoke run."""
 
 from __future__ import annotations
 

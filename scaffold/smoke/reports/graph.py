@@ -1,4 +1,4 @@
-"""The nodes and topics of an executable as a picture in layers, from left to right."""
+"""Draws the nodes and topics of an executable as a layered graph."""
 
 from __future__ import annotations
 

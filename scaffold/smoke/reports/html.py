@@ -1,4 +1,4 @@
-"""A smoke run as one page that needs nothing but a browser."""
+"""The HTML report of a smoke run: one self-contained page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A smoke run as JUnit: a suite per package, a case for its build and for each executable."""
+"""The JUnit report of a smoke run: a suite per package, a case per executable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rate of a topic over time, as the points of a line."""
+"""Plots the rate of a topic over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The JSON schema of the report, made from the types of ``shape``."""
+"""Generates the JSON schema of the report from the types of ``shape``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shape of the JSON report; its schema is made from these types."""
+"""The types of the JSON report, from which its schema is generated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a smoke run found out, for people."""
+"""The text report of a smoke run."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What an author expects of executables: ``smoke.yaml`` in the package."""
+"""``smoke.yaml``: the expectations of the author."""

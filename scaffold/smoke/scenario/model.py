@@ -1,4 +1,4 @@
-"""What an author expects of a package, as data."""
+"""The data model of ``smoke.yaml``."""
 
 from __future__ import annotations
 

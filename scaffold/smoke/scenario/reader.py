@@ -1,4 +1,4 @@
-"""Reads ``smoke.yaml``; what is wrong with it is one line with the place."""
+"""Parses ``smoke.yaml``; each error is one line with its location."""
 
 from __future__ import annotations
 

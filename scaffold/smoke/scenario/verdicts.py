@@ -1,4 +1,4 @@
-"""What an author expects of an executable, against what was seen."""
+"""Compares an observed executable with the expectations in ``smoke.yaml``."""
 
 from __future__ import annotations
 

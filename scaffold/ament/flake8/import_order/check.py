@@ -1,9 +1,9 @@
-"""I100, I101, I201, I202, I300, I666: the order of imports, in the style that is asked for.
+"""I100, I101, I201, I202, I300, I666: the order of imports, in the configured style.
 
-That of ament is called ``google``. Only statements that start in the first column count. Each is
-compared with the one before it: first by group (``__future__``, standard library, third party,
-own, relative), then by the modules and at last by the imported names; the styles differ in what
-comes between these, and in whether the case of letters counts.
+The style of ament is ``google``. Only statements in the first column count. Each is compared with
+the previous one: first by group (``__future__``, standard library, third party, own, relative),
+then by module, and last by imported names. The styles differ in the criteria between these and in
+case sensitivity.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""An import statement as flake8-import-order sees it: its group, and what it is sorted by."""
+"""An import statement as flake8-import-order sees it: its group and its sort key."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
-"""E121 to E133: where the continuation lines of a statement may start.
+"""E121 to E133: the indentation of continuation lines.
 
-The rules are those of PEP 8 as pycodestyle reads them. E121, E123, E126 and E133 are reported by
-configurations other than ament's.
+E121, E123, E126 and E133 are only reported with a configuration other than ament's.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""E111 to E117: how far statements and comments are indented."""
+"""E111 to E117: the indentation of statements and comments."""
 
 from __future__ import annotations
 

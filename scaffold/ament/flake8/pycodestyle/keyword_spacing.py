@@ -1,6 +1,6 @@
 """E251, E252, E275: spaces around the ``=`` of arguments, and after keywords.
 
-On Python 3.12 the ``=`` of ``f'{value = }'`` inside a call counts as that of an argument, too.
+On Python 3.12, the ``=`` of ``f'{value = }'`` inside a call also counts as that of an argument.
 """
 
 from __future__ import annotations

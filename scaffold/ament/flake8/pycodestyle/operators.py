@@ -1,7 +1,7 @@
 """E221 to E228, E231, E271 to E274: spaces around operators and keywords, and after punctuation.
 
-ruff finds the lines, this decides which code they get: a space on one side only is E225 for
-pycodestyle whatever the operator, and spaces before a line break do not count.
+ruff finds the lines, and this module determines the code: to pycodestyle, a space on one side only
+is E225 for every operator, and spaces before a line break do not count.
 """
 
 from __future__ import annotations

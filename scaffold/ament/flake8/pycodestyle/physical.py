@@ -1,4 +1,4 @@
-"""E101, E501, W191, W29x, W391: errors in a physical line."""
+"""E101, E501, W191, W29x, W391: checks of physical lines."""
 
 from __future__ import annotations
 

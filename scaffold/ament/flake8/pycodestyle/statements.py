@@ -1,6 +1,6 @@
-"""E2, E4 and E7 codes where ruff's verdict is not pycodestyle's, judged on logical lines.
+"""E2, E4 and E7 codes for which ruff and pycodestyle differ, checked on logical lines.
 
-A search over the raw text chooses the lines worth a look, so that a clean file costs little.
+A regular expression over the whole text selects candidate lines, so that clean files are cheap.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Recipes by package: one module each, with ``RECIPES`` by the name of the message."""
+"""Recipes by package: one module each, with ``RECIPES`` by message name."""

@@ -1,4 +1,4 @@
-"""What callbacks for parameters return, where that is not what rclpy needs."""
+"""Return values of parameter callbacks that rclpy rejects."""
 
 from __future__ import annotations
 

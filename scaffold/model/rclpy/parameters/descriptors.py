@@ -1,4 +1,4 @@
-"""What the descriptor of a parameter says: ranges, whether it may change, and its type too."""
+"""Parameter descriptors: ranges, read-only flags and types."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parameters whose values divide something."""
+"""Parameters that are used as divisors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which expressions are objects of rclpy's Parameter, and of which parameter of the node."""
+"""Expressions that are rclpy Parameter objects, and which parameter they are."""
 
 from __future__ import annotations
 

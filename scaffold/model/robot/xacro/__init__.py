@@ -1,1 +1,1 @@
-"""What xacro makes of a file, as far as that is known without its arguments."""
+"""Static expansion of xacro files."""

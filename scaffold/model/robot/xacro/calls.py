@@ -1,4 +1,4 @@
-"""Binds the attributes and the blocks of a call to the parameters of a macro."""
+"""Binds the attributes and blocks of a macro call to the parameters of the macro."""
 
 from __future__ import annotations
 

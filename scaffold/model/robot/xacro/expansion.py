@@ -1,7 +1,7 @@
-"""What xacro makes of a file: its elements after all macros, as far as that is known.
+"""Expands the macros of a xacro file, as far as possible without arguments.
 
-Arguments are not known here, so what depends on them may be there or not; a file that cannot be
-included leaves names open.
+The values of arguments are unknown, so elements that depend on them may or may not exist; if an
+included file cannot be read, undefined names are not reported.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What xacro writes: elements, and the files that they name."""
+"""The output of an expansion: elements, and the files that they refer to."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong in a file for xacro, and how much of it is known."""
+"""Errors that xacro would report, and how complete the expansion is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What names mean where xacro is: macros, properties and blocks."""
+"""Scopes of xacro: macros, properties and blocks by name."""
 
 from __future__ import annotations
 

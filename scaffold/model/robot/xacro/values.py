@@ -1,4 +1,4 @@
-"""What texts are after xacro has evaluated their expressions and commands."""
+"""The values of texts after xacro has evaluated expressions and substitutions."""
 
 from __future__ import annotations
 
