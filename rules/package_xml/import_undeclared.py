@@ -26,6 +26,8 @@ _BUILD = "python3-setuptools"
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
+
 
 def _manifest(*lines: str) -> str:
     """Return the package.xml of an example; a name stands for an ``<exec_depend>``."""
@@ -33,7 +35,7 @@ def _manifest(*lines: str) -> str:
         line if line.startswith("<") else f"<exec_depend>{line}</exec_depend>" for line in lines
     )
     text = "".join(f"  {element}\n" for element in elements)
-    return f'<package format="3">\n  <name>talker</name>\n{text}</package>\n'
+    return _MANIFEST.format(text)
 
 
 class ImportUndeclared(Rule):

@@ -391,6 +391,18 @@ class ArgumentTypeUnfit(TypeRule):
             "geometry_msgs.msg.Pose: it cannot be published",
         ),
         Example(
+            "a list of elements of another type",
+            {
+                "way.py": "from geometry_msgs.msg import Pose\n"
+                "from nav_msgs.msg import Path\n\n\n"
+                "def joined(points: list):\n"
+                "    poses = [Pose() for _ in points]\n"
+                "    return Path(poses=poses)\n"
+            },
+            "7:17: elements of 'poses' must be a geometry_msgs.msg.PoseStamped, not a "
+            "geometry_msgs.msg.Pose: it cannot be published",
+        ),
+        Example(
             "a name for a class, an object for a function",
             {
                 "read.py": "from launch_ros.actions import LifecycleNode\n"

@@ -143,8 +143,8 @@ class TreeBroken(Rule):
                     "</robot>", '  <gazebo reference="lidar"><sensor name="a"/></gazebo>\n</robot>'
                 )
             },
-            "8:22: gazebo is about 'lidar', which is not a link or joint of this robot: Gazebo "
-            "ignores it",
+            "8:22: gazebo reference 'lidar' is not a link or joint of this robot: Gazebo ignores "
+            "it",
         ),
         Example(
             "a gazebo element of an unknown link",

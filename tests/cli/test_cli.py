@@ -315,7 +315,7 @@ def test_per_path_ignores(flawed: Path) -> None:
         ("[checks]\nselect = []\n", "unknown table [checks]; did you mean 'check'?"),
         ("[tool.ros2-scaffold]\n", "unknown table [tool]: write [check] instead of [tool.ros2-"),
         ("[lint]\nselect = []\n", "unknown table [lint]; choose from check, new"),
-        ("select = []\n", "'select' must be in a table; did you mean 'select' in [check]?"),
+        ("select = []\n", "'select' must be in the table [check]"),
         ("[check]\nselect = ['XX']\n", "ros2-scaffold.toml: select: no rule has the name 'XX'"),
         (
             "[check.per-path-ignores]\n'a.py' = ['CM9999']\n",

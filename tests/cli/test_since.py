@@ -90,7 +90,7 @@ def test_changed_and_new_files_are_reported(
     assert [line.split(": ")[0] for line in lines[:-2]] == [
         "third/third/old.py:1:1",
         "third/third/old.py:2:1",
-        "left out",
+        "excluded by default",
     ], "a changed file is reported whole"
 
 
