@@ -23,7 +23,7 @@ from scaffold.model.package import Package
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
-from scaffold.model.rclpy.uncalled import is_in_uncalled_function
+from scaffold.model.rclpy.uncalled import is_in_uncalled_function, may_be_in_uncalled_function
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -163,6 +163,8 @@ def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether code is in a function that nothing calls."""
     at = diagnostic.location
     try:
+        if not may_be_in_uncalled_function(package, at.path, at.line):
+            return False
         return is_in_uncalled_function(package, package.module(at.path), at.line)
     except ViewError:
         return False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
@@ -15,9 +16,39 @@ if TYPE_CHECKING:
     from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import FunctionNode
 
+_WORD = re.compile(r"\w+")
+_DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
 _LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """What finds a function by a name that is only made when the program runs."""
+
+
+def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
+    """Tell whether a line may be in such a function; this costs less than to parse the file.
+
+    Raises:
+        ViewError: the file cannot be read.
+    """
+
+    def find() -> tuple[int, ...]:
+        try:
+            text = package.data(path).decode()
+        except UnicodeDecodeError:
+            return (1,)
+        is_launch_file = path.endswith("launch.py")
+        if is_launch_file and "__main__" in text:
+            return (1,)
+        if not is_launch_file and "main" not in text:
+            return ()
+        count = Counter(_WORD.findall(without_comments(text)))
+        return tuple(
+            text.count("\n", 0, match.start()) + 1
+            for match in _DEFINITION.finditer(text)
+            if count[match[1]] == 1
+        )
+
+    starts = package.remember(("functions named once", path), find)
+    return any(start <= line for start in starts)
 
 
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
