@@ -173,13 +173,16 @@ def _hands_on(file: RclpyFile, use: ast.Name | ast.Attribute) -> bool:
 
 def _is_once(file: RclpyFile, spin: RclpyCall) -> bool:
     """Return whether a program that starts here spins its node once and ends."""
-    if spin.name != "spin_once" or spin.function is None or not file.module.has_main_guard:
+    if spin.name != "spin_once" or spin.function is None:
         return False
+    is_program = file.module.has_main_guard or getattr(spin.function, "name", "") == "main"
     in_loop = any(
         isinstance(parent, ast.For | ast.While) and parent.lineno > spin.function.lineno
         for parent in file.module.parents(spin.call)
     )
-    return not in_loop and spin.function in {init.function for init in file.init_calls}
+    return (
+        is_program and not in_loop and spin.function in {init.function for init in file.init_calls}
+    )
 
 
 def _waits(node: NodeDefinition) -> bool:

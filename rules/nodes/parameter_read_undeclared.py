@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import ast
+from collections.abc import Iterator, Mapping
 
 from scaffold.api import Diagnostic, Example, Package, RclpyRule, closest_name
 from scaffold.api.parameters import declared_alone, has_always
-from scaffold.api.python import is_handled
-from scaffold.api.rclpy import Parameter, ParameterRead, RclpyFile, names_used_by
+from scaffold.api.python import FunctionNode, is_handled
+from scaffold.api.rclpy import (
+    NodeClass,
+    NodeDefinition,
+    Parameter,
+    ParameterRead,
+    RclpyFile,
+    names_used_by,
+)
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -26,6 +34,15 @@ _LISTED = (
 _OTHERS = (
     "        names = self.get_parameters(['rate', 'rats'])\n"
     "        self.undeclare_parameter('rates')\n"
+)
+_LOADING = (
+    "from rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n{}"
+    "        self.load()\n{}\n"
+    "    def load(self):\n"
+    "        self.rate = self.get_parameter('rate').value\n"
 )
 
 
@@ -79,6 +96,18 @@ class ParameterReadUndeclared(RclpyRule):
             "mean 'rate'?",
         ),
         Example(
+            "declared after the call of a method that reads it",
+            {
+                "talker.py": _LOADING.format("", _DECLARED),
+                "first.py": _LOADING.format(_DECLARED, ""),
+                "both.py": _LOADING.format("        self.declare()\n", "        self.declare()\n")
+                + "\n    def declare(self):\n"
+                + _DECLARED,
+            },
+            "talker.py:11:21: load() reads parameter 'rate' in line 7, before it is declared in "
+            "line 8: ParameterNotDeclaredException",
+        ),
+        Example(
             "declared too late",
             {"talker.py": _NODE.format("", _DECLARED)},
             "7:21: parameter 'rate' is read before it is declared in line 8: "
@@ -92,7 +121,7 @@ class ParameterReadUndeclared(RclpyRule):
             for parameter in declared:
                 by_name.setdefault(str(parameter.name), []).append(parameter)
             for read in node.parameter_reads:
-                message = _message(package, read, by_name)
+                message = _message(package, read, by_name) or _called_early(node, read, by_name)
                 if message and not is_handled(
                     node.facts.module, read.call, "ParameterNotDeclaredException"
                 ):
@@ -126,6 +155,49 @@ def _message(package: Package, read: ParameterRead, declared: dict[str, list[Par
             "ParameterNotDeclaredException"
         )
     return ""
+
+
+def _called_early(
+    node: NodeDefinition, read: ParameterRead, declared: Mapping[str, list[Parameter]]
+) -> str:
+    """Return the problem with a read in a method that the constructor calls too early."""
+    same = declared.get(str(read.name), [])
+    if not isinstance(node, NodeClass) or not same or read.method != "get_parameter":
+        return ""
+    reading, *_ = [*_places(node, read.function, is_certain=True), 0]
+    declaring = [
+        [other.location.line]
+        if other.function is node.constructor
+        else [*_places(node, other.function, is_certain=False)]
+        for other in same
+    ]
+    if not reading or read.is_conditional or not all(declaring):
+        return ""
+    line = min(map(min, declaring))
+    if line <= reading or read.function is None:
+        return ""
+    return (
+        f"{read.function.name}() reads parameter {read.name!r} in line {reading}, before it is "
+        f"declared in line {line}: ParameterNotDeclaredException"
+    )
+
+
+def _places(node: NodeClass, method: FunctionNode | None, *, is_certain: bool) -> Iterator[int]:
+    """Yield the lines of the constructor that call a method.
+
+    Args:
+        node: The class.
+        method: The method.
+        is_certain: Whether only calls count that are always made.
+    """
+    file = node.facts
+    if node.constructor is None or method is None or node.methods.get(method.name) is not method:
+        return
+    for call in file.calls_in(node.constructor):
+        match call.func:
+            case ast.Attribute(value=ast.Name(id="self"), attr=name) if name == method.name:
+                if not (is_certain and file.is_conditional(call)):
+                    yield call.lineno
 
 
 def _undeclared(package: Package, name: str, declared: dict[str, list[Parameter]]) -> str:

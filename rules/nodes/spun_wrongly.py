@@ -125,6 +125,18 @@ class SpunWrongly(RclpyRule):
             "15:16: executor is never spun: the callbacks of its nodes never run",
         ),
         Example(
+            "an executor that is not spun, while one of its nodes is",
+            {
+                "talker.py": _NODE_EXECUTORS.format(
+                    "    other = Talker()\n"
+                    + _ADD
+                    + _ADD.replace("node)", "other)")
+                    + "    rclpy.spin(node)\n"
+                )
+            },
+            "15:16: executor is never spun: the callbacks of 'other' never run",
+        ),
+        Example(
             "one of many threads",
             {
                 "talker.py": _NODE_EXECUTORS.replace("SingleThreaded", "MultiThreaded")
@@ -203,6 +215,10 @@ class SpunWrongly(RclpyRule):
                 is_needed = needs_spin(file) or not file.classes
                 severity = Severity.ERROR if is_needed else Severity.WARNING
                 yield self.report(file.module.location(call), message, severity=severity)
+            elif "add_node" in used and not is_spun and _left_out(file, call):
+                names = " and ".join(map(repr, _left_out(file, call)))
+                message = f"executor is never spun: the callbacks of {names} never run"
+                yield self.report(file.module.location(call), message)
             elif "add_node" in used and not is_spun and _has_many_threads(call):
                 for other in _other_spins(file, used["add_node"]):
                     message = (
@@ -295,6 +311,28 @@ def _has_one_thread(file: RclpyFile, call: ast.Call) -> bool:
         return False
     given = [*call.args[:1], *(word.value for word in call.keywords if word.arg == "num_threads")]
     return bool(given) and file.evaluator.evaluate(given[0]) == 1
+
+
+def _left_out(file: RclpyFile, made: ast.Call) -> list[str]:
+    """Return the nodes of an executor that is not spun which nothing else spins either."""
+    function = file.module.enclosing_function(made)
+    added = [
+        call.args[0].id
+        for call in file.module.walk(ast.Call)
+        if isinstance(call.func, ast.Attribute)
+        and call.func.attr == "add_node"
+        and len(call.args) == 1
+        and isinstance(call.args[0], ast.Name)
+        and file.module.enclosing_function(call) is function
+    ]
+    spun: set[str] = set()
+    for spin in file.spin_calls:
+        node = spin.call.args[0] if spin.call.args else None
+        is_plain = isinstance(node, ast.Name) and not spin.call.keywords
+        if not is_plain or file.module.enclosing_function(spin.call) is not function:
+            return []
+        spun.add(node.id if isinstance(node, ast.Name) else "")
+    return [name for name in added if name not in spun]
 
 
 def _other_spins(file: RclpyFile, add_node: ast.AST) -> Iterator[RclpyCall]:
