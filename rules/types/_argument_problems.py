@@ -56,7 +56,11 @@ def argument_problem(finding: TypeFinding) -> str:
         r" is incorrect: Expected `(?P<expected>.+)`, found `(?P<given>.+)`"
     )
     if matched is None:
-        return _appended_element(finding) or _message_for_its_value(finding)
+        return (
+            _appended_element(finding)
+            or _message_for_its_value(finding)
+            or _text_for_bytes(finding)
+        )
     called, expected, given = matched["callee"], matched["expected"], matched["given"]
     if given.startswith("(("):
         wrong = wrong_callback(finding, expected, given)
@@ -152,3 +156,13 @@ def _message_for_its_value(finding: TypeFinding) -> str:
     fields = [name for name in names if name.islower() and not name.startswith("get_")]
     hint = f"; pass its field {fields[0]!r}" if len(fields) == 1 else ""
     return f"{called}() cannot use a {given}: TypeError{hint}"
+
+
+def _text_for_bytes(finding: TypeFinding) -> str:
+    """Judge a text that a method of bytes gets, such as those of a serial port."""
+    matched = finding.match(
+        r"Argument to bound method `bytes\.(?P<method>\w+)` is incorrect: .*, found `(?P<given>.+)`"
+    )
+    if matched is None or in_words(matched["given"]) != "a str":
+        return ""
+    return f"{matched['method']}() of bytes cannot use a str: TypeError; decode() the bytes first"

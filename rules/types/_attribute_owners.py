@@ -39,6 +39,9 @@ _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 """The fields of the message that callbacks for feedback get."""
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
 COROUTINE = "a coroutine"
+FUNCTION = "a function"
+_MAKING = re.compile(rf"\(\) -> {MARKED}(?:\[.*\])?")
+"""Matches a method that an attribute keeps, and that returns an object of ROS."""
 METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
 """Matches a method that is not called."""
 
@@ -55,6 +58,8 @@ def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None
     method = METHOD.fullmatch(owner) if isinstance(node.ctx, ast.Load) else None
     if method is not None:
         return f"{full_name(method[1])}.{method[2]}", frozenset()
+    if _MAKING.fullmatch(owner) and isinstance(node.ctx, ast.Load):
+        return FUNCTION, frozenset()
     if owner.startswith("CoroutineType["):
         return COROUTINE, frozenset()
     return (with_article(owner), frozenset()) if owner in _PLAIN else None

@@ -585,6 +585,17 @@ class ArgumentTypeUnfit(TypeRule):
                 "            self.publisher.publish(Float32(data=1.0))\n"
             },
         ),
+        Example(
+            "a text for a method of bytes",
+            {
+                "port.py": "import serial\nfrom rclpy.node import Node\n\n\n"
+                "class Port(Node):\n"
+                "    def fields(self):\n"
+                "        line = serial.Serial('/dev/ttyUSB0', 9600).readline()\n"
+                "        return line.split(',') if line.decode() else []\n"
+            },
+            "8:27: split() of bytes cannot use a str: TypeError; decode() the bytes first",
+        ),
         Example("callbacks in a table", {"arm.py": _TABLE.format("request, response")}),
         Example(
             "one of the callbacks in a table takes too little",

@@ -23,7 +23,15 @@ from scaffold.api.python import conditions_on
 from scaffold.api.rclpy import only_while_stopping
 from scaffold.api.types import TypeFinding, class_in, full_name
 
-from ._attribute_owners import COROUTINE, METHOD, cause, is_closed, known_owner, without_none
+from ._attribute_owners import (
+    COROUTINE,
+    FUNCTION,
+    METHOD,
+    cause,
+    is_closed,
+    known_owner,
+    without_none,
+)
 
 _NODE = (
     "from rclpy.action import ActionClient\nfrom rclpy.node import Node\n"
@@ -137,6 +145,19 @@ class AttributeMissing(TypeRule):
                 "back = Rotation.inv(Rotation.identity())\n"
                 "print(back.apply([1, 0, 0]), Serial.BAUDRATES, Serial().is_open)\n"
             },
+        ),
+        Example(
+            "a method that is kept instead of what it returns",
+            {
+                "idle.py": "from rclpy.node import Node\n\n\n"
+                "class Idle(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('idle')\n"
+                "        self.log = self.get_logger\n"
+                "        self.create_timer(1.0, self.tick)\n\n"
+                "    def tick(self):\n        self.log.info('still idle')\n"
+            },
+            "11:9: a function has no 'info': AttributeError; call it first",
         ),
         Example(
             "an array of numpy, which has neither the fields of a quaternion nor append()",
@@ -601,8 +622,8 @@ def _instead(shown: str, name: str, method: str) -> str:
     """Return what to write instead, where it is not another name of the same object."""
     if method:
         return f"; write {method}()"
-    if shown == COROUTINE:
-        return "; await it"
+    if shown in {COROUTINE, FUNCTION}:
+        return "; await it" if shown == COROUTINE else "; call it first"
     if shown == "rclpy.task.Future":
         return "; what the future brings is in result()"
     if shown in _TIMES and name in _SECONDS:

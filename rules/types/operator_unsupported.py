@@ -49,6 +49,14 @@ _INSTEAD = {
 _ARRAY = re.compile(r"array\[\w+\]")
 _NUMBERS = frozenset({"an int", "a float"})
 _TIMES = frozenset({"rclpy.time.Time", "rclpy.duration.Duration"})
+_PORT = (
+    "import serial\nfrom rclpy.node import Node\n\n\n"
+    "class Port(Node):\n"
+    "    def read(self):\n"
+    "        line = serial.Serial('/dev/ttyUSB0', 9600).readline()\n"
+    "        self.get_logger().info('got ' + {0})\n"
+    "        return 'OK' in {0}\n"
+)
 
 
 class OperatorUnsupported(TypeRule):
@@ -110,6 +118,16 @@ class OperatorUnsupported(TypeRule):
             "10:28: an int and a str are not joined with '+': TypeError; use an f-string",
         ),
         Example(
+            "a text and the bytes of a serial port",
+            {"port.py": _PORT.format("line.decode()")},
+        ),
+        Example(
+            "a text and the bytes of a serial port, which are not decoded",
+            {"port.py": _PORT.format("line")},
+            "8:32: '+' does not work on a str and bytes: TypeError; decode() the bytes first",
+            "9:16: 'in' does not work on a str and bytes: TypeError; decode() the bytes first",
+        ),
+        Example(
             "a text that is compared with a number",
             {"level.py": _LEVEL.format("msg.data > 3")},
             "6:12: '>' does not work on a str and an int: TypeError; use float(...)",
@@ -133,10 +151,9 @@ class OperatorUnsupported(TypeRule):
             message = f"{operator!r} does not work on an array.array and {in_words(types[1])}"
             return self.report(finding, f"{message}: TypeError; use numpy.array(...)")
         words = [*map(in_words, types)]
-        if "a str" in words and not _NUMBERS.isdisjoint(words):
-            if not are_sure(finding):
-                return None
-            return self.report(finding, _on_text(operator, words))
+        if "a str" in words and not {*_NUMBERS, "bytes"}.isdisjoint(words):
+            is_sure = "bytes" in words or are_sure(finding)
+            return self.report(finding, _on_text(operator, words)) if is_sure else None
         if not any(classes) or not all(map(is_certain, types)):
             return None
         pair = " and ".join(dict.fromkeys(map(in_words, types)))
@@ -147,7 +164,10 @@ class OperatorUnsupported(TypeRule):
 
 
 def _on_text(operator: str, words: Sequence[str]) -> str:
-    """Return the message about an operator between a text and a number."""
+    """Return the message about an operator between a text and a number or bytes."""
+    if "bytes" in words:
+        problem = f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError"
+        return f"{problem}; decode() the bytes first"
     if operator == "+":
         return f"{words[0]} and {words[1]} are not joined with '+': TypeError; use an f-string"
     return f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError; use float(...)"

@@ -35,6 +35,7 @@ _DIFFERENT = frozenset(
 """Those of which people use what some of the Pythons that distributions come with do not have."""
 _OF_MODULES = frozenset({"import-not-found", "missing-module-member"})
 _STR = r'`(?:str|Literal\["[^`]*"\])`'
+_BYTES = r'`(?:bytes|Literal\[b"[^`]*"\])`'
 _NUMBER = r"`(?:int\*?|float\*?|Literal\[-?\d+\])`"
 _NAMELESS = re.compile(
     r"Object of type `(?:str|int|float|bool|bytes|CoroutineType\[.*\])` has no attribute `\w+`"
@@ -44,7 +45,8 @@ _NAMELESS = re.compile(
     r"(?: is not (?:callable|iterable)| with no .*)"
     r"|Operator `[^`]+` is not supported between objects of type `array\[\w+\]` and .*"
     rf"|Operator `[^`]+` is not supported between objects of type (?:{_STR} and {_NUMBER}"
-    rf"|{_NUMBER} and {_STR})"
+    rf"|{_NUMBER} and {_STR}|{_STR} and {_BYTES}|{_BYTES} and {_STR})"
+    rf"|Argument to bound method `bytes\.\w+` is incorrect: Expected `.+`, found {_STR}"
 )
 """Matches reports of interest that name nothing of ROS."""
 # linear: a line has 20 kB at most

@@ -60,10 +60,10 @@ def is_certain_misfit(expected: str, given: str) -> bool:
 def elements_misfit(expected: str, given: str) -> str:
     """Return what the elements of a list must be and are, if they certainly do not fit.
 
-    Only messages and texts are judged: numbers and ``None`` may be replaced one by one.
+    Only messages, texts and containers are judged: numbers and ``None`` may be replaced one by one.
     """
     wanted = re.fullmatch(r"Iterable\[(.+)\]", expected)
-    listed = re.fullmatch(rf"list\[({MARKED}|str)\]", given)
+    listed = re.fullmatch(rf"list\[({MARKED}|str|(?:list|dict|tuple)\[.+\])\]", given)
     if wanted is None or listed is None:
         return ""
     if _NUMBERS.fullmatch(wanted[1]):
