@@ -85,6 +85,14 @@ class BridgeEntryUnusable(Rule):
             "ROS_TO_GZ, BIDIRECTIONAL",
         ),
         Example(
+            "keys without their end",
+            {"bridge.yaml": _ENTRY.replace("_name", "")},
+            "1:3: the bridge ignores the key 'ros_topic': write 'ros_topic_name'",
+            "2:3: the bridge ignores the key 'gz_topic': write 'gz_topic_name'",
+            "3:3: the bridge ignores the key 'ros_type': write 'ros_type_name'",
+            "4:3: the bridge ignores the key 'gz_type': write 'gz_type_name'",
+        ),
+        Example(
             "other keys; those of Fortress",
             {
                 "a.yaml": _ENTRY.replace("ros_type_name", "ros_type"),
@@ -196,7 +204,8 @@ class BridgeEntryUnusable(Rule):
     def _check(self, package: Package, entry: BridgeEntry) -> Iterator[Diagnostic]:
         misspelt = [key for key in entry.keys if key not in _KEYS]
         for key in misspelt:
-            closest = _OLD.get(key) or closest_name(package, key, _KEYS, 0.75)
+            whole = f"{key}_name" if f"{key}_name" in _KEYS else None
+            closest = _OLD.get(key) or whole or closest_name(package, key, _KEYS, 0.75)
             if closest and closest not in entry.keys:
                 message = f"the bridge ignores the key {key!r}: write {closest!r}"
                 yield self.report(entry.keys[key], message)

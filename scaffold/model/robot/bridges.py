@@ -16,7 +16,10 @@ from scaffold.source import Location, ParseError, ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
-_MARKS = ("gz_type_name", "ros_type_name", "ign_type_name", "gz_topic_name")
+_MARKS = (
+    *("gz_type_name", "ros_type_name", "ign_type_name", "gz_topic_name"),
+    *("gz.msgs.", "direction:"),
+)
 _FEW = 2
 _MAPPINGS = """
 actuator_msgs Actuators=Actuators
