@@ -10,8 +10,8 @@ from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
     from scaffold.check.cache.facts import Settled
-    from scaffold.model.facts import FactId, StoredFact
     from scaffold.model.package import Package
+    from scaffold.model.reads import FactId, StoredFact
 
 
 class Part(NamedTuple):

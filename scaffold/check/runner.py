@@ -15,9 +15,8 @@ from scaffold.check.rule import Rule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST
-from scaffold.model.facts import Fact
 from scaffold.model.package import Package
-from scaffold.model.reads import Reads, recorded
+from scaffold.model.reads import Fact, Reads, recorded
 from scaffold.source import (
     EncodingError,
     Location,

@@ -15,8 +15,8 @@ from scaffold.types.check import TypeCheck
 if TYPE_CHECKING:
     from scaffold.check.type_rules import TypeRule
     from scaffold.diagnostic import Diagnostic
-    from scaffold.model.facts import Fact, FactId, StoredFact
     from scaffold.model.package import Package
+    from scaffold.model.reads import Fact, FactId, StoredFact
 
 
 class Typed(NamedTuple):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from scaffold.model.facts import decode, encode
+from scaffold.model.fact_values import decode, encode
 from scaffold.model.package import Package
 from scaffold.model.python.facts import exports_of, imports_of
 from scaffold.model.python.module import PythonModule

@@ -6,7 +6,8 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from scaffold import time_limit
-from scaffold.model.facts import Fact, FactId, Key, StoredFact, ask_again
+from scaffold.model.facts import ask_again
+from scaffold.model.reads import Fact, FactId, Key, StoredFact
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:

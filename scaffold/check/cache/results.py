@@ -15,9 +15,8 @@ from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.errors import EnvironmentMissingError
 from scaffold.files.disk import holds
-from scaffold.model.facts import StoredFact
 from scaffold.model.package import Identity
-from scaffold.model.reads import is_followed
+from scaffold.model.reads import StoredFact, is_followed
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
@@ -26,8 +25,8 @@ if TYPE_CHECKING:
     from scaffold.check.session import Session
     from scaffold.files.disk import Disk
     from scaffold.model.discovery.targets import Target
-    from scaffold.model.facts import FactId
     from scaffold.model.package import Package
+    from scaffold.model.reads import FactId
 
 
 _NOTHING = Part(frozenset(), frozenset(), ())
