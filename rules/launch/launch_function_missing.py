@@ -18,8 +18,8 @@ from scaffold.api import (
     Severity,
     fact,
 )
-from scaffold.api.launch import FUNCTION, LaunchFile, returns
-from scaffold.api.python import paths_importing
+from scaffold.api.launch import FUNCTION, LaunchFile
+from scaffold.api.python import may_end, paths_importing, returned
 
 _LOADERS = frozenset(
     {
@@ -147,13 +147,13 @@ class LaunchFunctionMissing(LaunchRule):
     def _check(
         self, launch: LaunchFile, node: ast.FunctionDef, at: Location
     ) -> Iterator[Diagnostic]:
-        statements, reaches_end = returns(node)
+        statements = sorted(returned(node), key=lambda item: item.lineno)
         for item in statements:
             what = _wrong(launch, item.value)
             if what:
                 message = f"generate_launch_description returns {what}, not a LaunchDescription"
                 yield self.report(launch.location(item), message)
-        if not reaches_end:
+        if not may_end(node):
             return
         last = node.body[-1]
         made = launch.call_of(last.value) if isinstance(last, ast.Expr) else None

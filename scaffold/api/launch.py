@@ -11,6 +11,7 @@ from scaffold.model.launch.actions import (
     entities,
     function_of,
 )
+from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.command_lines import (
     PROGRAM,
     UNSAID,
@@ -22,6 +23,7 @@ from scaffold.model.launch.command_lines import (
     static_transforms,
 )
 from scaffold.model.launch.configurations import may_be_set_elsewhere, set_names
+from scaffold.model.launch.evaluator import SHARE
 from scaffold.model.launch.execution_order import later_declarations, steps
 from scaffold.model.launch.files import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.model.launch.includes import Included, given_arguments, included
@@ -43,15 +45,7 @@ from scaffold.model.launch.parameter_files import (
     use_of,
     values_in_files,
 )
-from scaffold.model.launch.python_file import (
-    FUNCTION,
-    NODES,
-    SHARE,
-    LaunchCall,
-    LaunchFile,
-    launch_paths,
-    returns,
-)
+from scaffold.model.launch.python_file import FUNCTION, NODES, LaunchFile, launch_paths
 from scaffold.model.launch.references import Reference, exists, meant_package, package_uses
 from scaffold.model.launch.remappings import (
     Remapped,
@@ -142,7 +136,6 @@ __all__ = [
     "paths_of",
     "processes",
     "remapped_nodes",
-    "returns",
     "set_names",
     "signature",
     "start_of_value",

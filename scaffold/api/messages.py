@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scaffold.model.messages.fields import TypeMismatches, ValueTypes, rclpy_time
+from scaffold.model.messages.fields import TypeMismatches
 from scaffold.model.messages.inference import (
     PARTS,
     MessageClass,
@@ -10,6 +10,7 @@ from scaffold.model.messages.inference import (
     message_paths,
 )
 from scaffold.model.messages.stamps import childless, lacking, unstamped
+from scaffold.model.messages.value_types import ValueTypes, rclpy_time
 
 __all__ = [
     "PARTS",

@@ -19,7 +19,7 @@ from scaffold import distributions
 from scaffold.distributions import Distribution
 from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import installation, wheels
-from scaffold.smoke.processes import process
+from scaffold.smoke.processes import marks, process
 from scaffold.smoke.processes.process import Captured, Origin
 
 INSTALLED = Path("/opt/ros")
@@ -201,7 +201,7 @@ def sourced_variables(setup: Path, done: Captured) -> dict[str, str]:
         last = done.err.strip().rpartition("\n")[2] or f"exit code {done.exit_code}"
         raise EnvironmentMissingError(f"{setup} cannot be sourced: {last}")
     pairs = (entry.partition("=") for entry in done.out.split("\0") if entry)
-    ignored = {"_", "SHLVL", process.MARK}
+    ignored = {"_", "SHLVL", marks.MARK}
     return {name: value for name, _, value in pairs if name not in ignored}
 
 

@@ -17,6 +17,7 @@ from scaffold.smoke.isolation.station import Isolation, Stations
 from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.observe import ANSWER_TIMEOUT, LAST_ANSWER_TIMEOUT, ObserverError
 from scaffold.smoke.processes import output, process, table
+from scaffold.smoke.processes.ending import end
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.processes.remains import remains
 from scaffold.smoke.processes.usage import Meter, measuring
@@ -289,7 +290,7 @@ class _Run:
         said = _said(running)
         self._report_exception(running)
         written = output.size(running.err)
-        done = await process.end(running, self._number)
+        done = await end(running, self._number)
         trace = output.traceback(output.read(running.err, written))
         self._trial.stop = Stop(done.sent[-1], running.exit_code, done.seconds, trace)
         where = tuple(output.short(trace)) if trace else ()

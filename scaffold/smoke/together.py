@@ -16,6 +16,7 @@ from scaffold.smoke.lifecycle import Lifecycles
 from scaffold.smoke.lifecycle import problems as failed
 from scaffold.smoke.observe import LAST_ANSWER_TIMEOUT, Observer, ObserverError
 from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes.ending import GRACE, end
 from scaffold.smoke.processes.remains import remains
 from scaffold.smoke.result import Endpoint, Executable, Observation, Problem, Topic
 from scaffold.smoke.run import SETTLING, RunSettings, ending
@@ -47,7 +48,7 @@ class Group:
     """Names the run, as a relative path."""
     commands: Mapping[str, Sequence[str]]
     """By name for people."""
-    grace: float = process.GRACE
+    grace: float = GRACE
     """Seconds that they have to obey SIGINT."""
 
 
@@ -133,9 +134,7 @@ class _All:
 async def _stop(runs: Mapping[str, process.Running], grace: float) -> list[str]:
     """Interrupt all at once, as ^C in a terminal does; return what is wrong with the end of it."""
     running = {name: item for name, item in runs.items() if item.exit_code is None}
-    endings = await asyncio.gather(
-        *(process.end(item, signal.SIGINT, grace) for item in running.values())
-    )
+    endings = await asyncio.gather(*(end(item, signal.SIGINT, grace) for item in running.values()))
     # Interrupted once more, a program that ends may have been one whose signal rclpy has lost.
     ignored = [
         ((name,), done.of_ignored)

@@ -23,7 +23,7 @@ from scaffold.smoke import build, environment
 from scaffold.smoke import run as trial
 from scaffold.smoke.isolation import domain, shared_memory
 from scaffold.smoke.probe import messages
-from scaffold.smoke.processes import output, process
+from scaffold.smoke.processes import ending, marks, output, process
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.reports import report
 from scaffold.smoke.result import (
@@ -188,10 +188,10 @@ async def started(code: str, directory: Path, mark: str) -> process.Running:
 
 
 def test_signal_that_is_obeyed(tmp_path: Path) -> None:
-    async def run() -> tuple[process.Ending, int | None]:
+    async def run() -> tuple[ending.Ending, int | None]:
         running = await started("print(1); input_ = __import__('time').sleep(60)", tmp_path, "a")
         try:
-            return await process.end(running, signal.SIGINT), running.exit_code
+            return await ending.end(running, signal.SIGINT), running.exit_code
         finally:
             await running.close()
 
@@ -207,10 +207,10 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
         "while True: time.sleep(60)\n"
     )
 
-    async def run() -> tuple[process.Ending, int | None]:
+    async def run() -> tuple[ending.Ending, int | None]:
         running = await started(code, tmp_path, "a")
         try:
-            return await process.end(running, signal.SIGINT, grace=2.0), running.exit_code
+            return await ending.end(running, signal.SIGINT, grace=2.0), running.exit_code
         finally:
             await running.close()
 
@@ -228,10 +228,10 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
         "while True: time.sleep(60)\n"
     )
 
-    async def run() -> process.Ending:
+    async def run() -> ending.Ending:
         running = await started(code, tmp_path, "a")
         try:
-            return await process.end(running, signal.SIGTERM, grace=2.0)
+            return await ending.end(running, signal.SIGTERM, grace=2.0)
         finally:
             await running.close()
 
@@ -262,7 +262,7 @@ def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
         running = await started(code.replace("{paths}", repr(paths)), tmp_path, "a")
         try:
             await asyncio.sleep(1.0)  # the second look at what has changed
-            await process.end(running, signal.SIGTERM)
+            await ending.end(running, signal.SIGTERM)
             await running.finish()
             return running.leaked
         finally:
@@ -292,15 +292,15 @@ def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
         running = await started(code, tmp_path, f"{mark}/one")
         try:
             assert await running.ended_within(30)
-            commands = list(process.marked(mark).values())
-            assert process.marked(f"{mark}/other") == {}
-            assert len(process.sweep(mark)) == 1
+            commands = list(marks.marked(mark).values())
+            assert marks.marked(f"{mark}/other") == {}
+            assert len(marks.sweep(mark)) == 1
             return commands
         finally:
             await running.close()
 
     assert [one.endswith("time.sleep(600)") for one in asynchronously(run)] == [True]
-    assert process.marked(mark) == {}
+    assert marks.marked(mark) == {}
 
 
 # -- shared memory

@@ -24,7 +24,7 @@ from scaffold.smoke.cleanup.interruption import InterruptedBySignalError, Interr
 from scaffold.smoke.cleanup.workspace_lock import NAME, locked
 from scaffold.smoke.isolation import shared_memory
 from scaffold.smoke.options import Options
-from scaffold.smoke.processes import output, process, supervisor, table
+from scaffold.smoke.processes import marks, output, process, supervisor, table
 from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.session import smoke
 from tests import PATIENCE
@@ -122,7 +122,7 @@ def test_processes_that_fork_all_the_time_are_ended(tmp_path: Path) -> None:
 
     run_supervised(STUBBORN, tmp_path, use)
     wait_until(lambda: has_ended(children[0]))
-    assert process.marked(f"test-{os.getpid()}") == {}
+    assert marks.marked(f"test-{os.getpid()}") == {}
 
 
 def test_program_that_kills_its_supervisor(tmp_path: Path) -> None:
@@ -137,7 +137,7 @@ def test_program_that_kills_its_supervisor(tmp_path: Path) -> None:
         assert run_supervised(code, tmp_path, use)
     finally:
         supervisor.become_subreaper(enabled=False)
-    assert process.marked(f"test-{os.getpid()}") == {}
+    assert marks.marked(f"test-{os.getpid()}") == {}
 
 
 def test_program_that_cannot_be_started(tmp_path: Path) -> None:

@@ -9,8 +9,10 @@ from typing import NamedTuple
 
 from scaffold.edits import Edit
 from scaffold.generate.edit.addition import Addition, ByHand, Outcome, Program, spliced
-from scaffold.model.launch.python_file import FUNCTION, LaunchCall, LaunchFile, returns
+from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.python_file import FUNCTION, LaunchFile
 from scaffold.model.python.module import PythonModule
+from scaffold.model.python.returns import returned
 from scaffold.model.setup_py import edit as setup_edit
 from scaffold.model.setup_py.edit import Block
 from scaffold.source import Source
@@ -111,10 +113,10 @@ def _edits(launch: LaunchFile, own: list[LaunchCall], program: Program) -> list[
 
 def _description(launch: LaunchFile) -> _Description | None:
     function = launch.module.functions.get(FUNCTION)
-    returned = returns(function.node)[0] if function is not None else []
-    if function is None or len(returned) != 1:
+    statements = returned(function.node) if function is not None else []
+    if function is None or len(statements) != 1:
         return None
-    body, value = function.node.body, returned[0].value
+    body, value = function.node.body, statements[0].value
     assigned = {
         statement.value: (target.id, statement)
         for statement in body

@@ -6,7 +6,8 @@ import ast
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.launch.python_file import NODES, LaunchFile, launch_call
+from scaffold.model.launch.calls import launch_call
+from scaffold.model.launch.python_file import NODES, LaunchFile
 from scaffold.model.python.returns import is_generator, returned
 from scaffold.record import NamedTuple
 

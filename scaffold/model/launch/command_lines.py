@@ -7,8 +7,10 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.evaluator import joined_value
 from scaffold.model.launch.markup_file import markup_files
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile, joined_value
+from scaffold.model.launch.python_file import NODES, LaunchFile
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ from scaffold.model.launch.conditions import UNKNOWN, Text, applied, as_text, jo
 from scaffold.model.python.distribution_conditions import holds, worth
 
 if TYPE_CHECKING:
-    from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+    from scaffold.model.launch.calls import LaunchCall
+    from scaffold.model.launch.python_file import LaunchFile
 
 _OPERATORS: Mapping[str, str] = {
     "EqualsSubstitution": "equals",

@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile, share_path
+from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.evaluator import share_path
+from scaffold.model.launch.python_file import LaunchFile
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:

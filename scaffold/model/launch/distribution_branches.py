@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 from scaffold.formats import xml_reader
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Mapping, Scalar, Sequence, YamlNode
+from scaffold.model.launch.calls import LaunchCall
 from scaffold.model.launch.conditions_in_markup import Variables
 from scaffold.model.launch.conditions_in_python import Conditions
 from scaffold.model.launch.markup_file import ENDINGS
-from scaffold.model.launch.python_file import LaunchCall, LaunchFile, launch_paths
+from scaffold.model.launch.python_file import LaunchFile, launch_paths
 from scaffold.source import Location, Source
 
 if TYPE_CHECKING:

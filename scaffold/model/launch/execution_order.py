@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from scaffold.model.launch.actions import function_of
-from scaffold.model.launch.python_file import NODES, LaunchCall, LaunchFile
+from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.python_file import NODES, LaunchFile
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:

@@ -9,15 +9,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.facts import fact
+from scaffold.model.launch.calls import LaunchCall
+from scaffold.model.launch.evaluator import share_path
 from scaffold.model.launch.markup_file import changes_name
 from scaffold.model.launch.parameter_values import GivenValue, value_given
-from scaffold.model.launch.python_file import (
-    NODES,
-    LaunchCall,
-    LaunchFile,
-    launch_paths,
-    share_path,
-)
+from scaffold.model.launch.python_file import NODES, LaunchFile, launch_paths
 from scaffold.model.programs.executables import nodes_of
 from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple

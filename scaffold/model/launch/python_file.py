@@ -8,52 +8,22 @@ from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from scaffold.model.launch.signatures import signature
-from scaffold.model.python.evaluator import Evaluator
+from scaffold.model.launch.calls import LaunchCall, launch_call
+from scaffold.model.launch.evaluator import LaunchEvaluator, share_path
 from scaffold.model.python.module import is_in_tests
-from scaffold.model.python.values import UNKNOWN, PathValue, Unknown, join_paths
+from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 from scaffold.source import Location, ViewError
 
 if TYPE_CHECKING:
     from scaffold.model.package import Package
     from scaffold.model.python.module import Function, PythonModule
-    from scaffold.model.python.scopes import FunctionNode
 
 FUNCTION = "generate_launch_description"
 NODES = ("Node", "LifecycleNode", "ComposableNodeContainer")
 """Actions that start a process with a node."""
-SHARE = "/<share>/"
-"""In front of a package's name, in the values of expressions: its share directory."""
 
-_MODULES = ("launch.", "launch_ros.", "launch_xml.", "launch_yaml.", "ament_index_python.")
 _ROOTS = frozenset({"launch", "launch_ros"})
-_POSITIONAL: Mapping[str, tuple[str, ...]] = {
-    "ParameterFile": ("param_file",),
-    "ParameterValue": ("value",),
-    "get_package_share_directory": ("package_name",),
-    "get_package_share_path": ("package_name",),
-}
-
-
-class LaunchCall(NamedTuple):
-    """A call of something from launch, launch_ros or ament_index_python."""
-
-    kind: str
-    """The last part of its name: ``Node``, ``DeclareLaunchArgument`` ..."""
-    call: ast.Call
-    module: PythonModule
-    given: Mapping[str, ast.expr]
-    """The arguments by name, where that is known."""
-    words: Mapping[str, ast.keyword]
-    """The keyword arguments by name."""
-    is_open: bool
-    """There is a ``*`` or ``**``: more arguments may be given."""
-
-    @property
-    def location(self) -> Location:
-        """The place of what is called."""
-        return self.module.location(self.call.func)
 
 
 class PackageUse(NamedTuple):
@@ -74,62 +44,6 @@ class SharePath(NamedTuple):
     """Relative to ``share/<package>``, normalised."""
     location: Location
     node: ast.expr
-
-
-class LaunchEvaluator(Evaluator):
-    """Knows the share directories of packages, and substitutions that are constant."""
-
-    def __init__(self, module: PythonModule, package_name: str) -> None:
-        super().__init__(module)
-        self._package_name = package_name
-
-    def call(self, node: ast.Call) -> object:
-        """Return what a call of launch is worth: a substitution is the text that it gives."""
-        launch = launch_call(self.module, node)
-        if launch is None:
-            return self._found_package(node)
-        value: object = UNKNOWN
-        match launch.kind:
-            case "get_package_share_directory" | "FindPackageShare":
-                value = self._share(next(iter(launch.given.values()), None))
-            case "get_package_share_path":
-                share = self._share(next(iter(launch.given.values()), None))
-                value = PathValue(share) if isinstance(share, str) else UNKNOWN
-            case "PathJoinSubstitution":
-                value = self._join(launch.given.get("substitutions"))
-            case "TextSubstitution":
-                value = self.text(launch.given.get("text"))
-            case "FindExecutable":  # a path that ends in the name, and is started like it
-                value = self.joined_text(launch.given.get("name"))
-            case "ThisLaunchFileDir":
-                directory = self.module.path.rpartition("/")[0]
-                value = f"{SHARE}{self._package_name}/{directory}".rstrip("/")
-        return value
-
-    def joined_text(self, node: ast.expr | None) -> str | Unknown:
-        """Return the text of a substitution, or of a list of them, which launch joins."""
-        return joined_value(self.evaluate(node))
-
-    def _share(self, node: ast.expr | None) -> str | Unknown:
-        name = self.joined_text(node)
-        return f"{SHARE}{name}" if isinstance(name, str) and "/" not in name else UNKNOWN
-
-    def _join(self, node: ast.expr | None) -> str | Unknown:
-        value = self.evaluate(node)
-        if not isinstance(value, list | tuple) or not value:
-            return UNKNOWN
-        parts = [joined_value(part) for part in value]
-        texts = [part for part in parts if isinstance(part, str)]
-        return join_paths(texts) if len(texts) == len(parts) else UNKNOWN
-
-    def _found_package(self, node: ast.Call) -> str | Unknown:
-        """Return the value of ``FindPackageShare(...).find('name')``."""
-        match node.func:
-            case ast.Attribute(value=ast.Call() as holder, attr="find") if node.args:
-                finder = launch_call(self.module, holder)
-                if finder is not None and finder.kind == "FindPackageShare":
-                    return self._share(node.args[0])
-        return UNKNOWN
 
 
 def launch_paths(package: Package) -> list[str]:
@@ -372,91 +286,3 @@ class LaunchFile:
                 return self.module.qualified_name(parent.func) == "os.path.join"
             case _:
                 return False
-
-
-def launch_call(module: PythonModule, node: ast.Call) -> LaunchCall | None:
-    """Return the view of a call if it is one of launch's."""
-    called = module.qualified_names(node.func)
-    kinds = {name.rpartition(".")[2] for name in called if name.startswith(_MODULES)}
-    if len(kinds) != 1 or any(".events." in name for name in called):
-        return None
-    kind = kinds.pop()
-    words = {word.arg: word for word in node.keywords if word.arg}
-    parameters = signature(kind)
-    names = parameters.positional if parameters is not None else _POSITIONAL.get(kind, ())
-    given: dict[str, ast.expr] = dict(zip(names, node.args, strict=False))
-    given.update({name: word.value for name, word in words.items()})
-    is_open = len(words) < len(node.keywords)
-    is_open = is_open or any(isinstance(arg, ast.Starred) for arg in node.args)
-    return LaunchCall(kind, node, module, given, words, is_open)
-
-
-def share_path(value: object) -> tuple[str, str] | None:
-    """Return the package and the path below its share directory that a value refers to."""
-    text = value.text if isinstance(value, PathValue) else value
-    if not isinstance(text, str) or not text.startswith(SHARE):
-        return None
-    package, _, rest = text.removeprefix(SHARE).partition("/")
-    parts: list[str] = []
-    for part in rest.split("/"):
-        if part == ".." and not parts:
-            return None
-        if part == "..":
-            parts.pop()
-        elif part not in {"", "."}:
-            parts.append(part)
-    return (package, "/".join(parts)) if parts else None
-
-
-def returns(function: FunctionNode) -> tuple[list[ast.Return], bool]:
-    """Return the return statements of a function, and whether its end can be reached."""
-    result: list[ast.Return] = []
-    pending: list[ast.AST] = list(function.body)
-    while pending:
-        node = pending.pop()
-        if isinstance(node, ast.Return):
-            result.append(node)
-        elif not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            pending.extend(ast.iter_child_nodes(node))
-    return sorted(result, key=lambda node: node.lineno), _falls_through(function.body)
-
-
-def _falls_through(body: Sequence[ast.stmt]) -> bool:
-    return all(_passes(statement) for statement in body)
-
-
-def _passes(statement: ast.stmt) -> bool:
-    """Tell whether what follows a statement can be reached."""
-    match statement:
-        case ast.If(body=body, orelse=orelse):
-            passes = _falls_through(body) or _falls_through(orelse)
-        case ast.With(body=body) | ast.AsyncWith(body=body):
-            passes = _falls_through(body)
-        case ast.Try(body=body, handlers=handlers, orelse=orelse, finalbody=finalbody):
-            ways = [[*body, *orelse], *(handler.body for handler in handlers)]
-            passes = _falls_through(finalbody) and any(map(_falls_through, ways))
-        case _:
-            passes = not _leaves(statement)
-    return passes
-
-
-def _leaves(statement: ast.stmt) -> bool:
-    """Tell whether a statement ends the function, or may do so in a way that is not analyzed."""
-    match statement:
-        case ast.Return() | ast.Raise() | ast.Match() | ast.While(test=ast.Constant(value=True)):
-            return True
-        case ast.Expr(value=ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name))):
-            return name in {"exit", "_exit", "quit", "fail"}
-        case _:
-            return False
-
-
-def joined_value(value: object) -> str | Unknown:
-    """Return the text of a value: substitutions in a list are joined without a separator."""
-    if isinstance(value, PathValue):
-        return value.text
-    if isinstance(value, list | tuple):
-        parts = [joined_value(part) for part in value]
-        texts = [part for part in parts if isinstance(part, str)]
-        return "".join(texts) if len(texts) == len(parts) else UNKNOWN
-    return value if isinstance(value, str) else UNKNOWN

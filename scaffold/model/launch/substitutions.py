@@ -13,7 +13,8 @@ from scaffold.model.python.values import UNKNOWN, Unknown
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.launch.python_file import LaunchCall, LaunchFile
+    from scaffold.model.launch.calls import LaunchCall
+    from scaffold.model.launch.python_file import LaunchFile
     from scaffold.model.python.module import PythonModule
 
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from scaffold.model.python.scopes import FunctionNode
 
+_ENDING = frozenset({"exit", "_exit", "quit", "fail"})
+"""Functions that do not return."""
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 
@@ -86,8 +88,8 @@ def _passes_one(statement: ast.stmt) -> bool:
                 isinstance(item.pattern, ast.MatchAs) and not item.guard for item in cases
             )
             passes = not is_total or any(_passes(item.body) for item in cases)
-        case ast.Expr(value=ast.Call(func=ast.Attribute(attr="exit" | "_exit" | "fail"))):
-            passes = False
+        case ast.Expr(value=ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name))):
+            passes = name not in _ENDING
     return passes
 
 

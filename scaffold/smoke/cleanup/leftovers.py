@@ -16,7 +16,7 @@ from pathlib import Path
 
 from scaffold.smoke.cleanup import ledger
 from scaffold.smoke.isolation import shared_memory
-from scaffold.smoke.processes import process
+from scaffold.smoke.processes import marks
 from scaffold.smoke.processes import table as process_table
 from scaffold.smoke.processes.process import Origin
 
@@ -57,7 +57,7 @@ def recorded_run(*, keep: bool = False) -> Iterator[Run]:
 
 def _clean_up(mark: str, path: Path | None) -> None:
     """Remove what the supervisors of a run should have removed, had they not been killed."""
-    process.sweep(mark)
+    marks.sweep(mark)
     if path is None:
         return
     with suppress(OSError):
@@ -143,7 +143,7 @@ def _end(entries: ledger.Entries, patience: float = _PATIENCE) -> None:
     deadline = time.monotonic() + patience
     while _living(entries) and time.monotonic() < deadline:
         time.sleep(0.05)
-    deadline = time.monotonic() + process.GRACE_OF_KILL
+    deadline = time.monotonic() + marks.GRACE_OF_KILL
     while (pids := _living(entries)) and time.monotonic() < deadline:
         for pid in pids:
             with suppress(OSError):
@@ -161,4 +161,4 @@ def _living(entries: ledger.Entries) -> set[int]:
     below = {
         descendant.pid for pid in recorded for descendant in process_table.descendants(pid, table)
     }
-    return (recorded | below | set(process.marked(entries.mark))) - {os.getpid()}
+    return (recorded | below | set(marks.marked(entries.mark))) - {os.getpid()}

@@ -17,16 +17,8 @@ from pathlib import Path
 from typing import IO, Any, BinaryIO
 
 from scaffold.smoke.processes import table as process_table
+from scaffold.smoke.processes.marks import GRACE_OF_KILL, MARK
 
-MARK = "ROS2_SCAFFOLD_SMOKE"
-"""The variable by which a process of a run is known, whatever has become of its parent."""
-
-GRACE = 5.0
-"""Seconds that an executable has to obey a signal."""
-GRACE_OF_NEXT = 2.0
-"""Seconds that it has to obey the next one, once it has ignored the first."""
-GRACE_OF_KILL = 5.0
-"""Seconds that the kernel has to end a process."""
 GRACE_OF_SUPERVISOR = 60.0
 """Seconds that a supervisor has to end what it has started, and itself."""
 GRACE_OF_CHILDREN = 1.0
@@ -352,82 +344,6 @@ def writing(path: Path) -> BinaryIO:
     return path.open("wb")
 
 
-@dataclass(frozen=True)
-class Ending:
-    """How a process was ended."""
-
-    asked: str
-    """The first signal that was sent."""
-    sent: tuple[str, ...]
-    """All of them: one if it was obeyed."""
-    seconds: float
-    grace: float = GRACE
-    """Seconds that it had to obey the first one."""
-
-    @property
-    def was_ignored(self) -> bool:
-        """Tell whether the first signal did not end it."""
-        return len(self.sent) > 1
-
-    @property
-    def was_missed(self) -> bool:
-        """Tell whether it did not react once, and then did."""
-        return self.sent == (self.asked, self.asked)
-
-    @property
-    def of_ignored(self) -> str:
-        """Say what ended it instead of the first signal."""
-        last = "a second one" if self.was_missed else self.sent[-1]
-        return f"ignored {self.asked}: still running after {self.grace:g} s, {last} ended it"
-
-
-async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:
-    """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
-    begun, seconds = time.monotonic(), grace
-    sent: list[str] = []
-    for item in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
-        sent.append(item.name)
-        running.signal(item)
-        if await running.ended_within(grace):
-            break
-        grace = GRACE_OF_NEXT
-    return Ending(number.name, tuple(sent), time.monotonic() - begun, seconds)
-
-
-def marked(mark: str) -> dict[int, str]:
-    """Return the living processes of a mark, or of marks below it, with their command lines."""
-    wanted = os.fsencode(f"{MARK}={mark}")
-    result: dict[int, str] = {}
-    for name in os.listdir("/proc"):
-        if not name.isdigit():
-            continue
-        try:
-            environment = Path("/proc", name, "environ").read_bytes()
-        except OSError:  # it has ended meanwhile, or belongs to somebody else
-            continue
-        if any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
-            result[int(name)] = process_table.command_line(int(name))
-    result.pop(os.getpid(), None)
-    return result
-
-
-def sweep(mark: str) -> list[str]:
-    """Kill the processes of a mark; return their command lines."""
-    killed: list[str] = []
-    for _ in range(3):  # what is started while the list is read is caught in the next round
-        alive = marked(mark)
-        if not alive:
-            break
-        for pid, command in alive.items():
-            try:
-                os.kill(pid, signal.SIGKILL)
-            except ProcessLookupError:
-                continue
-            killed.append(command)
-        _await_end(alive)
-    return killed
-
-
 def _end_orphans() -> None:
     """Kill what a killed supervisor has left to this process, which is a subreaper as well."""
     deadline = time.monotonic() + GRACE_OF_KILL
@@ -451,15 +367,3 @@ def _end_orphans() -> None:
             with suppress(OSError):
                 os.kill(process.pid, signal.SIGKILL)
         time.sleep(0.01)
-
-
-def _await_end(pids: Mapping[int, str]) -> None:
-    deadline = time.monotonic() + GRACE_OF_KILL
-    while time.monotonic() < deadline:
-        if not any(os.path.exists(f"/proc/{pid}/exe") for pid in pids):
-            return
-        time.sleep(0.01)
-
-
-def _is_below(entry: bytes, wanted: bytes) -> bool:
-    return entry == wanted or entry.startswith(wanted + b"/")

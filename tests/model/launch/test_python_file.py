@@ -18,11 +18,13 @@ from scaffold.files.tree import MemoryTree
 from scaffold.formats import yaml as yaml_tree
 from scaffold.formats.yaml import Mapping, Scalar
 from scaffold.model.install.share import share_of
+from scaffold.model.launch.evaluator import share_path
 from scaffold.model.launch.nodes import started_nodes
-from scaffold.model.launch.python_file import LaunchFile, returns, share_path
+from scaffold.model.launch.python_file import LaunchFile
 from scaffold.model.package import Package
 from scaffold.model.parameters import files as parameter_files
 from scaffold.model.programs.executables import nodes_of, programs_of
+from scaffold.model.python.returns import may_end, returned
 from scaffold.model.workspace.workspace import Workspace
 from scaffold.source import ParseError, Source
 from tests import PATIENCE
@@ -127,7 +129,7 @@ def test_path_above_a_share_directory_is_none() -> None:
         ("return 1", 1, False),
         ("if x:\n  return 1", 1, True),
         ("if x:\n  return 1\n else:\n  raise E", 1, False),
-        ("try:\n  return 1\n except E:\n  pass", 1, True),
+        ("try:\n  return x()\n except E:\n  pass", 1, True),
         ("try:\n  x()\n finally:\n  return 1", 1, False),
         ("with x:\n  return 1", 1, False),
         ("while True:\n  x()", 0, False),
@@ -137,8 +139,8 @@ def test_path_above_a_share_directory_is_none() -> None:
 )
 def test_returns(body: str, count: int, *, reaches_end: bool) -> None:
     package = Package.of({"a.py": f"def f():\n {body}\n"})
-    found, passes = returns(package.module("a.py").functions["f"].node)
-    assert (len(found), passes) == (count, reaches_end)
+    function = package.module("a.py").functions["f"].node
+    assert (len(returned(function)), may_end(function)) == (count, reaches_end)
 
 
 def test_share_directory_of_both_build_types() -> None:

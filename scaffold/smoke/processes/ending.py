@@ -1,0 +1,56 @@
+"""Ending a process with signals, and what it took."""
+
+from __future__ import annotations
+
+import signal
+import time
+from dataclasses import dataclass
+
+from scaffold.smoke.processes.process import Running
+
+GRACE = 5.0
+"""Seconds that an executable has to obey a signal."""
+GRACE_OF_NEXT = 2.0
+"""Seconds that it has to obey the next one, once it has ignored the first."""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a process was ended."""
+
+    asked: str
+    """The first signal that was sent."""
+    sent: tuple[str, ...]
+    """All of them: one if it was obeyed."""
+    seconds: float
+    grace: float = GRACE
+    """Seconds that it had to obey the first one."""
+
+    @property
+    def was_ignored(self) -> bool:
+        """Tell whether the first signal did not end it."""
+        return len(self.sent) > 1
+
+    @property
+    def was_missed(self) -> bool:
+        """Tell whether it did not react once, and then did."""
+        return self.sent == (self.asked, self.asked)
+
+    @property
+    def of_ignored(self) -> str:
+        """Say what ended it instead of the first signal."""
+        last = "a second one" if self.was_missed else self.sent[-1]
+        return f"ignored {self.asked}: still running after {self.grace:g} s, {last} ended it"
+
+
+async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:
+    """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
+    begun, seconds = time.monotonic(), grace
+    sent: list[str] = []
+    for item in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):
+        sent.append(item.name)
+        running.signal(item)
+        if await running.ended_within(grace):
+            break
+        grace = GRACE_OF_NEXT
+    return Ending(number.name, tuple(sent), time.monotonic() - begun, seconds)

@@ -1,0 +1,62 @@
+"""The processes of a run, known by a mark in their environment, whatever became of their parent."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+from scaffold.smoke.processes import table as process_table
+
+MARK = "ROS2_SCAFFOLD_SMOKE"
+"""The variable by which a process of a run is known, whatever has become of its parent."""
+GRACE_OF_KILL = 5.0
+"""Seconds that the kernel has to end a process."""
+
+
+def marked(mark: str) -> dict[int, str]:
+    """Return the living processes of a mark, or of marks below it, with their command lines."""
+    wanted = os.fsencode(f"{MARK}={mark}")
+    result: dict[int, str] = {}
+    for name in os.listdir("/proc"):
+        if not name.isdigit():
+            continue
+        try:
+            environment = Path("/proc", name, "environ").read_bytes()
+        except OSError:  # it has ended meanwhile, or belongs to somebody else
+            continue
+        if any(_is_below(entry, wanted) for entry in environment.split(b"\0")):
+            result[int(name)] = process_table.command_line(int(name))
+    result.pop(os.getpid(), None)
+    return result
+
+
+def sweep(mark: str) -> list[str]:
+    """Kill the processes of a mark; return their command lines."""
+    killed: list[str] = []
+    for _ in range(3):  # what is started while the list is read is caught in the next round
+        alive = marked(mark)
+        if not alive:
+            break
+        for pid, command in alive.items():
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                continue
+            killed.append(command)
+        _await_end(alive)
+    return killed
+
+
+def _await_end(pids: Mapping[int, str]) -> None:
+    deadline = time.monotonic() + GRACE_OF_KILL
+    while time.monotonic() < deadline:
+        if not any(os.path.exists(f"/proc/{pid}/exe") for pid in pids):
+            return
+        time.sleep(0.01)
+
+
+def _is_below(entry: bytes, wanted: bytes) -> bool:
+    return entry == wanted or entry.startswith(wanted + b"/")
