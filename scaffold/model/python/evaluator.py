@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from scaffold.model.python.list_changes import changes_of, is_straight, list_literal, statement_of
 from scaffold.model.python.values import (
     COMPARISONS,
     FUNCTIONS,
@@ -57,11 +58,6 @@ MAX_STEPS = 20_000
 MOST_STEPS = 300_000
 """Expressions visited for all values of a file; from then on, for each no more than FEW_STEPS."""
 FEW_STEPS = 100
-
-_CHANGING = frozenset(
-    {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
-    | {"update", "setdefault", "add", "discard", "popitem"}
-)
 
 
 class Evaluator:
@@ -228,7 +224,7 @@ class Evaluator:
             case ast.BinOp(left=left, op=ast.Add(), right=right):
                 yield from self._collect(left, items, depth + 1)
                 yield from self._collect(right, items, depth + 1)
-            case ast.Name() if self._list_literal(node) is not None:
+            case ast.Name() if list_literal(self.module, node) is not None:
                 yield from self._collect_named(node, items, depth)
             case _:
                 value = self.evaluate(node)
@@ -236,26 +232,14 @@ class Evaluator:
                     items.extend(Element(node, item) for item in value)
                 yield isinstance(value, list | tuple)
 
-    def _list_literal(self, node: ast.Name) -> ast.expr | None:
-        """Return what a name is first assigned, if that looks like a list and nothing shadows."""
-        lookup = self.module.index.lookup(node.id, node)
-        if lookup is None:
-            return None
-        assigned = [binding for binding in lookup[1] if binding.kind != "annotation"]
-        if any(binding.kind not in {"assignment", "augmented"} for binding in assigned):
-            return None
-        values = [binding.value for binding in assigned if binding.kind == "assignment"]
-        literal = values[0] if len(values) == 1 else None
-        return literal if literal is not None and _looks_like_list(literal) else None
-
     def _collect_named(self, node: ast.Name, items: list[Element], depth: int) -> Iterator[bool]:
-        literal = self._list_literal(node)
+        literal = list_literal(self.module, node)
         if literal is None:
             return
         yield from self._collect(literal, items, depth + 1)
-        statement = self._statement(literal)
-        for change in self._changes_of(node):
-            straight = self._is_straight(statement, change)
+        statement = statement_of(self.module, literal)
+        for change in changes_of(self.module, node):
+            straight = is_straight(self.module, statement, change)
             if straight and change.lineno > node.lineno:
                 continue
             before = len(items)
@@ -277,48 +261,6 @@ class Evaluator:
             case _:
                 yield False
 
-    def _changes_of(self, node: ast.Name) -> Sequence[ast.Name]:
-        """Return where the list that a name refers to is changed."""
-        changes = [name for name in self.module.index.names(node.id) if self._is_change(name)]
-        if not changes:
-            return ()
-        scope = self.module.index.lookup(node.id, node)
-        return [
-            name
-            for name in changes
-            if (lookup := self.module.index.lookup(name.id, name))
-            and scope
-            and lookup[0] is scope[0]
-        ]
-
-    def _is_change(self, name: ast.Name) -> bool:
-        parent = self.module.parent(name)
-        match parent:
-            case ast.AugAssign(target=target):
-                return target is name
-            case ast.Attribute(attr=attr) if attr in _CHANGING:
-                above = self.module.parent(parent)
-                return isinstance(above, ast.Call) and above.func is parent
-            case ast.Subscript(value=value, ctx=ast.Store() | ast.Del()):
-                return value is name
-            case _:
-                return False
-
-    def _statement(self, node: ast.AST) -> ast.stmt | None:
-        for parent in (node, *self.module.parents(node)):
-            if isinstance(parent, ast.stmt):
-                return parent
-        return None
-
-    def _is_straight(self, first: ast.stmt | None, change: ast.Name) -> bool:
-        """Tell whether a change is in the same block as the first assignment, below it."""
-        second = self._statement(change)
-        if first is None or second is None or second.lineno < first.lineno:
-            return False
-        return self.module.parent(first) is self.module.parent(second) and not isinstance(
-            second, ast.For | ast.While | ast.If | ast.With | ast.Try
-        )
-
     # -- expressions
 
     def _name(self, node: ast.Name) -> object:
@@ -328,7 +270,7 @@ class Evaluator:
         scope, bindings = lookup
         if (scope, node.id) in self._local:
             return self._local[scope, node.id]
-        if self._list_literal(node) is not None:
+        if list_literal(self.module, node) is not None:
             items = self.elements(node)
             return [item.value for item in items.items] if items.complete else UNKNOWN
         return self._agreed(node, bindings)
@@ -347,7 +289,7 @@ class Evaluator:
         values = [self.evaluate(binding.value) for binding in assigned]
         if any(value is UNKNOWN or not same(value, values[0]) for value in values):
             return UNKNOWN
-        if isinstance(values[0], list | dict | set) and self._changes_of(node):
+        if isinstance(values[0], list | dict | set) and changes_of(self.module, node):
             return UNKNOWN
         return values[0]
 
@@ -539,12 +481,3 @@ class Evaluator:
                 return holder.get(*args[:2])
             case _:
                 return UNKNOWN
-
-
-def _looks_like_list(node: ast.expr) -> bool:
-    """Tell whether an expression is a list literal, or one with something added."""
-    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        if _looks_like_list(node.right):
-            return True
-        node = node.left
-    return isinstance(node, ast.List | ast.ListComp)

@@ -1,0 +1,82 @@
+"""Where the code of a module changes a list after it was made, such as with ``append``."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from scaffold.model.python.module import PythonModule
+
+_CHANGING = frozenset(
+    {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
+    | {"update", "setdefault", "add", "discard", "popitem"}
+)
+
+
+def list_literal(module: PythonModule, node: ast.Name) -> ast.expr | None:
+    """Return what a name is first assigned, if that looks like a list and nothing shadows."""
+    lookup = module.index.lookup(node.id, node)
+    if lookup is None:
+        return None
+    assigned = [binding for binding in lookup[1] if binding.kind != "annotation"]
+    if any(binding.kind not in {"assignment", "augmented"} for binding in assigned):
+        return None
+    values = [binding.value for binding in assigned if binding.kind == "assignment"]
+    literal = values[0] if len(values) == 1 else None
+    return literal if literal is not None and _looks_like_list(literal) else None
+
+
+def changes_of(module: PythonModule, node: ast.Name) -> Sequence[ast.Name]:
+    """Return where the list that a name refers to is changed."""
+    changes = [name for name in module.index.names(node.id) if _is_change(module, name)]
+    if not changes:
+        return ()
+    scope = module.index.lookup(node.id, node)
+    return [
+        name
+        for name in changes
+        if (lookup := module.index.lookup(name.id, name)) and scope and lookup[0] is scope[0]
+    ]
+
+
+def _is_change(module: PythonModule, name: ast.Name) -> bool:
+    parent = module.parent(name)
+    match parent:
+        case ast.AugAssign(target=target):
+            return target is name
+        case ast.Attribute(attr=attr) if attr in _CHANGING:
+            above = module.parent(parent)
+            return isinstance(above, ast.Call) and above.func is parent
+        case ast.Subscript(value=value, ctx=ast.Store() | ast.Del()):
+            return value is name
+        case _:
+            return False
+
+
+def statement_of(module: PythonModule, node: ast.AST) -> ast.stmt | None:
+    """Return the statement that a node is, or is a part of."""
+    for parent in (node, *module.parents(node)):
+        if isinstance(parent, ast.stmt):
+            return parent
+    return None
+
+
+def is_straight(module: PythonModule, first: ast.stmt | None, change: ast.Name) -> bool:
+    """Tell whether a change is in the same block as the first assignment, below it."""
+    second = statement_of(module, change)
+    if first is None or second is None or second.lineno < first.lineno:
+        return False
+    return module.parent(first) is module.parent(second) and not isinstance(
+        second, ast.For | ast.While | ast.If | ast.With | ast.Try
+    )
+
+
+def _looks_like_list(node: ast.expr) -> bool:
+    """Tell whether an expression is a list literal, or one with something added."""
+    while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        if _looks_like_list(node.right):
+            return True
+        node = node.left
+    return isinstance(node, ast.List | ast.ListComp)
