@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import terminal
+from scaffold.cli import add_report, package_report, terminal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -135,11 +135,11 @@ def _run(
         findings = _findings(session, before, added)
         _refuse_elsewhere(session, target.package, added, targets[1:])
         if _is_defect(session, findings, added):
-            _report(target.package, findings)
+            add_report.report_defects(target.package, findings)
             return INTERNAL_ERROR
         if not is_dry:
             plan.write(force=True, around=above)
-    for note in [*added.remarks, *(_line(target.package, item) for item in findings)]:
+    for note in [*added.remarks, *(add_report.line(target.package, item) for item in findings)]:
         terminal.note(note)
     _show(options, target.package, added, plan, above)
     return FINDINGS if any(item.is_needed for item in added.by_hand) else CLEAN
@@ -244,8 +244,8 @@ def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -
             force
         ):
             raise InputError(
-                f"{_line(package, diagnostic)}; fix it first, or ignore it with --force; nothing "
-                "was changed"
+                f"{add_report.line(package, diagnostic)}; fix it first, or ignore it with --force; "
+                "nothing was changed"
             )
 
 
@@ -275,7 +275,7 @@ def _refuse_elsewhere(
             if diagnostic.severity is Severity.ERROR and not added.is_expected(diagnostic):
                 raise InputError(
                     f"{distributions.titles([other])}, which the package is also for: "
-                    f"{_line(package, diagnostic)}; nothing was changed"
+                    f"{add_report.line(package, diagnostic)}; nothing was changed"
                 )
 
 
@@ -305,19 +305,13 @@ def _refuse_differing(
     force: bool,
 ) -> None:
     """Raise if a file that is to be new exists and differs."""
-    from scaffold.errors import ConflictError
-
     differing = [
         file.path
         for file in plan.files
         if file.path in new and file.before not in {None, file.content}
     ]
     if differing and not force:
-        raise ConflictError(
-            f"{', '.join(differing)} in {where or plan.root} already "
-            f"{'exist and differ' if len(differing) > 1 else 'exists and differs'}; "
-            f"{what_to_do}"
-        )
+        raise package_report.conflict(differing, where or plan.root, what_to_do)
 
 
 def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
@@ -341,21 +335,6 @@ def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) ->
     return bool(errors and added.without_own(errors, session.check(added.unedited)))
 
 
-def _report(package: Package, diagnostics: list[Diagnostic]) -> None:
-    for diagnostic in diagnostics:
-        terminal.say(_line(package, diagnostic))
-    terminal.say(
-        "ros2-scaffold: internal error: the checker finds errors in the added files; nothing was "
-        "changed; please open an issue in the repository of this tool"
-    )
-
-
-def _line(package: Package, diagnostic: Diagnostic) -> str:
-    at = diagnostic.location
-    path = os.path.normpath(os.path.join(package.directory, at.path))
-    return f"{path}:{at.line}:{at.column}: {diagnostic.code} {diagnostic.message}"
-
-
 def _show(
     options: argparse.Namespace,
     package: Package,
@@ -365,86 +344,8 @@ def _show(
 ) -> None:
     """Print the diff or the summary, and what is left to the user."""
     if options.diff:
-        terminal.show_patch(_diff(plan, above))
+        terminal.show_patch(add_report.diff(plan, above))
     else:
-        terminal.show(_summary(options, package, added, plan, above))
-    for line in _by_hand(package, added):
+        terminal.show(add_report.summary(options, package, added, plan, above))
+    for line in package_report.by_hand(package.directory, added.by_hand):
         terminal.say(line)
-
-
-def _diff(plan: WritePlan, above: WritePlan | None) -> str:
-    from scaffold.generate.update.provenance import HIDDEN
-
-    return plan.diff(hidden=HIDDEN) + (above.diff() if above is not None else "")
-
-
-def _summary(
-    options: argparse.Namespace,
-    package: Package,
-    added: Added,
-    plan: WritePlan,
-    above: WritePlan | None,
-) -> str:
-    """Return what is written and edited, and the next commands."""
-    from scaffold.generate import repository
-    from scaffold.generate.update.provenance import HIDDEN
-    from scaffold.writing.planned_file import State
-
-    words = {State.NEW: "new", State.DIFFERING: "edited", State.SAME: "unchanged"}
-    rows = [
-        (os.path.normpath(os.path.join(package.directory, file.path)), words[file.state], file.path)
-        for file in plan.files
-    ]
-    rows += [
-        (_shortest(file.target), words[file.state], f"{repository.MARK}{file.path}")
-        for file in (above.files if above is not None else ())
-    ]
-    width = max((len(path) for path, _, _ in rows), default=0)
-    lines = [
-        f"{path:{width}}  {', '.join(filter(None, [word, added.notes.get(name, '')]))}"
-        for path, word, name in rows
-    ]
-    if options.dry_run:
-        diff = _diff(plan, above).rstrip("\n")
-        return "\n".join([*lines, "", diff, "Nothing was changed (--dry-run)."])
-    if not plan.changes and not (above is not None and above.changes):
-        if added.by_hand:
-            return "\n".join([*lines, "Nothing was changed."])
-        return "\n".join([*lines, "", "Everything is already there; nothing was changed."])
-    ours = {*added.new, *(f"{repository.MARK}{path}" for path in added.above), *HIDDEN}
-    if all(path in ours for _, _, path in rows) and added.start is None:
-        return "\n".join(lines)
-    return "\n".join([*lines, "", *_next_commands(package, added)])
-
-
-def _next_commands(package: Package, added: Added) -> list[str]:
-    from shlex import quote
-
-    from scaffold.generate import destination
-
-    top = destination.workspace(os.path.dirname(os.path.realpath(package.directory))) or ""
-    build = f"colcon build --packages-select {package.name}"
-    if top and os.path.realpath(top) != os.path.realpath("."):
-        build = f"cd {quote(_shortest(top))} && {build}"
-    lines = [
-        "Next:",
-        f"    ros2-scaffold check {quote(package.directory)}",
-        f"    {build}",
-        "    source install/setup.bash",
-    ]
-    return [*lines, f"    {added.start}"] if added.start else lines
-
-
-def _shortest(path: str) -> str:
-    return min(os.path.relpath(path), os.path.realpath(path), key=len)
-
-
-def _by_hand(package: Package, added: Added) -> list[str]:
-    """Return what the user has to add, where and why."""
-    if not added.by_hand:
-        return []
-    lines = ["Add by hand:"]
-    for item in added.by_hand:
-        path = os.path.normpath(os.path.join(package.directory, item.path))
-        lines += [f"    {path}: {item.line}", f"        because {item.reason}"]
-    return lines

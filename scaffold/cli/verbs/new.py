@@ -7,7 +7,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from scaffold.cli import terminal
+from scaffold.cli import new_report, package_report, terminal
 from scaffold.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
     from scaffold.cli.interactive.wizard import Asked
     from scaffold.configuration.config import Config
-    from scaffold.diagnostic import Diagnostic
     from scaffold.generate.draft import Draft
     from scaffold.generate.edit.addition import ByHand
     from scaffold.generate.questions.questions import Given
@@ -104,20 +103,24 @@ def _run(
         raise
     defects = [defect for defect in check.end() if not dependency_names.is_about(defect, named)]
     if defects:
-        return _report_defects(defects, made)
+        return new_report.report_defects(defects, made)
     if not options.dry_run and not options.diff:
         plan = _write(options, made, plan, above, left)
     for remark in (*made.remarks, *doubts, *distro.note_of_new(given)):
         terminal.note(remark)
     if options.diff:
-        terminal.show_patch(_diff(plan, above))
+        terminal.show_patch(new_report.diff(plan, above))
     else:
         has_preview = command is not None and not options.dry_run
-        files = f"{plan.root}: written" if has_preview else _files(made, plan, above)
-        terminal.show(_summary(options, files, made, plan, above))
+        files = f"{plan.root}: written" if has_preview else new_report.files(made, plan, above)
+        terminal.show(new_report.summary(options, files, made, plan, above))
         if command is not None:
             terminal.show(f"\nThe same as a command:\n    {command}")
-    return FINDINGS if _tell_by_hand(options, made, left) else CLEAN
+    by_hand = [item for item in left.values() if item is not None]
+    directory = os.path.join(options.destination_directory, made.name)
+    for line in package_report.by_hand(directory, by_hand):
+        terminal.say(line)
+    return FINDINGS if by_hand else CLEAN
 
 
 def _refuse_conflicts(conflicts: Sequence[str]) -> None:
@@ -162,7 +165,7 @@ def _ask(
         made = draft.draft(roots, templates, answers, user, place=around)
         left = _left_to_owners(options, made, around)
         plan = _plan(options, made, left)
-        return _files(made, plan, _plan_above(made, around, left, force=options.force))
+        return new_report.files(made, plan, _plan_above(made, around, left, force=options.force))
 
     trial = wizard.Trial(try_name, try_package, preview)
     return wizard.ask(templates, given, user, trial, _besides_answers(options))
@@ -277,18 +280,13 @@ def _plan_above(
     made: Draft, around: Place, left: Collection[str], *, force: bool
 ) -> WritePlan | None:
     """Compare with what is at the top of the repository around the new package."""
-    from scaffold.errors import ConflictError
     from scaffold.generate import repository
 
     files = {path: text for path, text in made.rendered.files.items() if path not in left}
     plan = repository.plan(around, repository.above(files))
     if plan is not None and plan.conflicts and not force:
-        names = ", ".join(plan.conflicts)
-        raise ConflictError(
-            f"{names} in {plan.root} already "
-            f"{'exist and differ' if len(plan.conflicts) > 1 else 'exists and differs'}; "
-            "--force overwrites; nothing was written"
-        )
+        hint = "--force overwrites; nothing was written"
+        raise package_report.conflict(plan.conflicts, plan.root, hint)
     return plan
 
 
@@ -312,127 +310,3 @@ def _refuse_existing(options: argparse.Namespace, name: str) -> str:
         hint = "--force overwrites the files that differ"
         raise ConflictError(f"{directory} already exists; {hint}")
     return directory
-
-
-def _report_defects(defects: Sequence[Diagnostic], made: Draft) -> int:
-    """Report what is wrong with a package, whose templates are to blame; return the exit code."""
-    from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
-    from scaffold.generate.templates import render
-
-    lines = [
-        f"{defect.location.path}:{defect.location.line}:{defect.location.column}: "
-        f"{defect.code} {defect.message}"
-        for defect in defects
-    ]
-    if render.are_built_in(made.roots):
-        for line in lines:
-            terminal.say(line)
-        terminal.say(
-            "ros2-scaffold: internal error: the templates render a package that the checker "
-            "rejects; nothing was written; please report it to their authors"
-        )
-        return INTERNAL_ERROR
-    templates = made.rendered.templates
-    for line, defect in zip(lines, defects, strict=True):
-        template = templates.get(defect.location.path)
-        terminal.error(f"{line} (rendered from {template})" if template else line)
-    terminal.note("nothing was written: the templates are at fault")
-    return USAGE_ERROR
-
-
-def _diff(plan: WritePlan, above: WritePlan | None) -> str:
-    return plan.diff() + (above.diff() if above is not None else "")
-
-
-def _tell_by_hand(
-    options: argparse.Namespace, made: Draft, left: Mapping[str, ByHand | None]
-) -> bool:
-    """Say what the user has to add by hand; tell whether that is anything."""
-    by_hand = [item for item in left.values() if item is not None]
-    if by_hand:
-        terminal.say("Add by hand:")
-    directory = os.path.join(options.destination_directory, made.name)
-    for edit in by_hand:
-        path = os.path.normpath(os.path.join(directory, edit.path))
-        terminal.say(f"    {path}: {edit.line}")
-        terminal.say(f"        because {edit.reason}")
-    return bool(by_hand)
-
-
-def _summary(
-    options: argparse.Namespace, files: str, made: Draft, plan: WritePlan, above: WritePlan | None
-) -> str:
-    """Return the files, the differences of those that exist, the next commands."""
-    lines = [files]
-    if not plan.is_new:
-        differences = _diff(plan, above)
-        lines += ["", differences.rstrip("\n")] if options.dry_run and differences else []
-    if options.dry_run:
-        return "\n".join([*lines, "", "Nothing was written (--dry-run)."])
-    return "\n".join([*lines, "", *_next_commands(options, made)])
-
-
-def _files(made: Draft, plan: WritePlan, above: WritePlan | None) -> str:
-    """Return the tree of a package with notes, and what is written above it."""
-    from scaffold.generate.repository import MARK
-
-    rows = [
-        (min(os.path.relpath(file.target), file.target, key=len), f"{MARK}{file.path}")
-        for file in (above.files if above is not None else ())
-    ]
-    width = max((len(path) for path, _ in rows), default=0)
-    lines = [f"{path:{width}}  {made.rendered.notes.get(key, '')}".rstrip() for path, key in rows]
-    return "\n".join([*_tree(made, plan), *lines])
-
-
-def _tree(made: Draft, plan: WritePlan) -> list[str]:
-    from scaffold.generate.update import provenance
-    from scaffold.writing.planned_file import State
-
-    notes_of = {**provenance.PURPOSES, **made.rendered.notes}
-    words = {State.NEW: "", State.DIFFERING: "overwritten", State.SAME: "unchanged"}
-    rows: list[tuple[str, str]] = [(f"{made.name}/", "")]
-    parents: list[str] = []
-    for file in sorted(plan.files, key=lambda file: _reading_order(file.path)):
-        *above, name = file.path.split("/")
-        for depth, parent in enumerate(above):
-            if above[: depth + 1] != parents[: depth + 1]:
-                rows.append(("    " * (depth + 1) + parent + "/", ""))
-        parents = above
-        notes = [notes_of.get(file.path, ""), words.get(file.state, "")]
-        note = ", ".join(note for note in notes if note)
-        rows.append(("    " * (len(above) + 1) + name, note))
-    width = max(len(name) for name, _ in rows)
-    return [f"{name:{width}}  {note}".rstrip() for name, note in rows]
-
-
-def _reading_order(path: str) -> tuple[tuple[bool, str], ...]:
-    """Sort files of a directory before the directories in it."""
-    *above, name = path.split("/")
-    return (*((True, parent) for parent in above), (False, name))
-
-
-def _next_commands(options: argparse.Namespace, made: Draft) -> list[str]:
-    from shlex import quote
-
-    from scaffold.generate import destination
-
-    directory = os.path.join(options.destination_directory, made.name)
-    top = destination.workspace(options.destination_directory) or options.destination_directory
-    build = f"colcon build --packages-select {made.name}"
-    if os.path.realpath(top) != os.path.realpath("."):
-        build = f"cd {quote(top)} && {build}"
-    return [
-        "Next:",
-        f"    ros2-scaffold check {quote(os.path.normpath(directory))}",
-        f"    {build}",
-        "    source install/setup.bash",
-        *(f"    ros2 run {made.name} {executable}" for executable in made.executables),
-        *(f"    ros2 launch {made.name} {name}" for name in _launch_files(made)),
-    ]
-
-
-def _launch_files(made: Draft) -> list[str]:
-    """Return the names of the launch files that the package installs."""
-    paths = (path.partition("/") for path in sorted(made.rendered.files))
-    return [name for directory, _, name in paths if directory == "launch"]
