@@ -6,9 +6,9 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from scaffold.check.cache import worker_reads
 from scaffold.diagnostic import Diagnostic
@@ -19,8 +19,8 @@ from scaffold.record import NamedTuple
 if TYPE_CHECKING:
     from multiprocessing.pool import Pool
 
-    from scaffold.check.result import Earlier, Result
-    from scaffold.check.session import Ruled, Session
+    from scaffold.ament import StyleCheck
+    from scaffold.check.result import Earlier, Result, Ruled
     from scaffold.model.discovery.targets import Target
 
 WORTH_WORKERS = 150_000
@@ -39,6 +39,34 @@ MAX_FACTS = 10_000
 """Facts about packages that a worker keeps from task to task; 2,000 take 1 MB."""
 
 Style = dict[str, list[Diagnostic]]
+
+
+class Checker(Protocol):
+    """What checks packages: a ``Session``, of which all processes have the same."""
+
+    def run_batch(
+        self,
+        targets: Sequence[Target],
+        style: StyleCheck | None = None,
+        earlier: Mapping[str, Earlier] | None = None,
+    ) -> list[Result]:
+        """Check packages in this process."""
+
+    def start_style(
+        self,
+        packages: Sequence[Package],
+        earlier: Mapping[str, Earlier] | None = None,
+        paths: Collection[str] | None = None,
+    ) -> StyleCheck | None:
+        """Start the style backend."""
+
+    def check_rules(self, package: Package, earlier: Earlier | None = None) -> Ruled:
+        """Run the rules over a package."""
+
+    def result(
+        self, target: Target, rules: Ruled, style: Mapping[str, Sequence[Diagnostic]]
+    ) -> Result:
+        """Combine what was found in a package."""
 
 
 class _Task(NamedTuple):
@@ -60,7 +88,7 @@ class _Done(NamedTuple):
 
 
 class _Work(NamedTuple):
-    session: Session
+    session: Checker
     targets: Sequence[Target]
     earlier: Mapping[str, Earlier]
     packages: Sequence[Package]
@@ -73,7 +101,7 @@ be sent; only numbers go in, and what was found and learnt comes out."""
 
 
 def run(
-    session: Session, targets: Sequence[Target], earlier: Mapping[str, Earlier]
+    session: Checker, targets: Sequence[Target], earlier: Mapping[str, Earlier]
 ) -> Iterator[Result]:
     """Check packages; yield their results in the order given.
 

@@ -83,6 +83,21 @@ class Result(NamedTuple):
         return self._replace(diagnostics=[item._replace(fix=None) for item in self.diagnostics])
 
 
+class Ruled(NamedTuple):
+    """What the rules found in a package."""
+
+    files: int
+    diagnostics: list[Diagnostic]
+    verdict: Verdict | None
+    """The same in parts."""
+    style: Mapping[str, Sequence[Diagnostic]] = {}
+    """The style of the files that are not to be checked again, by path."""
+    foreign: tuple[str, ...] = ()
+    """Of the files that are not the user's, what makes them so."""
+    suppressed: tuple[Diagnostic, ...] = ()
+    """What was found, and is not among the diagnostics."""
+
+
 class Summary(NamedTuple):
     """Counts over a whole run."""
 

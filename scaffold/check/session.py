@@ -20,7 +20,7 @@ from scaffold.check.engine_rules import (
     TooManyFindings,
     UnparsableFile,
 )
-from scaffold.check.result import Earlier, Result, Verdict
+from scaffold.check.result import Earlier, Result, Ruled
 from scaffold.check.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.type_rules import TypeRule
@@ -30,7 +30,6 @@ from scaffold.files.tree import CMAKE_LISTS
 from scaffold.model.cmake.ament import uses_ament
 from scaffold.model.discovery.targets import Target
 from scaffold.model.package import Package
-from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -43,21 +42,6 @@ WORTH_PARTS = 2
 
 _ABOUT_PYTHON = frozenset({"IM", "LF", "MS", "ND"})
 """The areas whose rules look at what types are about."""
-
-
-class Ruled(NamedTuple):
-    """What the rules found in a package."""
-
-    files: int
-    diagnostics: list[Diagnostic]
-    verdict: Verdict | None
-    """The same in parts."""
-    style: Mapping[str, Sequence[Diagnostic]] = {}
-    """The style of the files that are not to be checked again, by path."""
-    foreign: tuple[str, ...] = ()
-    """Of the files that are not the user's, what makes them so."""
-    suppressed: tuple[Diagnostic, ...] = ()
-    """What was found, and is not among the diagnostics."""
 
 
 class Session:

@@ -13,8 +13,8 @@ import re
 import tokenize
 from collections.abc import Iterator
 
-from scaffold.model.python.module import MAX_DEPTH
 from scaffold.model.python.scopes import ScopeIndex
+from scaffold.model.python.syntax_tree import MAX_DEPTH
 
 _UNKNOWN = "_"
 """A name that tells a type checker nothing."""

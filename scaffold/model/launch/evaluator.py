@@ -19,6 +19,8 @@ SHARE = "/<share>/"
 class LaunchEvaluator(Evaluator):
     """Knows the share directories of packages, and substitutions that are constant."""
 
+    module: PythonModule
+
     def __init__(self, module: PythonModule, package_name: str) -> None:
         super().__init__(module)
         self._package_name = package_name

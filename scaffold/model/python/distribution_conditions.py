@@ -14,7 +14,7 @@ from scaffold.model.python.running_version import SWAPPED, RunningVersion
 from scaffold.model.python.values import COMPARISONS, UNKNOWN, is_known
 
 if TYPE_CHECKING:
-    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 _GETTER = "os.getenv"
 _SUBSTITUTION = "launch.substitutions.EnvironmentVariable"
@@ -33,7 +33,7 @@ _DEEPEST = 20
 
 
 def holds(
-    module: PythonModule, test: ast.expr, depth: int = 0, *, is_asked: bool = False
+    module: SyntaxTree, test: ast.expr, depth: int = 0, *, is_asked: bool = False
 ) -> bool | None:
     """Return whether a condition is true on the target; ``None`` if that is not known.
 
@@ -62,7 +62,7 @@ def holds(
     return None if named is None else holds(module, named, depth + 1, is_asked=is_asked)
 
 
-def open_parts(module: PythonModule, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
+def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[ast.expr]:
     """Yield the parts of a condition that the target leaves open.
 
     Of ``is_old_distro and self.ready`` that is ``self.ready`` on an old one, and nothing elsewhere.
@@ -90,7 +90,7 @@ def open_parts(module: PythonModule, test: ast.expr, depth: int = 0) -> Iterator
         yield test
 
 
-def asks(module: PythonModule, value: ast.expr) -> bool:
+def asks(module: SyntaxTree, value: ast.expr) -> bool:
     """Tell whether the distribution decides what an expression is worth."""
     if not module.mentions(*ASKED):
         return False
@@ -99,19 +99,19 @@ def asks(module: PythonModule, value: ast.expr) -> bool:
     return any(evaluator.trace(node)[1] for node in nodes)
 
 
-def text_on_target(module: PythonModule, value: ast.expr) -> str | None:
+def text_on_target(module: SyntaxTree, value: ast.expr) -> str | None:
     """Return the text that the distribution makes of an expression; ``None`` if it does not."""
     text, notes = _DistributionEvaluator(module).trace(value)
     return text if notes and isinstance(text, str) else None
 
 
-def worth(module: PythonModule, value: ast.expr) -> tuple[object, bool]:
+def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
     """Return what an expression is worth on the target, and whether the distribution decides it."""
     found, notes = _DistributionEvaluator(module).trace(value)
     return found, bool(notes)
 
 
-def _only_value(module: PythonModule, test: ast.expr) -> ast.expr | None:
+def _only_value(module: SyntaxTree, test: ast.expr) -> ast.expr | None:
     """Return what a name is set to, if that happens once."""
     found = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
     match found:

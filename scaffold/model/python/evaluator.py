@@ -28,8 +28,8 @@ from scaffold.model.python.values import (
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.model.python.module import PythonModule
     from scaffold.model.python.scopes import Binding
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 
 class Element(NamedTuple):
@@ -68,7 +68,7 @@ class Evaluator:
     attributes and calls are worth.
     """
 
-    def __init__(self, module: PythonModule) -> None:
+    def __init__(self, module: SyntaxTree) -> None:
         self.module = module
         self._depth = 0
         self._steps = self._spent = 0

@@ -13,7 +13,7 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location
 
 if TYPE_CHECKING:
-    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 _PLATFORM_NAMES = (
     *("sys.", "os.name", "os.environ", "os.getenv", "os.uname", "platform."),
@@ -62,11 +62,12 @@ class Import(NamedTuple):
         return "" if self.level else self.module.partition(".")[0]
 
 
-def read_imports(module: PythonModule) -> Sequence[Import]:
+def read_imports(module: SyntaxTree, *, in_tests: bool) -> Sequence[Import]:
     """Return all imports of a file, in the order of the text.
 
     Args:
         module: The file.
+        in_tests: Whether it is a test.
     """
     guards = _Guards(module)
     result: list[Import] = []
@@ -75,7 +76,7 @@ def read_imports(module: PythonModule) -> Sequence[Import]:
         *module.walk(ast.ImportFrom),
     ]
     for node in sorted(nodes, key=lambda node: (node.lineno, node.col_offset)):
-        context = guards.context(node)
+        context = (*guards.context(node), in_tests)
         if isinstance(node, ast.ImportFrom):
             names = tuple(
                 ImportedName(alias.name, alias.asname, module.location(alias))
@@ -93,11 +94,11 @@ def read_imports(module: PythonModule) -> Sequence[Import]:
 class _Guards:
     """What is around the imports of a file."""
 
-    def __init__(self, module: PythonModule) -> None:
+    def __init__(self, module: SyntaxTree) -> None:
         self._module = module
 
-    def context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool, bool]:
-        """Return top_level, in_function, guarded, type_checking, conditional, in_tests."""
+    def context(self, node: ast.AST) -> tuple[bool, bool, bool, bool, bool]:
+        """Return top_level, in_function, guarded, type_checking, conditional."""
         in_function = type_checking = conditional = False
         guarded = self._is_skipped_without(node)
         child: ast.AST = node
@@ -120,7 +121,7 @@ class _Guards:
                         conditional = True
             child = parent
         top_level = self._module.parent(node) is self._module.tree
-        return top_level, in_function, guarded, type_checking, conditional, self._module.in_tests
+        return top_level, in_function, guarded, type_checking, conditional
 
     def _is_skipped_without(self, node: ast.AST) -> bool:
         """Tell whether the tests of the file are skipped where an imported module is missing."""
@@ -157,7 +158,7 @@ class _Guards:
         return False
 
 
-def _is_switched(module: PythonModule, test: ast.expr, wanted: bool) -> bool:  # noqa: FBT001
+def _is_switched(module: SyntaxTree, test: ast.expr, wanted: bool) -> bool:  # noqa: FBT001
     """Tell whether a condition is a constant, or the name of one, that is true or false."""
     match test:
         case ast.Constant():

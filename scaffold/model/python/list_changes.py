@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scaffold.model.python.module import PythonModule
+    from scaffold.model.python.syntax_tree import SyntaxTree
 
 _CHANGING = frozenset(
     {"append", "extend", "insert", "remove", "pop", "clear", "sort", "reverse"}
@@ -15,7 +15,7 @@ _CHANGING = frozenset(
 )
 
 
-def list_literal(module: PythonModule, node: ast.Name) -> ast.expr | None:
+def list_literal(module: SyntaxTree, node: ast.Name) -> ast.expr | None:
     """Return what a name is first assigned, if that looks like a list and nothing shadows."""
     lookup = module.index.lookup(node.id, node)
     if lookup is None:
@@ -28,7 +28,7 @@ def list_literal(module: PythonModule, node: ast.Name) -> ast.expr | None:
     return literal if literal is not None and _looks_like_list(literal) else None
 
 
-def changes_of(module: PythonModule, node: ast.Name) -> Sequence[ast.Name]:
+def changes_of(module: SyntaxTree, node: ast.Name) -> Sequence[ast.Name]:
     """Return where the list that a name refers to is changed."""
     changes = [name for name in module.index.names(node.id) if _is_change(module, name)]
     if not changes:
@@ -41,7 +41,7 @@ def changes_of(module: PythonModule, node: ast.Name) -> Sequence[ast.Name]:
     ]
 
 
-def _is_change(module: PythonModule, name: ast.Name) -> bool:
+def _is_change(module: SyntaxTree, name: ast.Name) -> bool:
     parent = module.parent(name)
     match parent:
         case ast.AugAssign(target=target):
@@ -55,7 +55,7 @@ def _is_change(module: PythonModule, name: ast.Name) -> bool:
             return False
 
 
-def statement_of(module: PythonModule, node: ast.AST) -> ast.stmt | None:
+def statement_of(module: SyntaxTree, node: ast.AST) -> ast.stmt | None:
     """Return the statement that a node is, or is a part of."""
     for parent in (node, *module.parents(node)):
         if isinstance(parent, ast.stmt):
@@ -63,7 +63,7 @@ def statement_of(module: PythonModule, node: ast.AST) -> ast.stmt | None:
     return None
 
 
-def is_straight(module: PythonModule, first: ast.stmt | None, change: ast.Name) -> bool:
+def is_straight(module: SyntaxTree, first: ast.stmt | None, change: ast.Name) -> bool:
     """Tell whether a change is in the same block as the first assignment, below it."""
     second = statement_of(module, change)
     if first is None or second is None or second.lineno < first.lineno:
