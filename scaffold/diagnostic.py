@@ -74,10 +74,10 @@ MAX_FINDINGS = 5000
 """Of one code in one package; a flood of them must not hold the check up."""
 
 
-def crash_message(what: str, error: Exception) -> str:
+def crash_message(subject: str, error: Exception) -> str:
     """Return the message about a defect: what failed, how, and where in our code."""
     trace = error.__traceback__
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next
     where = f" (line {trace.tb_lineno} of {trace.tb_frame.f_code.co_name})" if trace else ""
-    return f"{what} failed: {type(error).__name__}: {error}{where}"
+    return f"{subject} failed: {type(error).__name__}: {error}{where}"

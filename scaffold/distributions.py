@@ -118,7 +118,7 @@ def nearest(name: str) -> Distribution:
     """Return the distribution whose data say most of one that may have none: the next later one."""
     if name in NAMES:
         return named(name)
-    return named(next((known for known in ORDER if known > name), ORDER[-1]))
+    return named(next((later for later in ORDER if later > name), ORDER[-1]))
 
 
 def refusal(name: object, advice: str = "name one") -> str:
@@ -159,8 +159,8 @@ def several(text: str, origin: str = "") -> list[Distribution]:
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
-        known = f"no distribution is named; known are {', '.join(NAMES)}"
-        raise InputError(f"{origin}: {known}" if origin else known)
+        problem = f"no distribution is named; known are {', '.join(NAMES)}"
+        raise InputError(f"{origin}: {problem}" if origin else problem)
     return ordered([named(word, origin, "write commas between them") for word in words])
 
 

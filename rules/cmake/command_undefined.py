@@ -159,7 +159,7 @@ class CommandUndefined(Rule):
     def _check_providers(self, package: Package, own: set[str]) -> Iterator[Diagnostic]:
         """Report the commands of packages that are not found."""
         cmake = package.cmake
-        packages = {found.name for found in cmake.found_packages}
+        packages = {found_package.name for found_package in cmake.found_packages}
         tests: set[str] = set()
         if cmake.find("ament_lint_auto_find_test_dependencies") and package.has("package.xml"):
             tests = package.manifest.test_names

@@ -159,9 +159,9 @@ class FoundUndeclared(Rule):
 def _undeclared(package: Package) -> Iterator[FoundPackage]:
     """Yield the packages of ROS that are looked for, and that no dependency brings along."""
     declared = {item.name for item in package.manifest.dependencies if item.may_be_active}
-    there = requirements.declared(package, for_tests=True)
-    names = {package.name, *declared, *transitive_dependencies(declared), *there.along}
-    names |= there.direct
+    dependencies = requirements.declared(package, for_tests=True)
+    names = {package.name, *declared, *transitive_dependencies(declared), *dependencies.along}
+    names |= dependencies.direct
     for found in package.cmake.found_packages:
         name, neighbor = found.name, package.workspace.get(found.name)
         if name == "rosidl_default_generators" and package.cmake.find("rosidl_generate_interfaces"):

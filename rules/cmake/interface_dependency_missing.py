@@ -84,11 +84,11 @@ class InterfaceDependencyMissing(Rule):
         for call in generations(package):
             if call.dependencies is None:
                 continue
-            there = _reached(definitions, call.dependencies)
-            if there is None:
+            reached = _reached(definitions, call.dependencies)
+            if reached is None:
                 continue
             for name, path, line in _used(package, call):
-                if name not in {*there, package.name}:
+                if name not in {*reached, package.name}:
                     message = (
                         f"{path}:{line} uses a type of {name!r}, which is not among the "
                         "DEPENDENCIES: add it"
@@ -100,10 +100,10 @@ class InterfaceDependencyMissing(Rule):
         calls = [call for call in generations(package) if call.dependencies]
         if not calls or cmake.finds_automatically or has_unknown_commands(package):
             return
-        there = _available(package, _names_found(cmake))
-        for call in calls if there is not None else ():
+        available = _available(package, _names_found(cmake))
+        for call in calls if available is not None else ():
             for name in call.dependencies or ():
-                if name not in {*(there or ()), *_ALWAYS, package.name}:
+                if name not in {*(available or ()), *_ALWAYS, package.name}:
                     message = (
                         f"{name!r} is among the DEPENDENCIES, but nothing finds it: "
                         f"find_package({name} REQUIRED) is missing"
@@ -159,13 +159,13 @@ def _available(package: Package, required: set[str] | None) -> set[str] | None:
     if required is None:
         return None
     definitions = package.workspace.interfaces
-    there: set[str] = set()
+    available: set[str] = set()
     pending = sorted(required)
     while pending:
         name = pending.pop()
-        if name in there:
+        if name in available:
             continue
-        there.add(name)
+        available.add(name)
         if name.startswith(_TOOLS):
             continue
         pending += sorted(transitive_dependencies({name}))
@@ -178,7 +178,7 @@ def _available(package: Package, required: set[str] | None) -> set[str] | None:
                 interface = definitions.find(f"{name}/{kind}/{item}")
                 for section in interface.sections if interface else ():
                     pending += [field.type.package or "" for field in section.fields]
-    return there
+    return available
 
 
 def _declared(package: Package, name: str) -> list[str]:

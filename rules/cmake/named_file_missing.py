@@ -298,7 +298,9 @@ class NamedFileMissing(Rule):
             yield self.report(argument, f"there is no test file {path}{hint}")
 
     def _check_interfaces(self, package: Package) -> Iterator[Diagnostic]:
-        there = [path for path in package.files if path.rpartition(".")[2] in {*SECTIONS, "idl"}]
+        interfaces = [
+            path for path in package.files if path.rpartition(".")[2] in {*SECTIONS, "idl"}
+        ]
         made = [command.values for command in package.cmake.find("configure_file", "file")]
         for call in generations(package):
             for file in call.files:
@@ -310,8 +312,12 @@ class NamedFileMissing(Rule):
                     message = f"{path} must be in a directory, so CMake stops: move it to {ending}/"
                     yield self.report(file.argument, message)
                 elif not package.has(path) and not any(path in values for values in made):
-                    same = [item for item in there if item.lower().endswith(f"/{path.lower()}")]
-                    hint = f"; did you mean {same[0]!r}?" if same else closest_word(path, there)
+                    same = [
+                        item for item in interfaces if item.lower().endswith(f"/{path.lower()}")
+                    ]
+                    hint = (
+                        f"; did you mean {same[0]!r}?" if same else closest_word(path, interfaces)
+                    )
                     message = f"there is no file {path!r}, so CMake stops{hint}"
                     yield self.report(file.argument, message)
 

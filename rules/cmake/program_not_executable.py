@@ -298,26 +298,26 @@ class ProgramNotExecutable(Rule):
             end = len(line)
             if line.startswith("\ufeff"):
                 end = 1
-                what = (
+                problem = (
                     "a byte order mark comes before the shebang: the kernel does not recognize it"
                 )
             elif not line.startswith("#!"):
                 end = 0
-                what = f"installed as a program, but does not begin with {SHEBANG}"
+                problem = f"installed as a program, but does not begin with {SHEBANG}"
             elif line.rstrip().endswith(("/python", "/python2", "env python", "env python2")):
-                what = f"{line.strip()!r} uses a Python that ROS 2 does not have"
+                problem = f"{line.strip()!r} uses a Python that ROS 2 does not have"
             elif source.text.partition("\n")[0].endswith("\r"):
                 end = 0
-                what = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
+                problem = "CRLF: the kernel looks for 'python3\\r'; save it with LF line ends"
             elif not _starts_python(line.strip()):
-                what = f"{line.strip()!r} does not exist on other machines; write {SHEBANG}"
+                problem = f"{line.strip()!r} does not exist on other machines; write {SHEBANG}"
             else:
                 continue
             text = "" if end == 1 else SHEBANG if end else SHEBANG + source.newline
             fix = Fix(f"begin with {SHEBANG}", (Edit(path, 0, end, text),))
-            is_crlf = what.startswith("CRLF")
+            is_crlf = problem.startswith("CRLF")
             at = package.start_of(path)
-            yield self.report(at, what, None if is_crlf else fix, cause=_CAUSE)
+            yield self.report(at, problem, None if is_crlf else fix, cause=_CAUSE)
 
 
 def _is_run_by_cmake(package: Package, path: str) -> bool:

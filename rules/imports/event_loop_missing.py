@@ -182,8 +182,8 @@ def _is_at_start(module: PythonModule, call: ast.Call) -> bool:
     if not name or not _is_plain(around[0]) or len(module.index.bindings(module.tree)[name]) > 1:
         return False
     for use in module.index.names(name):
-        site, found = module.parent(use), module.index.lookup(use.id, use)
-        if found is None or found[0] is not module.tree:
+        site, lookup = module.parent(use), module.index.lookup(use.id, use)
+        if lookup is None or lookup[0] is not module.tree:
             continue
         if isinstance(site, ast.Call) and site.func is use and _runs_into_it(module, site):
             return True

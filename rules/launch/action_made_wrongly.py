@@ -202,9 +202,9 @@ class ActionMadeWrongly(LaunchRule):
 
     def _check_items(self, launch: LaunchFile) -> Iterator[Diagnostic]:
         for item in entities(launch):
-            what = describe(launch, item.node)
-            if what and not (item.is_alone and what in _ALONE):
-                message = f"{what}, but {item.taker} takes actions{_hint(what)}"
+            description = describe(launch, item.node)
+            if description and not (item.is_alone and description in _ALONE):
+                message = f"{description}, but {item.taker} takes actions{_hint(description)}"
                 yield self.report(launch.location(item.node), message)
         for call in launch.calls:
             listed = call.given.get("composable_node_descriptions")
@@ -242,16 +242,16 @@ def _is_script(launch: LaunchFile, call: LaunchCall) -> bool:
     return isinstance(name, str) and name.endswith(".py") and "/" not in name
 
 
-def _hint(what: str) -> str:
+def _hint(kind: str) -> str:
     """Return what to write instead."""
-    if what == "this is a list":
+    if kind == "this is a list":
         return ": unpack it with *"
-    if what == "this is an event":
+    if kind == "this is an event":
         return ": wrap it in EmitEvent(event=...)"
-    if "handler" in what:
+    if "handler" in kind:
         return ": wrap it in RegisterEventHandler(...)"
-    if "Source" in what:
+    if "Source" in kind:
         return ": wrap it in IncludeLaunchDescription(...)"
-    if "class" in what or "function" in what:
+    if "class" in kind or "function" in kind:
         return ": call it"
     return ""

@@ -141,13 +141,13 @@ _FITS: _Judgement = ("", None)
 
 def _parameters(launch: LaunchFile, call: LaunchCall, argument: str) -> _Judgement:
     node = call.given[argument]
-    what = _kind_of_parameters(launch, node)
-    if what is None:
+    kind = _kind_of_parameters(launch, node)
+    if kind is None:
         return _FITS
     start, end = launch.module.span(node)
-    star = "*" if what == "a tuple" else ""
+    star = "*" if kind == "a tuple" else ""
     edits = (Edit(launch.path, start, start, f"[{star}"), Edit(launch.path, end, end, "]"))
-    return f"parameters is {what}; {call.kind} takes a list", Fix("make it a list", edits)
+    return f"parameters is {kind}; {call.kind} takes a list", Fix("make it a list", edits)
 
 
 def _kind_of_parameters(launch: LaunchFile, node: ast.expr) -> str | None:

@@ -212,7 +212,7 @@ def _by_python(launch: LaunchFile, node: ast.UnaryOp | ast.BoolOp) -> str:
     for value in values:
         call = launch.call_of(value)
         if call is not None and call.kind in {"LaunchConfiguration", "PythonExpression"}:
-            what = "not" if isinstance(node, ast.UnaryOp) else "and/or"
-            use = "NotSubstitution" if what == "not" else "AndSubstitution, OrSubstitution"
-            return f"`{what}` tests the {call.kind} object, not its value: use {use}"
+            operator = "not" if isinstance(node, ast.UnaryOp) else "and/or"
+            use = "NotSubstitution" if operator == "not" else "AndSubstitution, OrSubstitution"
+            return f"`{operator}` tests the {call.kind} object, not its value: use {use}"
     return ""

@@ -149,9 +149,9 @@ class LaunchFunctionMissing(LaunchRule):
     ) -> Iterator[Diagnostic]:
         statements = sorted(returned(node), key=lambda item: item.lineno)
         for item in statements:
-            what = _wrong(launch, item.value)
-            if what:
-                message = f"generate_launch_description returns {what}, not a LaunchDescription"
+            wrong = _wrong(launch, item.value)
+            if wrong:
+                message = f"generate_launch_description returns {wrong}, not a LaunchDescription"
                 yield self.report(launch.location(item), message)
         if not may_end(node):
             return

@@ -169,9 +169,9 @@ class PackageUndeclared(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        there = declared(package, for_tests=False)
+        dependencies = declared(package, for_tests=False)
         active = {item.name for item in manifest.dependencies if item.may_be_active}
-        seen = {package.name, *there.direct, *there.along, *active}
+        seen = {package.name, *dependencies.direct, *dependencies.along, *active}
         tag = "exec_depend" if manifest.format > 1 else "run_depend"
         for use in package_uses(package):
             if use.name in seen or use.is_optional or meant_package(package, use):

@@ -112,11 +112,11 @@ class SubstitutionUsedAsText(LaunchRule):
         yield from self._check_truth(launch)
 
     def _check_text(self, launch: LaunchFile) -> Iterator[Diagnostic]:
-        for node, kind, what in text_uses(launch):
-            if what in _SHOWN and _is_printed(launch, node):
+        for node, kind, use in text_uses(launch):
+            if use in _SHOWN and _is_printed(launch, node):
                 continue
-            message = f"the value of a {kind} is not known yet {what}: it is evaluated later"
-            if what == CONDITION:
+            message = f"the value of a {kind} is not known yet {use}: it is evaluated later"
+            if use == CONDITION:
                 message = (
                     f"the {kind} object is tested, not its value: always true; use IfCondition"
                 )

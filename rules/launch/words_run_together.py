@@ -190,8 +190,8 @@ def _joined_command(launch: LaunchFile, node: ast.expr) -> str:
         word = str(launch.text(view, "name"))
     if word not in _PROGRAMS or _begins_with_space(launch, second):
         return ""
-    what = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
-    return f"launch concatenates the parts of a command: write {what}"
+    missing = f"'{word} '" if isinstance(first, ast.Constant) else "' ' after it"
+    return f"launch concatenates the parts of a command: write {missing}"
 
 
 def _begins_with_space(launch: LaunchFile, node: ast.expr) -> bool:

@@ -111,7 +111,7 @@ def _robot(package: Package, launch: LaunchFile, parts: ast.List) -> Expansion |
         for text in texts
         if isinstance(text, str) and text.endswith(_ENDINGS) and f"/{package.name}/" in text
     }
-    found = [
+    candidates = [
         robot for robot in robots(package).whole if robot.file.path.rpartition("/")[2] in names
     ]
-    return found[0] if len(found) == 1 and len(names) == 1 else None
+    return candidates[0] if len(candidates) == 1 and len(names) == 1 else None

@@ -87,8 +87,8 @@ def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:
 
 def _encoding_problem(types: MessageTypes, node: ast.expr, what_happens: str) -> str:
     value = types.facts.evaluator.evaluate(node)
-    near = _meant(value) if isinstance(value, str) else ""
-    return f"unknown encoding {value!r}: {what_happens}; write {near!r}" if near else ""
+    meant = _meant(value) if isinstance(value, str) else ""
+    return f"unknown encoding {value!r}: {what_happens}; write {meant!r}" if meant else ""
 
 
 def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
@@ -117,8 +117,8 @@ def _meant(encoding: str) -> str:
     """Return the encoding that an unknown one stands for; empty if it may be one of its own."""
     if encoding in _ENCODINGS or re.fullmatch(r"(8|16|32|64)[USF]C\d+", encoding):
         return ""
-    known = {name.lower(): name for name in _ENCODINGS}
+    by_lower_case = {name.lower(): name for name in _ENCODINGS}
     lower = encoding.lower().replace("-", "").replace(" ", "")
     letters = sorted(lower)
-    near = (name for name in sorted(known) if sorted(name) == letters)
-    return _SHORT.get(lower) or known.get(lower) or next(near, "")
+    anagrams = (name for name in sorted(by_lower_case) if sorted(name) == letters)
+    return _SHORT.get(lower) or by_lower_case.get(lower) or next(anagrams, "")

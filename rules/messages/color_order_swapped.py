@@ -259,7 +259,7 @@ def _value_before(types: MessageTypes, image: ast.Name) -> ast.expr | None:
     """Return what a name that is set several times was set to last, in the same block."""
     module = types.module
     lookup = module.index.lookup(image.id, image)
-    statement = next((x for x in module.parents(image) if isinstance(x, ast.stmt)), None)
+    statement = module.enclosing(image, ast.stmt)
     if lookup is None or len(lookup[1]) < _SEVERAL or statement is None:
         return None
     block = getattr(module.parent(statement), "body", [])

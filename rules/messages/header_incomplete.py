@@ -149,9 +149,9 @@ class HeaderIncomplete(MessageRule):
         for unset in unstamped(types):
             if _is_ours(package, types, unset.sent.args[0]):
                 line = types.module.location(unset.sent).line
-                what = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
+                state = "with a zero stamp" if unset.missing == "stamp" else "without a frame"
                 message = (
-                    f"{unset.message.name} is published in line {line} {what}; "
+                    f"{unset.message.name} is published in line {line} {state}; "
                     f"set header.{unset.missing}"
                 )
                 yield self.report(types.module.location(unset.made), message)

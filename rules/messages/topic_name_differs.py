@@ -131,13 +131,14 @@ class TopicNameDiffers(Rule):
         sent, awaited = one_sided(package)
         for topic in awaited:
             for other in sent:
-                here, there = topic.subscriptions[0], other.publishers[0]
-                if topic.is_plain and other.is_plain and _is_slip(here, there):
-                    place = f"{there.location.path}:{there.location.line}"
+                subscription, publisher = topic.subscriptions[0], other.publishers[0]
+                if topic.is_plain and other.is_plain and _is_slip(subscription, publisher):
+                    place = f"{publisher.location.path}:{publisher.location.line}"
                     message = (
-                        f"no publisher for {here.name!r}; did you mean {there.name!r} ({place})?"
+                        f"no publisher for {subscription.name!r}; did you mean "
+                        f"{publisher.name!r} ({place})?"
                     )
-                    yield self.report(here.name_location, message)
+                    yield self.report(subscription.name_location, message)
                     break
 
     def _check_private(self, package: Package) -> Iterator[Diagnostic]:
@@ -152,13 +153,13 @@ class TopicNameDiffers(Rule):
                 other = topic.subscriptions[0] if is_sent else topic.publishers[0]
                 is_same = topic.is_plain and _is_same_but_private(other, private)
                 if is_same and not is_remapped(package, other):
-                    here, there = (other, private) if is_sent else (private, other)
-                    place = f"{there.location.path}:{there.location.line}"
+                    subscription, publisher = (other, private) if is_sent else (private, other)
+                    place = f"{publisher.location.path}:{publisher.location.line}"
                     message = (
-                        f"no publisher for {here.name!r}: {place} publishes {there.name!r}, "
-                        "and ~ expands to the node name"
+                        f"no publisher for {subscription.name!r}: {place} publishes "
+                        f"{publisher.name!r}, and ~ expands to the node name"
                     )
-                    yield self.report(here.name_location, message)
+                    yield self.report(subscription.name_location, message)
                     break
 
     def _check_services(self, package: Package) -> Iterator[Diagnostic]:
@@ -183,10 +184,14 @@ class TopicNameDiffers(Rule):
                     break
 
 
-def _is_slip(here: NamedEndpoint, there: NamedEndpoint) -> bool:
+def _is_slip(subscription: NamedEndpoint, publisher: NamedEndpoint) -> bool:
     """Return whether two names of the same type differ by one letter or in case."""
-    name, other = here.name.strip("/"), there.name.strip("/")
-    if here.interface is None or here.interface != there.interface or name == other:
+    name, other = subscription.name.strip("/"), publisher.name.strip("/")
+    if (
+        subscription.interface is None
+        or subscription.interface != publisher.interface
+        or name == other
+    ):
         return False
     if name.lower() == other.lower():
         return True
@@ -198,11 +203,11 @@ def _is_slip(here: NamedEndpoint, there: NamedEndpoint) -> bool:
     return short[rest:] == long[same + 1 :]
 
 
-def _is_same_but_private(here: NamedEndpoint, there: NamedEndpoint) -> bool:
+def _is_same_but_private(subscription: NamedEndpoint, publisher: NamedEndpoint) -> bool:
     """Return whether two names of the same type differ only by a ``~/`` before the second."""
-    if here.interface is None or here.interface != there.interface:
+    if subscription.interface is None or subscription.interface != publisher.interface:
         return False
-    return here.name.strip("/") == there.name.removeprefix("~/")
+    return subscription.name.strip("/") == publisher.name.removeprefix("~/")
 
 
 def _is_slip_services(client: NamedEndpoint, service: NamedEndpoint) -> bool:

@@ -96,8 +96,8 @@ class TopicTypeDiffers(Rule):
     def _check(
         self, name: str, side: Sequence[NamedEndpoint], other_side: Sequence[NamedEndpoint]
     ) -> Iterator[Diagnostic]:
-        for here, others in ((side, other_side), (other_side, side)):
-            for endpoint in here:
+        for named, others in ((side, other_side), (other_side, side)):
+            for endpoint in named:
                 differing = [x for x in others if x.interface != endpoint.interface]
                 if differing:
                     message = f"{name!r} has type {endpoint.interface} here, but"

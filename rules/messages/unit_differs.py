@@ -320,9 +320,9 @@ def _unit_of_name(
     """Return the unit of a name: that of the only value it gets, or the one in it."""
     values = _values(types, node)
     units = {_unit(types, value, depth + 1) for value in values}
-    known = {unit for unit, is_by_name in units if unit and not is_by_name}
-    if known:
-        return (known.pop(), False) if len(units) == 1 else ("", False)
+    stated = {unit for unit, is_by_name in units if unit and not is_by_name}
+    if stated:
+        return (stated.pop(), False) if len(units) == 1 else ("", False)
     name = node.id if isinstance(node, ast.Name) else node.attr
     named = _unit_named(name)
     is_computed = any(isinstance(value, ast.BinOp) for value in values)

@@ -69,8 +69,8 @@ class AttributeOfNodeReplaced(RclpyRule):
             for target in _targets(node):
                 at = file.module.location(target)
                 effect = "rclpy fails later" if target.attr in _PRIVATE else "AttributeError"
-                what = f"{target.attr!r} is an attribute of rclpy's Node"
-                yield self.report(at, f"{what}: {effect}; choose another name")
+                subject = f"{target.attr!r} is an attribute of rclpy's Node"
+                yield self.report(at, f"{subject}: {effect}; choose another name")
             for name, method in node.methods.items():
                 if _breaks(name, method):
                     at = file.module.name_location(method)

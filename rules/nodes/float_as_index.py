@@ -82,7 +82,7 @@ class FloatAsIndex(PythonRule):
 
 def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
     """Tell whether a slice is one of pandas, between labels of any kind."""
-    subscript = next((x for x in module.parents(node) if isinstance(x, ast.Subscript)), None)
+    subscript = module.enclosing(node, ast.Subscript)
     holder = subscript.value if subscript is not None else None
     return isinstance(holder, ast.Attribute) and holder.attr == "loc"
 

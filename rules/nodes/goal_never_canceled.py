@@ -154,7 +154,7 @@ class GoalNeverCanceled(RclpyRule):
         for server in file.action_servers if not file.module.in_tests else ():
             work = _work(file, server)
             kept = _kept_on_cancel(file, server)
-            used = (item for it in work for item in file.module.below(it, ast.Attribute))
+            used = (item for node in work for item in file.module.below(node, ast.Attribute))
             if any(item.attr in kept for item in used):
                 continue
             for function in work:

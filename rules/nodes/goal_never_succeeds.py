@@ -222,7 +222,7 @@ def _stays_open(file: RclpyFile, call: ast.Call, at: int, depth: int) -> bool:
     if function is None or isinstance(function, ast.Lambda) or function.decorator_list:
         return False
     arguments = [*function.args.posonlyargs, *function.args.args][int(callback.is_bound) :]
-    if at >= len(arguments) or any(isinstance(one, ast.Starred) for one in call.args):
+    if at >= len(arguments) or any(isinstance(argument, ast.Starred) for argument in call.args):
         return False
     ends = (node for node in ast.walk(function) if isinstance(node, ast.Attribute))
     if any(node.attr in _ENDS for node in ends):

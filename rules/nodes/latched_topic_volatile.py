@@ -197,14 +197,14 @@ class LatchedTopicVolatile(RclpyRule):
             yield from self._judge(package, endpoint, topic)
 
     def _judge(self, package: Package, endpoint: Endpoint, topic: str) -> Iterator[Diagnostic]:
-        there = topics_of(package).get(topic)
+        endpoints = topics_of(package).get(topic)
         if isinstance(endpoint, Publisher):
             message = (
                 f"{topic!r} is transient local everywhere: subscriptions that request it do not "
                 f"connect to this volatile publisher; {_USE}"
             )
             yield self.report(endpoint.qos or endpoint, message)
-        elif there is None or not there.publishers:
+        elif endpoints is None or not endpoints.publishers:
             message = (
                 f"{topic!r} is latched: a volatile subscription misses everything published "
                 f"before it; {_USE}"
@@ -246,14 +246,14 @@ class LatchedTopicVolatile(RclpyRule):
 
 def _is_late(package: Package, endpoint: Subscription, topic: str) -> bool:
     """Tell whether all that the package publishes for a volatile subscription is published once."""
-    there = topics_of(package).get(topic)
-    if endpoint.qos is None or endpoint.qos.durability != "VOLATILE" or there is None:
+    endpoints = topics_of(package).get(topic)
+    if endpoint.qos is None or endpoint.qos.durability != "VOLATILE" or endpoints is None:
         return False
-    return bool(there.publishers) and all(
+    return bool(endpoints.publishers) and all(
         publisher.qos is not None
         and publisher.qos.durability == "TRANSIENT_LOCAL"
         and topic in published_at_start(package, publisher.location.path)
-        for publisher in there.publishers
+        for publisher in endpoints.publishers
     )
 
 
@@ -266,8 +266,8 @@ def _is_repeated(file: RclpyFile, node: ast.AST, depth: int) -> bool:
     """Tell whether something is in a loop, or in a function that is called in one or repeatedly."""
     module = file.module
     function = file.function_of(node)
-    if any(isinstance(it, _LOOPS) for it in module.parents(node)) or depth == _MOST_CALLS:
+    if any(isinstance(parent, _LOOPS) for parent in module.parents(node)) or depth == _MOST_CALLS:
         return True
     name = getattr(function, "name", "")
     calls = [*module.index.names(name), *module.index.attributes(name)] if name else []
-    return len(calls) > 1 or any(_is_repeated(file, it, depth + 1) for it in calls)
+    return len(calls) > 1 or any(_is_repeated(file, call, depth + 1) for call in calls)

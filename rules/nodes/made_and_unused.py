@@ -266,7 +266,7 @@ def _setups(file: RclpyFile, class_: NodeClass) -> Iterator[tuple[str, str]]:
 
 def _is_replaced(file: RclpyFile, call: ast.Call, name: str) -> bool:
     """Tell whether a loop over topics keeps each publisher in the same attribute, and no other."""
-    loop = next((x for x in file.module.parents(call) if isinstance(x, ast.For)), None)
+    loop = file.module.enclosing(call, ast.For)
     if loop is None or file.function_of(loop) is not file.function_of(call):
         return False
     counters = {x.id for x in ast.walk(loop.target) if isinstance(x, ast.Name)}

@@ -108,19 +108,19 @@ class MadeInCallback(RclpyRule):
             if any(_name(call).startswith(_ENDS) for call in calls):
                 continue
             for call in calls:
-                what = _MADE.get(_name(call))
-                if what is None or not _is_repeated(file, function, call):
+                created = _MADE.get(_name(call))
+                if created is None or not _is_repeated(file, function, call):
                     continue
                 if not _is_of_ros(file, call) or _is_stored_by_key(file, call):
                     continue
-                happens = _USES.get(what, "the node keeps them all")
-                happens = "all of them keep running" if what == _TIMER else happens
+                happens = _USES.get(created, "the node keeps them all")
+                happens = "all of them keep running" if created == _TIMER else happens
                 message = (
-                    f"{executed.origin} creates {what} each time: {happens}; create it in the "
+                    f"{executed.origin} creates {created} each time: {happens}; create it in the "
                     "constructor"
                 )
                 _, variable = file.stored_in(call)
-                is_lost = variable and what in _USES
+                is_lost = variable and created in _USES
                 severity = None if is_lost else Severity.WARNING
                 yield self.report(file.module.location(call), message, severity=severity)
 

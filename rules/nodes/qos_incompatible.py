@@ -105,13 +105,13 @@ class QosIncompatible(Rule):
                 if conflict is None or not all(other for _, other in pairs):
                     continue
                 both = ((subscription, publisher), (publisher, subscription))
-                for here, there in both:
-                    other, has = conflict if here is subscription else conflict[::-1]
+                for receiver, sender in both:
+                    other, has = conflict if receiver is subscription else conflict[::-1]
                     message = (
-                        f"{_kind(here)} {name!r} {has}, but the {_kind(there)} in "
-                        f"{there.location.path}:{there.location.line} {other}: nothing arrives"
+                        f"{_kind(receiver)} {name!r} {has}, but the {_kind(sender)} in "
+                        f"{sender.location.path}:{sender.location.line} {other}: nothing arrives"
                     )
-                    at = here.qos.location if here.qos is not None else here.location
+                    at = receiver.qos.location if receiver.qos is not None else receiver.location
                     yield self.report(at, message, cause=f"QoS of {name}")
 
 

@@ -149,8 +149,8 @@ class QosUnusable(RclpyRule):
         if entity.owner is None and entity.name_argument is None:
             return None  # a method of this name that is not rclpy's
         if entity.argument("qos_profile") is None and entity.qos is None:
-            what = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
-            return f"{what}() is missing a depth or a QoS profile: TypeError"
+            method = "create_publisher" if isinstance(entity, Publisher) else "create_subscription"
+            return f"{method}() is missing a depth or a QoS profile: TypeError"
         qos = entity.qos
         if qos is not None and qos.depth is None:
             return "QoS profile without a depth: InvalidQoSProfileException"

@@ -158,9 +158,9 @@ class RateAsPeriod(RclpyRule):
             return
         if number is not None and (number <= 1 or (not is_clear and number < _LEAST_RATE)):
             return
-        what = "a rate" if number is None else f"a rate of {number:g} Hz"
+        rate = "a rate" if number is None else f"a rate of {number:g} Hz"
         happens = "one call in as many seconds" if number is None else f"one call in {number:g} s"
-        message = f"{what} where the period belongs: {happens}; write 1.0 / rate"
+        message = f"{rate} where the period belongs: {happens}; write 1.0 / rate"
         severity = None if is_clear and number is not None else Severity.WARNING
         yield self.report(file.module.location(given), message, severity=severity)
 

@@ -219,7 +219,7 @@ def _waits_once(file: RclpyFile, call: ast.Call) -> bool:
 
     Whoever was there before the callback may have waited for it already.
     """
-    loop = next((x for x in file.module.parents(call) if isinstance(x, ast.While)), None)
+    loop = file.module.enclosing(call, ast.While)
     name = getattr(file.function_of(call), "name", "")
     if loop is None or any(isinstance(x, ast.Call) for x in ast.walk(loop.test)):
         return False

@@ -272,13 +272,13 @@ def _is_meant_whole(file: RclpyFile, node: ast.BinOp) -> bool:
 def _uses(file: RclpyFile, target: ast.expr) -> Sequence[ast.Name | ast.Attribute]:
     """Return where a variable is read; of a local one, in its function."""
     if isinstance(target, ast.Attribute):
-        found: Sequence[ast.Name | ast.Attribute] = file.module.index.attributes(target.attr)
+        uses: Sequence[ast.Name | ast.Attribute] = file.module.index.attributes(target.attr)
     else:
         name = target.id if isinstance(target, ast.Name) else ""
         function = file.module.enclosing_function(target)
         names = file.module.index.names(name)
-        found = [x for x in names if file.module.enclosing_function(x) is function]
-    return [use for use in found if isinstance(use.ctx, ast.Load)]
+        uses = [x for x in names if file.module.enclosing_function(x) is function]
+    return [use for use in uses if isinstance(use.ctx, ast.Load)]
 
 
 def _is_factor(file: RclpyFile, use: ast.expr) -> bool:

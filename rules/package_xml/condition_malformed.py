@@ -132,8 +132,8 @@ class ConditionMalformed(Rule):
             for constant in constants(condition)
         ]
         reported += [
-            (f"nothing is called {name!r}; did you mean {known!r}?", None)
-            for name, known in misspelled(condition)
+            (f"nothing is called {name!r}; did you mean {suggestion!r}?", None)
+            for name, suggestion in misspelled(condition)
         ]
         if not reported and is_never_true(condition):
             either = re.sub(r"\band\b", "or", condition)

@@ -168,8 +168,8 @@ def _has_others(package: Package, name: str, closest: str) -> bool:
     for module in package.modules(mentioning=(name,)):
         for item in module.imports_by_root.get(name, ()):
             kind = item.module.partition(".")[2]
-            known = definitions.names(closest, kind) or () if kind in KINDS else None
-            if known is not None and any(imported.name not in known for imported in item.names):
+            names = definitions.names(closest, kind) or () if kind in KINDS else None
+            if names is not None and any(imported.name not in names for imported in item.names):
                 return True
     return False
 
@@ -178,11 +178,11 @@ def _similar_neighbor(package: Package, name: str) -> str | None:
     """Return the only package of the workspace that an unknown name can mean, if there is one."""
     if is_released(name) or name in ROS_PACKAGES or _is_known(package, name):
         return None
-    near = [other.name for other in package.workspace if is_near(name, other.name)]
-    if len(near) != 1 or near[0] == package.name:
+    similar = [other.name for other in package.workspace if is_near(name, other.name)]
+    if len(similar) != 1 or similar[0] == package.name:
         return None
     is_imported = any(name in module.imports_by_root for module in package.modules())
-    return None if is_imported else near[0]
+    return None if is_imported else similar[0]
 
 
 def _is_known(package: Package, name: str) -> bool:

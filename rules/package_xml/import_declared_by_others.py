@@ -47,15 +47,15 @@ class ImportDeclaredByOthers(Rule):
     def check(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
         for need in required_packages(package):
-            there = declared(package, for_tests=need.for_tests)
-            if need.for_tests or any(key in there.direct for key in need.keys):
+            dependencies = declared(package, for_tests=need.for_tests)
+            if need.for_tests or any(key in dependencies.direct for key in need.keys):
                 continue
             if not (need.module == "rclpy" or need.module.endswith(_INTERFACES)):
                 continue
-            along = [key for key in need.keys if key in there.along]
+            along = [key for key in need.keys if key in dependencies.along]
             if not along or not manifest.dependencies:
                 continue
-            if any(similar_package(item) == along[0] for item in there.direct):
+            if any(similar_package(item) == along[0] for item in dependencies.direct):
                 continue  # misspelled, as another rule says
             if manifest.left_out(need.keys, "run"):
                 continue  # its condition is what to look at
@@ -63,7 +63,7 @@ class ImportDeclaredByOthers(Rule):
             by = next(
                 (
                     item
-                    for item in sorted(there.direct)
+                    for item in sorted(dependencies.direct)
                     if along[0] in transitive_dependencies({item})
                 ),
                 "",

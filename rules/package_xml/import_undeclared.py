@@ -402,8 +402,8 @@ class ImportUndeclared(Rule):
         for need in required_packages(package):
             if removed_package(need.module) and package.workspace.get(need.module) is None:
                 continue  # package-removed says it
-            there = declared(package, for_tests=need.for_tests)
-            if any(key in there.direct or key in there.along for key in need.keys):
+            dependencies = declared(package, for_tests=need.for_tests)
+            if any(key in dependencies.direct or key in dependencies.along for key in need.keys):
                 continue
             is_from_pip = is_in_requirements(package, need.module)
             if need.module in _INDEX and (is_from_pip or _is_required(package, need.module)):

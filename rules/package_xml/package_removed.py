@@ -118,9 +118,9 @@ def _uses_of_build(package: Package) -> Iterator[tuple[str, Location, str]]:
         packages, files = package.cmake.found_packages, interface_files(package)
     except ViewError:
         return
-    for found in packages:
-        if found.required and not package.cmake.is_off(found.command):
-            yield found.name, found.location, "CMake stops"
+    for package_found in packages:
+        if package_found.required and not package.cmake.is_off(package_found.command):
+            yield package_found.name, package_found.location, "CMake stops"
     for file in files:
         for section in file.definition.sections:
             for field in section.fields:

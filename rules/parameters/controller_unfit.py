@@ -205,9 +205,9 @@ class ControllerUnfit(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         files = [parameter_file(package, path) for path in parameter_paths(package)]
-        known = [file for file in files if file is not None]
+        parsed = [file for file in files if file is not None]
         managers = [
-            section for file in known for section in file.sections if section.name == _MANAGER
+            section for file in parsed for section in file.sections if section.name == _MANAGER
         ]
         if not managers:
             return
@@ -219,8 +219,8 @@ class ControllerUnfit(Rule):
         }
         for section in managers:
             yield from self._check_manager(section)
-            yield from self._check_nested(known, section, types)
-        yield from self._check_joints(package, known, types)
+            yield from self._check_nested(parsed, section, types)
+        yield from self._check_joints(package, parsed, types)
         yield from self._check_spawned(package, types)
 
     def _check_manager(self, section: Section) -> Iterator[Diagnostic]:

@@ -196,7 +196,9 @@ class NodeUnknown(Rule):
             is_renamed = name not in everywhere or name in codes
             if alike or (useless and use.complete and is_renamed):
                 meant = alike or sorted(names)
-                first = next(it for it in use.nodes if it.name(package) in meant).location
+                first = next(
+                    started for started in use.nodes if started.name(package) in meant
+                ).location
                 message = (
                     f"no node is named {name!r}: the section is ignored; "
                     f"{first.path}:{first.line} starts {', '.join(meant)}"
@@ -214,7 +216,9 @@ class NodeUnknown(Rule):
             if not alike or name in everywhere or section.is_pattern:
                 continue
             message = f"no node of this package is named {name!r}"
-            if _is_left_over(package, section, [it for it in nodes if it.node_name in alike]):
+            if _is_left_over(
+                package, section, [started for started in nodes if started.node_name in alike]
+            ):
                 message += " or has these parameters: nothing reads this section"
                 yield self.report(section.key, message, severity=Severity.WARNING)
             else:

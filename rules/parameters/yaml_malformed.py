@@ -80,21 +80,21 @@ class YamlMalformed(Rule):
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
         launched = [path for path in markup_paths(package) if not path.endswith(".xml")]
-        known = dict.fromkeys([*parameter_paths(package), *launched])
-        for path in [*known, *_written_by_hand(package, known)]:
+        paths = dict.fromkeys([*parameter_paths(package), *launched])
+        for path in [*paths, *_written_by_hand(package, paths)]:
             error = mistake(package, path)
-            if error is not None and (path in known or _is_read(package, path)):
+            if error is not None and (path in paths or _is_read(package, path)):
                 yield self.report(error.location, error.message)
 
 
-def _written_by_hand(package: Package, known: Container[str]) -> Iterator[str]:
+def _written_by_hand(package: Package, paths: Container[str]) -> Iterator[str]:
     """Yield the other files of YAML, but for those of tests and what is YAML for others.
 
     Files of OpenCV have a header of their own; templates are none yet.
     """
     for path in package.files:
         is_of_tests = not {"test", "tests"}.isdisjoint(path.split("/"))
-        if path in known or is_of_tests or not path.endswith((".yaml", ".yml")):
+        if path in paths or is_of_tests or not path.endswith((".yaml", ".yml")):
             continue
         with suppress(OSError):
             if re.search(_OTHER_FORMATS, package.bytes_of(path, _LONGEST)) is None:

@@ -161,8 +161,8 @@ class MetadataDiffers(Rule):
             tag = "maintainer" if name.startswith("maintainer") else name
             element = manifest.one(tag)
             line = element.location.line if element else 1
-            here, there = _short(keyword.value, wanted[0])
-            message = f"{name} is {here}, but {there} in package.xml, line {line}"
+            in_setup_py, in_manifest = _short(keyword.value, wanted[0])
+            message = f"{name} is {in_setup_py}, but {in_manifest} in package.xml, line {line}"
             yield self.report(keyword, message)
 
     def _check_name(self, package: Package) -> Iterator[Diagnostic]:

@@ -133,8 +133,8 @@ class SetupFileMissing(Rule):
                     path = source.removeprefix("./")
                     if "resource/" in path or package.has(path) or path.startswith(("/", "../")):
                         continue
-                    what = "a directory" if package.has_directory(path) else "not there"
-                    message = f"data_files names {source}, which is {what}"
+                    problem = "a directory" if package.has_directory(path) else "not there"
+                    message = f"data_files names {source}, which is {problem}"
                     yield self.report(at, message, cause=_CAUSE)
 
     def _nothing_matches(self, package: Package, pattern: Glob) -> str | None:

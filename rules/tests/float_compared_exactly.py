@@ -133,9 +133,9 @@ def _has_rounding(package: Package, module: PythonModule, function: ast.expr) ->
     path = f"{owner.replace('.', '/')}.py"
     if not owner or not package.has(path):
         return False
-    home = package.module(path)
-    found = home.functions.get(attribute)
-    return found is not None and any(
-        isinstance(node, ast.Call) and _rounds(home.qualified_name(node.func))
-        for node in ast.walk(found.node)
+    definition = package.module(path)
+    called = definition.functions.get(attribute)
+    return called is not None and any(
+        isinstance(node, ast.Call) and _rounds(definition.qualified_name(node.func))
+        for node in ast.walk(called.node)
     )

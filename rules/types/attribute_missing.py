@@ -584,10 +584,10 @@ class AttributeMissing(TypeRule):
         is_known = is_known or _may_be_of_mock(finding, name)
         if name.startswith("_") or is_imported or is_known or _is_chosen(finding, node):
             return None
-        known = known_owner(finding, node, owner)
-        if known is None:
+        object_ = known_owner(finding, node, owner)
+        if object_ is None:
             return None
-        shown, names = known
+        shown, names = object_
         method = shown.rpartition(".")[2] if METHOD.fullmatch(owner) else ""
         hint = _instead(shown, name, method)
         closest = "" if hint else closest_name(finding.package, name, names - {name}, 0.6)

@@ -215,8 +215,11 @@ class ElementRefused(Rule):
             names = _OF_URDF.get((holder, part.tag), ())
             missing = [name for name in names if name not in part.attributes]
             if missing:
-                near = [closest_name(package, it, list(part.attributes), 0.6) for it in missing]
-                hint = "".join(f"; {closest!r} is not read" for closest in near if closest)
+                suggestions = [
+                    closest_name(package, attribute, list(part.attributes), 0.6)
+                    for attribute in missing
+                ]
+                hint = "".join(f"; {closest!r} is not read" for closest in suggestions if closest)
                 which = f"<{part.tag}> has no {_listed(missing)}"
                 yield self.report(part, f"{which}: urdfdom rejects the whole file{hint}")
         for path in robot_paths(package):

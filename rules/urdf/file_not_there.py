@@ -261,8 +261,8 @@ class FileNotThere(Rule):
 
     def _check_packages(self, package: Package) -> Iterator[Diagnostic]:
         manifest = package.manifest
-        there = declared(package, for_tests=False)
-        seen = {package.name, *there.direct, *there.along, *manifest.declared_names}
+        dependencies = declared(package, for_tests=False)
+        seen = {package.name, *dependencies.direct, *dependencies.along, *manifest.declared_names}
         for named in named_files(package):
             if not named.package or not package.has("package.xml"):
                 continue

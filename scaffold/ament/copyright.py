@@ -277,8 +277,8 @@ def identify(text: str) -> str | None:
 
 
 @lru_cache(maxsize=256)
-def _identified(text: str, known: tuple[KnownText, ...]) -> str | None:
-    for known_text in known:
+def _identified(text: str, texts: tuple[KnownText, ...]) -> str | None:
+    for known_text in texts:
         if _in_order(text, known_text.sections):
             return known_text.licence
     return None

@@ -330,6 +330,6 @@ def _outline(text: str) -> Outline:
     return Outline(literals, frozenset(commands))
 
 
-def _index(text: str, what: str, start: int) -> int:
-    at = text.find(what, start)
+def _index(text: str, searched: str, start: int) -> int:
+    at = text.find(searched, start)
     return len(text) if at < 0 else at

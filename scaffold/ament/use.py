@@ -98,7 +98,10 @@ def _called(cmake: CMakeLists, calls: Sequence[Command]) -> Use:
         excluded += sections.get("EXCLUDE", ())
         # Of the keywords, TESTNAME and TIMEOUT have one value; what follows it is a path as well.
         single = (name for name in ("TESTNAME", "TIMEOUT") if name in sections)
-        paths = [*sections.get("", ()), *(it for name in single for it in sections[name][1:])]
+        paths = [
+            *sections.get("", ()),
+            *(argument for name in single for argument in sections[name][1:]),
+        ]
         values = cmake.expand_list(paths, call)
         if values is None:
             return _undetermined("names")

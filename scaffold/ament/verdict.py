@@ -217,8 +217,8 @@ def _from_ruff(
             rows.update(
                 text.line_of(at.start()) for at in re.finditer(operators.CONTINUED, text.text)
             )
-        found = [text.logical_line_at(row) for row in sorted(rows)]
-        for logical in dict.fromkeys((*found, *text.lines_with(candidates))):
+        logical_lines = [text.logical_line_at(row) for row in sorted(rows)]
+        for logical in dict.fromkeys((*logical_lines, *text.lines_with(candidates))):
             if logical is not None:
                 yield from module.check(logical)
     for diagnostic in diagnostics:

@@ -326,8 +326,8 @@ def _conditions(_: Package, structure: Structure) -> Iterator[_Problem]:
         attribute = element.attributes["condition"]
         is_group = element.tag in GROUPS
         if not fits(GROUP_CONDITION if is_group else CONDITION, collapse(attribute.value)):
-            what = "groups" if is_group else "dependencies"
-            reason = f"the schema does not allow all of these characters for {what}"
+            elements = "groups" if is_group else "dependencies"
+            reason = f"the schema does not allow all of these characters for {elements}"
             yield attribute.location, f"{attribute.value!r}: {reason}"
 
 

@@ -148,8 +148,8 @@ def table(rules: Sequence[type[Rule]]) -> str:
 
 def _rows(rows: Iterable[tuple[str, str, Severity, Safety | None, str]]) -> str:
     lines = [
-        f"| [{code}]({code}.md) | {name} | {severity.value} | {'yes' if fix else ''} | {what} |"
-        for code, name, severity, fix, what in rows
+        f"| [{code}]({code}.md) | {name} | {severity.value} | {'yes' if fix else ''} | {summary} |"
+        for code, name, severity, fix, summary in rows
     ]
     return "\n".join(["| code | name | severity | fix | what |", "|---|---|---|---|---|", *lines])
 

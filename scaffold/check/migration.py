@@ -128,7 +128,9 @@ def _is_ignored(package: Package, path: str) -> bool:
     """Tell whether a file is in a directory with COLCON_IGNORE or AMENT_IGNORE."""
     parents = path.split("/")[:-1]
     directories = ("/".join(parents[:end]) for end in range(1, len(parents) + 1))
-    return any(package.has(f"{one}/{name}") for one in directories for name in IGNORE_MARKERS)
+    return any(
+        package.has(f"{directory}/{name}") for directory in directories for name in IGNORE_MARKERS
+    )
 
 
 class MigratingSession(Session):

@@ -88,9 +88,9 @@ def _result(target: Target, checked: Checked | None) -> Result:
 
 def _variables() -> dict[str, str]:
     """Return the variables by which `check` finds what is installed, with what they lead to."""
-    home = os.environ.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
+    ros_home = os.environ.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
     prefixes = filter(os.path.isabs, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep))
-    return {"ROS_HOME": home, "AMENT_PREFIX_PATH": os.pathsep.join(prefixes)}
+    return {"ROS_HOME": ros_home, "AMENT_PREFIX_PATH": os.pathsep.join(prefixes)}
 
 
 def _mirror(targets: Sequence[Target], paths: Sequence[str]) -> Mirror:

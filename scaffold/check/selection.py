@@ -93,10 +93,10 @@ def resolve(
             codes = [areas[lower]]
         if not codes:
             is_name = "-" in word or not any(map(str.isdigit, word))
-            known = [*areas, *names.values()] if is_name else list(names)
-            what = "name" if is_name else "code"
-            hint = nearest(lower if is_name else upper, known)
-            raise ConfigError(f"{origin}: no rule has the {what} {word!r}{hint}")
+            candidates = [*areas, *names.values()] if is_name else list(names)
+            kind = "name" if is_name else "code"
+            hint = nearest(lower if is_name else upper, candidates)
+            raise ConfigError(f"{origin}: no rule has the {kind} {word!r}{hint}")
         result.update(dict.fromkeys(codes))
     return tuple(result)
 

@@ -155,8 +155,8 @@ class Session:
         diagnostics = [*rules.diagnostics, *styles]
         verdict = rules.verdict._replace(style=everything) if rules.verdict else None
         if typed is not None:
-            found = [*rules.diagnostics, *rules.suppressed]
-            diagnostics += _besides(found, typed.diagnostics)
+            of_rules = [*rules.diagnostics, *rules.suppressed]
+            diagnostics += _besides(of_rules, typed.diagnostics)
             if verdict is not None:
                 facts = {**verdict.facts, **typed.facts}
                 verdict = verdict._replace(types=typed.parts, facts=facts)
@@ -180,9 +180,9 @@ class Session:
             some = packages[start : start + MOST_PACKAGES]
             style = self.start_style(some)
             for package in some:
-                found = style.by_file(package) if style else {}
+                diagnostics = style.by_file(package) if style else {}
                 package.forget()
-                yield found
+                yield diagnostics
 
     def check_style(
         self, package: Package, paths: Collection[str]

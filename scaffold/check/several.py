@@ -52,7 +52,7 @@ class AgreedSession(Session):
 
 def agreed(by_distribution: Mapping[Distribution, Sequence[Result]]) -> Agreed:
     """Return the codes, with directory and file, that are found for all distributions."""
-    found = [
+    agreed_diagnostics = [
         {
             (result.package.directory, item.location.path, item.code)
             for result in results
@@ -60,7 +60,7 @@ def agreed(by_distribution: Mapping[Distribution, Sequence[Result]]) -> Agreed:
         }
         for results in by_distribution.values()
     ]
-    return frozenset.intersection(*map(frozenset, found))
+    return frozenset.intersection(*map(frozenset, agreed_diagnostics))
 
 
 def merged(
@@ -122,10 +122,10 @@ def _merged(
             by_key.setdefault(key, item)
             holding.setdefault(key, {}).setdefault(distribution.name, item.message)
     names = {key: sorted(those, key=distributions.NAMES.index) for key, those in holding.items()}
-    found = [
+    merged = [
         {(item.location.path, item.code) for item in those} for those in by_distribution.values()
     ]
-    has_fix = frozenset.intersection(*map(frozenset, found))
+    has_fix = frozenset.intersection(*map(frozenset, merged))
     for key, item in by_key.items():
         if item.code not in fixed_for_all and (item.location.path, item.code) not in has_fix:
             by_key[key] = item._replace(fix=None)

@@ -97,11 +97,11 @@ def fix_count(count: int) -> str:
     return "1 fix" if count == 1 else f"{count} fixes"
 
 
-def note_unexamined(found: Sequence[tuple[Package, Diagnostic]]) -> bool:
+def note_unexamined(diagnostics: Sequence[tuple[Package, Diagnostic]]) -> bool:
     """Note the files that could not be examined, so that a patch says nothing about them.
 
     Args:
-        found: What is left, with the packages.
+        diagnostics: What is left, with the packages.
 
     Returns:
         Whether there are any.
@@ -111,7 +111,13 @@ def note_unexamined(found: Sequence[tuple[Package, Diagnostic]]) -> bool:
     from scaffold.reporters.paths import shown
     from scaffold.reporters.summary import count
 
-    paths = sorted({shown(at, one.location.path) for at, one in found if one.code in UNEXAMINED})
+    paths = sorted(
+        {
+            shown(at, diagnostic.location.path)
+            for at, diagnostic in diagnostics
+            if diagnostic.code in UNEXAMINED
+        }
+    )
     if paths:
         named = ", ".join(map(printable, paths[:_NAMED]))
         more = f" and {len(paths) - _NAMED} more" if len(paths) > _NAMED else ""

@@ -50,7 +50,7 @@ def lines(
     totals = [sum(len(item[at]) for item in consequences) for at in range(1, 4)]
     counts = zip(totals, COUNTED, strict=True)
     named = ", ".join(f"{number} {state}" for number, state in counts)
-    every = [one for item in consequences for one in item.diagnostics]
+    every = [diagnostic for item in consequences for diagnostic in item.diagnostics]
     missed = sum(_unexamined_files(item) for item in consequences)
     nothing = "nothing changes in what was examined" if missed else "nothing changes"
     parts = [f"{shares(found)} to {target.title}: {named if every else nothing}"]
@@ -64,7 +64,7 @@ def lines(
 
 
 def _unexamined_files(item: Consequences) -> int:
-    return len({one.location.path for one in item.unexamined})
+    return len({diagnostic.location.path for diagnostic in item.unexamined})
 
 
 def _folded(package: Package, diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
@@ -103,7 +103,7 @@ def as_data(
         "schema_version": json.SCHEMA_VERSION,
         "from": [origin.name for origin in found.directories],
         "to": target.name,
-        "keep": [one.name for one in kept],
+        "keep": [distribution.name for distribution in kept],
         "packages": [
             {
                 "name": item.result.package.name,

@@ -104,22 +104,27 @@ class Mover:
         from scaffold.check.migration import identities
         from scaffold.check.several import merged
 
-        kept = [one for one in move.kept if one.place != move.target.place]
+        kept = [
+            distribution for distribution in move.kept if distribution.place != move.target.place
+        ]
         if not kept:
             return [*results]
         everything = self.session(is_back=False)
         with distributions.targeting(move.target, move.origin, move.kept):
             at_target = identities(self._checked(everything, move))
         by_distribution = {move.target: results}
-        for one in kept:
-            checking = self.session(is_back=one.place < move.origin.place)
+        for distribution in kept:
+            checking = self.session(is_back=distribution.place < move.origin.place)
             checking.known, checking.at_target = session.known, at_target
-            with distributions.targeting(one, move.origin, move.kept):
-                found = self._checked(checking, move)
-            by_distribution[one] = [item.without_fixes() for item in found]
+            with distributions.targeting(distribution, move.origin, move.kept):
+                consequences = self._checked(checking, move)
+            by_distribution[distribution] = [item.without_fixes() for item in consequences]
             session.types_failure = session.types_failure or checking.types_failure
         # Where packages move, fixes write what all of them have.
-        return merged(by_distribution, {item.code for one in results for item in one.diagnostics})
+        return merged(
+            by_distribution,
+            {item.code for distribution in results for item in distribution.diagnostics},
+        )
 
     def _ordering(self, move: Move) -> OrderSession:
         """Return what sorts imports that the fixes leave unsorted, by their new names.

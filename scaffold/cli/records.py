@@ -61,14 +61,14 @@ def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config)
         others = tuple(name for name in before if not _is_among(name, targets))
         same.setdefault(others, []).append(directory)
     for dropped, directories in same.items():
-        what = "a package" if len(directories) == 1 else "packages"
+        subject = "a package" if len(directories) == 1 else "packages"
         no_longer = ""
         if dropped:
             no_longer = f", no longer for {distributions.enumerated(map(str.capitalize, dropped))}"
             names = ",".join(name for name in dropped if name in distributions.NAMES)
             no_longer += f" (without --keep {names})" if names else ""
         yield (
-            f"{_listed(directories)}: recorded as {what} for {titles}{no_longer}; "
+            f"{_listed(directories)}: recorded as {subject} for {titles}{no_longer}; "
             "`ros2-scaffold update` applies the changes of the templates for that"
         )
     named = distro.wanted(None, settings)

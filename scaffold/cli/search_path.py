@@ -15,8 +15,8 @@ _OWN = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 def leave_out_current_directory() -> None:
     """Import nothing more from the current directory, unless this tool itself is there."""
     try:
-        here = os.getcwd()
+        current = os.getcwd()
     except OSError:  # it was removed
-        here = ""
-    if here != _OWN:
-        sys.path[:] = [entry for entry in sys.path if entry not in {"", os.curdir, here}]
+        current = ""
+    if current != _OWN:
+        sys.path[:] = [entry for entry in sys.path if entry not in {"", os.curdir, current}]

@@ -141,7 +141,9 @@ class SeveralTargets:
         count = sum(item.applied for item in written)
         if options.diff:
             terminal.say(f"{fixing.fix_count(count)}, nothing written")
-            left = [(item.package, one) for item in written for one in item.diagnostics]
+            left = [
+                (item.package, diagnostic) for item in written for diagnostic in item.diagnostics
+            ]
             code = FINDINGS if fixing.note_unexamined(left) or count else CLEAN
             return USAGE_ERROR if has_failed else code
         terminal.say(f"{fixing.fix_count(count)} applied")
@@ -218,4 +220,4 @@ def _since_notes(by_distribution: Mapping[Distribution, str]) -> tuple[str, ...]
     """Return what to say of the change, once if it is the same for all."""
     if len({*by_distribution.values()}) < len(by_distribution):
         return (*dict.fromkeys(by_distribution.values()),)
-    return tuple(f"{one.title}: {note}" for one, note in by_distribution.items())
+    return tuple(f"{distribution.title}: {note}" for distribution, note in by_distribution.items())

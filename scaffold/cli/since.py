@@ -145,11 +145,11 @@ class Since:
             self._commit.export(top)
             os.mkdir(os.path.join(top, ".git"))  # the top of a repository, for who looks for it
             places = [os.path.join(top, self._path(checked.package, "")) for checked in self._all]
-            there = [place for place in places if _is_package(place)]
+            packages = [place for place in places if _is_package(place)]
             wanted = {self._path(result.package, "") for result in results}
             targets = [
                 target
-                for target in (discovery.find(there) if there else [])
+                for target in (discovery.find(packages) if packages else [])
                 if _below(top, target.package.directory) in wanted
             ]
 

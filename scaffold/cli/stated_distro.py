@@ -49,17 +49,17 @@ def note(directory: str, targets: Sequence[Distribution], disk: Disk) -> tuple[s
     """
     real = disk.real(directory)
     top = repository_around(disk, real) or real
-    found: dict[str, list[str]] = {}
+    by_name: dict[str, list[str]] = {}
     for path in _files(disk, top):
         for match in _NAMED.finditer(_text(disk, path)):
             if match["later"]:
                 return ()
-            found.setdefault(match[1].lower(), []).append(path)
-    if not found or found.keys() & {target.name for target in targets}:
+            by_name.setdefault(match[1].lower(), []).append(path)
+    if not by_name or by_name.keys() & {target.name for target in targets}:
         return ()
-    usable = [name for name in distributions.NAMES if name in found]
-    ended = [name for name in found if name in distributions.ENDED]
-    path = os.path.relpath(found[(usable or ended)[0]][0], disk.real(os.curdir))
+    usable = [name for name in distributions.NAMES if name in by_name]
+    ended = [name for name in by_name if name in distributions.ENDED]
+    path = os.path.relpath(by_name[(usable or ended)[0]][0], disk.real(os.curdir))
     checked = f"checked for {distributions.titles(targets)}, although {path} is for"
     if not usable:
         return (f"{checked} {_titles(ended)}, which {distributions.ending(ended[0])}",)

@@ -192,14 +192,14 @@ class _Reader:
             self._open(header[1], locate(line.start, end), line)
             return
         if self.section is None:
-            what = "a byte order mark" if line.text.startswith("\ufeff") else "this line"
-            message = f"a section such as [develop] expected before {what}"
+            subject = "a byte order mark" if line.text.startswith("\ufeff") else "this line"
+            message = f"a section such as [develop] expected before {subject}"
             raise ParseError(locate(line.start, line.end), message)
         delimiter = _DELIMITER.search(line.text)
         key = line.text[: delimiter.start()].rstrip() if delimiter else ""
         if delimiter is None or not key:
-            what = 'a key expected before "="' if delimiter else '"=" expected after the key'
-            raise ParseError(locate(line.start, line.end), what)
+            message = 'a key expected before "="' if delimiter else '"=" expected after the key'
+            raise ParseError(locate(line.start, line.end), message)
         if key in self.section.options:
             first = self.section.options[key].key_location.line
             message = f"{key} is set in line {first} already"

@@ -49,10 +49,10 @@ def _text_before_declaration(text: str) -> Explanation | None:
     if "<" in before.replace("<!--", ""):
         return None
     if before.strip(BLANK + BOM):
-        what = "text" if "<!--" not in before else "a comment"
+        subject = "text" if "<!--" not in before else "a comment"
     else:
-        what = "a blank line" if "\n" in before else "a space"
-    return begin, at, f'{what} before "<?xml": it must come first'
+        subject = "a blank line" if "\n" in before else "a space"
+    return begin, at, f'{subject} before "<?xml": it must come first'
 
 
 def _junk(text: str, at: int) -> Explanation:
@@ -177,10 +177,10 @@ def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation 
 
 
 def _bad_character(text: str, at: int) -> Explanation | None:
-    here = text[at : at + 1]
-    if here in BLANK or here.isprintable():
+    character = text[at : at + 1]
+    if character in BLANK or character.isprintable():
         return None
-    return at, at + 1, f"the character U+{ord(here):04X} is not allowed here"
+    return at, at + 1, f"the character U+{ord(character):04X} is not allowed here"
 
 
 def _ampersand(text: str, at: int) -> Explanation | None:
@@ -205,26 +205,26 @@ def _in_tag(text: str, opening: int, at: int) -> Explanation:
         return opening, opening + 2, '"<!" begins neither a comment nor a CDATA section'
     if not re.match(r"[/?]?(?:[^\W\d]|:)", text[opening + 1 : opening + 3]):
         return opening, opening + 1, 'write "&lt;" for "<", or a tag name after it'
-    tag, here = f"<{_word(text, opening + 1)}", text[at : at + 1]
+    tag, character = f"<{_word(text, opening + 1)}", text[at : at + 1]
     before = text[opening:at].rstrip(BLANK)
     width = 1
-    if here and here in _TYPOGRAPHIC_QUOTES:
-        message = f"write a plain quote for {here}"
-    elif here == "<" and _open_quote(text[opening:at]):
+    if character and character in _TYPOGRAPHIC_QUOTES:
+        message = f"write a plain quote for {character}"
+    elif character == "<" and _open_quote(text[opening:at]):
         message = 'write "&lt;" for "<" in a value, or close the value with a quote'
-    elif here == "<":
+    elif character == "<":
         return opening, at, f'">" expected: the tag {tag} is not closed'
     elif before.endswith("="):
         message = f"a value in quotes expected in the tag {tag}>"
     elif before.endswith(("'", '"')) and len(before) == at - opening:
         message = f"a space expected between attributes of {tag}>"
         width = max(len(_word(text, at)), 1)
-    elif here == ">" or re.search(r"[ \t\r\n][^\s=\"'<>]+$", before):
+    elif character == ">" or re.search(r"[ \t\r\n][^\s=\"'<>]+$", before):
         message = f"an attribute of {tag}> has no value"
     elif text.startswith("<?", opening):
         message = f"the instruction {tag} is not written right"
     else:
-        message = f"{here!r} is not expected in the tag {tag}>"
+        message = f"{character!r} is not expected in the tag {tag}>"
     return at, at + width, message
 
 

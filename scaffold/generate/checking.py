@@ -78,9 +78,9 @@ class Check:
         styles: list[Style] | None = None
         if self._process is not None:
             styles = self._styles()
-            found = self._process.findings(styles)
-            if found is not None:
-                return found
+            diagnostics = self._process.findings(styles)
+            if diagnostics is not None:
+                return diagnostics
         session = _session(_built_in())
         return _findings(session, self._judged, self._packages, lambda: styles or self._styles())
 
@@ -131,9 +131,9 @@ def _findings(
             ruled.append(session.check_rules(package))
     result: list[Diagnostic] = []
     parts = zip(judged.targets, packages, ruled, styles(), strict=True)
-    for target, package, found, style in parts:
+    for target, package, diagnostics, style in parts:
         with distributions.targeting(target):
-            result += session.result(Target(package), found, style).diagnostics
+            result += session.result(Target(package), diagnostics, style).diagnostics
     return result
 
 
@@ -188,10 +188,10 @@ class RuleProcess:
 
         self.send(styles)
         try:
-            found: list[Diagnostic] = pickle.load(self._answers)  # noqa: S301  a process of ours
+            diagnostics: list[Diagnostic] = pickle.load(self._answers)  # noqa: S301  a process of ours
         except (EOFError, pickle.UnpicklingError):
             return None
-        return found
+        return diagnostics
 
     def close(self) -> None:
         """End the process, wherever it is."""

@@ -232,9 +232,9 @@ def _refuse_own(question: Question, full_name: str, node: str) -> None:
     """Raise if a name is one that ROS itself gives every node."""
     own = full_name.removeprefix(f"/{node}/")
     if own != full_name and own in _OWN_NAMES.get(question.type, ()):
-        what = question.type.partition("_")[0]
+        kind = question.type.partition("_")[0]
         raise InputError(
-            f"{flag(question.name)}: {full_name!r} is a {what} that ROS itself gives each node"
+            f"{flag(question.name)}: {full_name!r} is a {kind} that ROS itself gives each node"
         )
 
 
@@ -274,13 +274,13 @@ def _depends(
 
 def _names(layer: Template, kind: str, text: str, rendered: str) -> list[str]:
     """Return the names in a rendered entry of ``depends``."""
-    found = rendered.split()
-    if not all(map(_DEPENDENCY.fullmatch, found)):
+    names = rendered.split()
+    if not all(map(_DEPENDENCY.fullmatch, names)):
         raise ContentError(
             f"{os.path.join(layer.directory, MANIFEST)}: depends: {kind}: {text!r} is "
             f"{rendered!r}, not names separated by spaces; a list needs join(' ')"
         )
-    return found
+    return names
 
 
 def _texts(

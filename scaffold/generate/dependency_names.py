@@ -38,18 +38,22 @@ def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
         InputError: a name is certainly wrong: that of another thing misspelled, of ROS 1, or one
             that rosdep's cache lacks.
     """
-    here = _Here(directory)
+    surroundings = _Here(directory)
     for name in names:
-        if name in _names() or here.has(name):
+        if name in _names() or surroundings.has(name):
             continue
         heir = catalog.ROS1_PACKAGES.get(name)
         if heir:
             raise InputError(f"{origin}: {name!r} is from ROS 1; ROS 2 has {heir} instead")
-        resolves = here.rosdep.resolves(name) if here.rosdep is not None else None
+        resolves = surroundings.rosdep.resolves(name) if surroundings.rosdep is not None else None
         if resolves:
             continue
-        slips = [other for other in sorted({*_names(), *here.packages}) if _is_slip(name, other)]
-        hints = slips or get_close_matches(name, {*_names(), *here.packages}, _MOST_HINTS, 0.75)
+        slips = [
+            other for other in sorted({*_names(), *surroundings.packages}) if _is_slip(name, other)
+        ]
+        hints = slips or get_close_matches(
+            name, {*_names(), *surroundings.packages}, _MOST_HINTS, 0.75
+        )
         hint = f"; did you mean {' or '.join(map(repr, hints[:_MOST_HINTS]))}?" if hints else ""
         if slips or resolves is False:
             raise InputError(f"{origin}: there is no package or rosdep key {name!r}{hint}")

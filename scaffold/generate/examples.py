@@ -106,7 +106,7 @@ def _tried(
 
 def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:
     """Yield a line about each answer of an example that no template asks for."""
-    asked = {question.name for one in templates.values() for question in one.questions}
+    asked = {question.name for template in templates.values() for question in template.questions}
     for name in example.answers:
         if name not in asked:
             closest = get_close_matches(name, asked, n=1)

@@ -142,7 +142,10 @@ def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
 
 
 def left_to_owners(
-    place: Place, package: str, files: Mapping[str, str], there: Callable[[str], bytes | None]
+    place: Place,
+    package: str,
+    files: Mapping[str, str],
+    read_existing: Callable[[str], bytes | None],
 ) -> dict[str, ByHand | None]:
     """Return the files that are not written, with what their owners have to add to them.
 
@@ -152,11 +155,11 @@ def left_to_owners(
         place: The repository.
         package: The name of the package.
         files: What would be written.
-        there: Returns what a file holds now.
+        read_existing: Returns what a file holds now.
     """
     left: dict[str, ByHand | None] = {}
     for path, text in files.items():
-        before = there(path) if is_shared(path) else None
+        before = read_existing(path) if is_shared(path) else None
         if before is not None and before != text.encode():
             name = path.removeprefix(MARK)
             way = place.subdirectory(package) if name != path else ""
@@ -172,18 +175,18 @@ def is_shared(path: str) -> bool:
     return os.path.basename(path) == PRE_COMMIT
 
 
-def left_to_owner(path: str, there: bytes, text: str) -> ByHand | None:
+def left_to_owner(path: str, existing: bytes, text: str) -> ByHand | None:
     """Return what the owner of a shared file has to add to it; ``None`` if all of it is there.
 
     Args:
         path: Relative to the package.
-        there: What the file holds now.
+        existing: What the file holds now.
         text: What it would hold for this package alone.
     """
     from scaffold.generate.edit.addition import ByHand
     from scaffold.generate.edit.pre_commit import missing_entry
 
-    entry = missing_entry(there, text)
+    entry = missing_entry(existing, text)
     reason = "the file has other hooks and cannot be edited safely"
     return ByHand(path, f"add to `repos`: {entry}", reason) if entry else None
 

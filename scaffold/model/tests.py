@@ -154,9 +154,9 @@ def own_fixtures(module: PythonModule) -> Iterator[Fixture]:
         if decorator is not None:
             words = keywords(decorator)
             name, scope = words.get("name"), words.get("scope")
-            known = name.value if isinstance(name, ast.Constant) else function.name
+            fixture = name.value if isinstance(name, ast.Constant) else function.name
             given = scope.value if isinstance(scope, ast.Constant) else ""
-            yield Fixture(str(known), function, module, str(given) if scope else "function")
+            yield Fixture(str(fixture), function, module, str(given) if scope else "function")
 
 
 def keywords(decorator: ast.expr) -> dict[str, ast.expr]:
@@ -223,8 +223,8 @@ def constructed_class(module: PythonModule, node: ast.expr) -> str:
     """Return the full name of what is called for the only value of a name."""
     if not isinstance(node, ast.Name):
         return ""
-    found = module.index.lookup(node.id, node)
-    values = [binding.value for binding in found[1]] if found else []
+    lookup = module.index.lookup(node.id, node)
+    values = [binding.value for binding in lookup[1]] if lookup else []
     made = values[0] if len(values) == 1 else None
     return (module.qualified_name(made.func) or "") if isinstance(made, ast.Call) else ""
 

@@ -168,9 +168,11 @@ class Commit(Objects):
         Files that git ignores are skipped; new and removed ones are not.
         """
         blobs = self.files()
-        there = {path for path in self.listed if os.path.lexists(os.path.join(self.top, path))}
-        differing = {path for path in there & blobs.keys() if not self._is_same(path, blobs[path])}
-        return frozenset((there ^ blobs.keys()) | differing)
+        existing = {path for path in self.listed if os.path.lexists(os.path.join(self.top, path))}
+        differing = {
+            path for path in existing & blobs.keys() if not self._is_same(path, blobs[path])
+        }
+        return frozenset((existing ^ blobs.keys()) | differing)
 
     def _is_same(self, path: str, blob: _Blob) -> bool:
         place = os.path.join(self.top, path)

@@ -104,8 +104,8 @@ def merged(entries: Sequence[Entry]) -> list[Entry]:
     """
     same: dict[frozenset[tuple[str, str, Severity]], list[Place]] = {}
     for entry in entries:
-        found = [item.finding for item in entry.places]
-        key = frozenset((item.code, item.message, item.severity) for item in found)
+        findings = [item.finding for item in entry.places]
+        key = frozenset((item.code, item.message, item.severity) for item in findings)
         same.setdefault(key, []).extend(entry.places)
     return [Entry(tuple(places)) for places in same.values()]
 

@@ -21,7 +21,7 @@ SCHEMA_VERSION = 1
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
     """Write ``{"schema_version": 1, "diagnostics": [...], "summary": {...}}``."""
-    checked = [one.name for one in options.distributions]
+    checked = [distribution.name for distribution in options.distributions]
     summary = {**Summary.of(results)._asdict(), "distributions": checked}
     data = {
         "schema_version": SCHEMA_VERSION,

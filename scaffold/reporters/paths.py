@@ -52,8 +52,8 @@ def _shown(package: Package, path: str) -> str:
 
 def _in_repository(package: Package, path: str) -> str:
     real = os.path.realpath(os.path.join(package.directory, path))
-    here = os.path.realpath(os.curdir)
-    for start in (here, os.path.dirname(real)):
+    current = os.path.realpath(os.curdir)
+    for start in (current, os.path.dirname(real)):
         top = _repository_around(package, start)
         if top is not None and real.startswith(os.path.join(top, "")):
             return os.path.relpath(real, top).replace(os.sep, "/")

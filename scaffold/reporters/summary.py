@@ -51,6 +51,6 @@ def fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
     others = len(fixes) - careful
     parts = [f"{careful:,} fixable with --fix"] if careful else []
     if others:
-        what = "more" if careful else "fixable"
-        parts.append(f"{others:,} {what} with --fix --unsafe-fixes")
+        adjective = "more" if careful else "fixable"
+        parts.append(f"{others:,} {adjective} with --fix --unsafe-fixes")
     return ", ".join(parts)

@@ -79,7 +79,7 @@ async def build(
         latest = layout.log / "latest_build"
         before = _resolved(latest)
         try:
-            said, exit_code, left_running = await _run(
+            build_output, exit_code, left_running = await _run(
                 command(environment, left, layout, with_tests=with_tests),
                 variables(environment, scratch),
                 scratch / "colcon",
@@ -93,8 +93,8 @@ async def build(
             raise
         in_time = exit_code is not None
         if not in_time:
-            said += f"\nthe build did not finish within {timeout:g} s\n"
-        log = _Log.read(latest, said, succeeded=exit_code == 0)
+            build_output += f"\nthe build did not finish within {timeout:g} s\n"
+        log = _Log.read(latest, build_output, succeeded=exit_code == 0)
         log = replace(log, left_running=tuple(left_running))
         # A package that makes colcon itself fail ends the build also of those that come later.
         later = [item for item in left if log.had_no_turn(item.name)] if in_time else []

@@ -117,19 +117,21 @@ def _made(
             if not entity.is_conditional and entity.function in {*starts, None}:
                 yield entity
         return
-    one: NodeClass | None = owner
+    node_class: NodeClass | None = owner
     for _ in range(_MAX_BASES):
-        if one is None:
+        if node_class is None:
             return
         made_in = {
-            function for start in _constructors(one) for function in one.facts.reached(start)
+            function
+            for start in _constructors(node_class)
+            for function in node_class.facts.reached(start)
         }
-        for entity in own(one):
+        for entity in own(node_class):
             if not entity.is_conditional and entity.function in made_in:
                 yield entity
-        if not one.calls_super_init:
+        if not node_class.calls_super_init:
             return
-        one = one.base
+        node_class = node_class.base
 
 
 def _constructors(owner: NodeClass) -> Iterator[FunctionNode]:
@@ -176,8 +178,8 @@ def _merged(publications: Iterable[Publication]) -> tuple[Publication, ...]:
 
 def _joined(publication: Publication, other: Publication) -> Publication:
     rates = (publication.rate_hz, other.rate_hz)
-    known = [rate for rate in rates if rate is not None]
-    rate = sum(known) if len(known) == len(rates) else None
+    stated = [rate for rate in rates if rate is not None]
+    rate = sum(stated) if len(stated) == len(rates) else None
     return Publication(
         publication.topic,
         other.type or publication.type,

@@ -169,8 +169,8 @@ def _forced(
     setup = (Path(wanted) if os.sep in wanted else installed / wanted) / "setup.bash"
     if not setup.is_file():
         names = ", ".join(sorted(path.parent.name for path in installed.glob("*/setup.bash")))
-        there = f"sourced, wheels, {names}" if names else "sourced, wheels"
-        raise _UnusableError(f"there is no {setup}; use a directory, or one of {there}")
+        choices = f"sourced, wheels, {names}" if names else "sourced, wheels"
+        raise _UnusableError(f"there is no {setup}; use a directory, or one of {choices}")
     return _installed(variables, setup.absolute(), own_prefix, origin)
 
 
@@ -227,8 +227,8 @@ def _preference(setup: Path) -> tuple[bool, str]:
 
 def _sourced(variables: Mapping[str, str], origin: Origin) -> Environment:
     kept = {name: value for name, value in variables.items() if name not in _FROM_OUTSIDE}
-    what = "the sourced environment (AMENT_PREFIX_PATH is set)"
-    return _from_variables("sourced", kept, what, origin)
+    description = "the sourced environment (AMENT_PREFIX_PATH is set)"
+    return _from_variables("sourced", kept, description, origin)
 
 
 def _installed(
@@ -293,7 +293,7 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
 
 
 def _from_variables(
-    kind: str, variables: Mapping[str, str], what: str, origin: Origin
+    kind: str, variables: Mapping[str, str], description: str, origin: Origin
 ) -> Environment:
     """Return the environment that these variables make.
 
@@ -304,9 +304,11 @@ def _from_variables(
     python = shutil.which("python3", path=path)
     colcon = shutil.which("colcon", path=path)
     if python is None:
-        raise _UnusableError(f"{what} has no python3 on PATH")
+        raise _UnusableError(f"{description} has no python3 on PATH")
     if colcon is None:
-        raise _UnusableError(f"{what} has no colcon on PATH (python3-colcon-common-extensions)")
+        raise _UnusableError(
+            f"{description} has no colcon on PATH (python3-colcon-common-extensions)"
+        )
     prefixes = [part for part in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if part]
     rmw = _rmw(prefixes, variables.get("RMW_IMPLEMENTATION"))
     # One that is not installed would keep rclpy from being imported.
@@ -314,7 +316,9 @@ def _from_variables(
     imported = process.capture([python, "-c", "import rclpy"], usable, origin, TIMEOUT)
     if imported.exit_code:
         last = imported.err.strip().rpartition("\n")[2]
-        raise _UnusableError(f"{what} cannot be used: {python} does not import rclpy: {last}")
+        raise _UnusableError(
+            f"{description} cannot be used: {python} does not import rclpy: {last}"
+        )
     return Environment(
         kind=kind,
         prefix=next((p for p in prefixes if _has_package(p, "rclpy")), "".join(prefixes[-1:])),

@@ -71,16 +71,16 @@ class ExecutableRuns:
         package = source.name
         expected = self._expected[package]
         paths = installed(package, self._plan.variables)
-        found = {path.name: path for path in paths or ()}
+        by_name = {path.name: path for path in paths or ()}
         where = f"in lib/{package}" if paths is not None else "in a package of the ament index"
         runs = []
-        for name in sorted({*found, *expected}):
+        for name in sorted({*by_name, *expected}):
             expectation = expected.get(name, Expectation())
-            if name not in found:
+            if name not in by_name:
                 done[name] = _missing(name, where)
             elif not expectation.scenario.skip:
                 done[name] = Executable(name, interrupted=True)  # until it has run
-                runs.append(self._one(source, found[name], expectation, done))
+                runs.append(self._one(source, by_name[name], expectation, done))
         return runs
 
     async def _one(

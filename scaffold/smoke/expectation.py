@@ -109,17 +109,21 @@ def compare(
         return [*_finished_early(expectation, observation, seconds), *problems], notes
     for publication in expectation.publications:
         topic = observation.topic(publication.topic)
-        said = _said(publication, expectation)
+        statement = _said(publication, expectation)
         if topic is None or not topic.publishers:
-            problems.append(Problem(f"nothing publishes {publication.topic}: {said}"))
+            problems.append(Problem(f"nothing publishes {publication.topic}: {statement}"))
         elif publication.type and publication.type not in topic.types:
-            problems.append(Problem(f"{topic.name} has the type {', '.join(topic.types)}: {said}"))
+            problems.append(
+                Problem(f"{topic.name} has the type {', '.join(topic.types)}: {statement}")
+            )
         elif not topic.count:
-            problem, note = _silent(publication, topic, seconds, said + _stands_still(observation))
+            problem, note = _silent(
+                publication, topic, seconds, statement + _stands_still(observation)
+            )
             problems += problem
             notes += note
         elif publication.rate_hz:
-            problems += _wrong_rate(publication, topic, said)
+            problems += _wrong_rate(publication, topic, statement)
     return [*problems, *_not_offered(expectation, observation)], notes
 
 
@@ -156,23 +160,23 @@ def _finished_early(
         topic = observation.topic(publication.topic)
         is_due = publication.certain or publication.timer_hz
         if is_due and (topic is None or not topic.count):
-            said = _said(publication, expectation)
+            statement = _said(publication, expectation)
             return [
                 Problem(
                     f"exited by itself after {seconds:.1f} s, before a message on "
-                    f"{publication.topic}: {said}"
+                    f"{publication.topic}: {statement}"
                 )
             ]
     return []
 
 
 def _said(publication: Publication, expectation: Expectation) -> str:
-    what = publication.type or "it"
+    shown_type = publication.type or "it"
     hertz = publication.rate_hz or publication.timer_hz
     rate = f" at {hertz:g} Hz" if hertz else ""
     if publication.stated_by:
-        return f"{publication.stated_by} expects {what}{rate}"
-    return f"{expectation.source or 'the source'} publishes {what}{rate}"
+        return f"{publication.stated_by} expects {shown_type}{rate}"
+    return f"{expectation.source or 'the source'} publishes {shown_type}{rate}"
 
 
 def _silent(

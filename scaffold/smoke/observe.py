@@ -305,12 +305,12 @@ class Observer:
         self._doubled = {name for name, count in Counter(graph["nodes"]).items() if count > 1}
         self._services.update(graph["services"])
         for topic in graph["topics"]:
-            known = self._topics.setdefault(topic["name"], topic)
+            previous = self._topics.setdefault(topic["name"], topic)
             for key in ("publishers", "subscribers"):
-                known[key] = max(known[key], topic[key])
-            known["types"] = sorted({*known["types"], *topic["types"]})
-            if len(topic["endpoints"]) >= len(known["endpoints"]):
-                known["endpoints"] = topic["endpoints"]  # the later, the more is known of them
+                previous[key] = max(previous[key], topic[key])
+            previous["types"] = sorted({*previous["types"], *topic["types"]})
+            if len(topic["endpoints"]) >= len(previous["endpoints"]):
+                previous["endpoints"] = topic["endpoints"]  # the later, the more is known of them
 
     def _as_observation(self, report: Mapping[str, Any]) -> Observation:
         received, until = report["topics"], report["now"]

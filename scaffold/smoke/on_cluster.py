@@ -48,9 +48,11 @@ def run_task(task: Task) -> Outcome:
             for number, (name, data) in enumerate(task.archives.items())
         ]
         result = smoke(packages, task.options)
-        here = next(package for package in packages if package.name == task.name)
+        package_of_task = next(package for package in packages if package.name == task.name)
         (own,) = (package for package in result.packages if package.name == task.name)
-        executables = tuple(_relative(executable, here) for executable in own.executables)
+        executables = tuple(
+            _relative(executable, package_of_task) for executable in own.executables
+        )
         return Outcome(
             result.environment, replace(own, executables=executables), result.ended_early
         )

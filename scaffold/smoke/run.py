@@ -105,8 +105,8 @@ async def run(
         await _run_once(plan, executable, expectation, again, number, other, brief=True)
         if other.stopped_cleanly:
             first.problems.remove(first.doubtful)
-            said = first.doubtful.message
-            first.notes.append(f"a race in rclpy in {attempt + 1} of {attempt + 2} runs: {said}")
+            doubt = first.doubtful.message
+            first.notes.append(f"a race in rclpy in {attempt + 1} of {attempt + 2} runs: {doubt}")
             first.stop = other.stop
             break
     return first
@@ -124,8 +124,8 @@ async def _run_once(
 ) -> None:
     try:
         async with plan.stations.one(plan.variables) as station:
-            one = _Run(plan, expectation, number, trial, station, brief=brief)
-            await one.execute(executable, label)
+            attempt = _Run(plan, expectation, number, trial, station, brief=brief)
+            await attempt.execute(executable, label)
     except ObserverError as error:
         trial.problems.append(Problem(str(error)))
 
@@ -267,8 +267,8 @@ class _Run:
     def _ended_by_itself(self, running: process.Running) -> None:
         seconds = time.monotonic() - running.started
         code = running.exit_code
-        said = output.read(running.err)
-        trace = output.traceback(said)
+        errors = output.read(running.err)
+        trace = output.traceback(errors)
         self._trial.stop = Stop(None, code, seconds, trace)
         if self._is_expected(code) and (trace is None or code):
             return
@@ -281,7 +281,7 @@ class _Run:
             self._report(f"exited, {ending(code)}: {lack}; {_GIVING}", lines)
             return
         when = f"after {seconds:.1f} s" if self._trial.observation.alive else "at start"
-        reason = output.exception(trace) if trace else output.named_error(said)
+        reason = output.exception(trace) if trace else output.named_error(errors)
         how = ending(code) + (f": {reason}" if reason else "")
         lines = tuple(output.short(trace)) if trace else _said(running)
         self._report(f"crashed {when}, {how}", lines)
@@ -325,8 +325,8 @@ class _Run:
         """Report an exception that did not end the executable: of a thread, or printed by it."""
         trace = output.traceback(output.read(running.err))
         if trace is not None:
-            what = f"exception at run time: {output.exception(trace)}"
-            self._report(what, tuple(output.short(trace)))
+            message = f"exception at run time: {output.exception(trace)}"
+            self._report(message, tuple(output.short(trace)))
 
     def _report(self, message: str, lines: tuple[str, ...] = (), *, doubtful: bool = False) -> None:
         shown = output.relative((message, *lines), self._plan.install)

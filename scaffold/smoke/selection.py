@@ -18,12 +18,14 @@ def named(packages: Sequence[Package], names: Sequence[str], flag: str) -> set[s
     Raises:
         InputError: there is no such package.
     """
-    known = sorted(package.name for package in packages)
+    existing = sorted(package.name for package in packages)
     for name in names:
-        if name not in known:
-            near = get_close_matches(name, known, 1)
-            shown = ", ".join(known[:MOST_NAMED]) + (", ..." if len(known) > MOST_NAMED else "")
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {shown}"
+        if name not in existing:
+            matches = get_close_matches(name, existing, 1)
+            shown = ", ".join(existing[:MOST_NAMED]) + (
+                ", ..." if len(existing) > MOST_NAMED else ""
+            )
+            hint = f"did you mean {matches[0]!r}?" if matches else f"there are {shown}"
             raise InputError(f"{flag}: there is no package {name!r}; {hint}")
     return set(names)
 

@@ -230,10 +230,10 @@ def _misspelled(topics: Sequence[Topic]) -> Iterator[Problem]:
         if topic.publishers or not topic.subscribers:
             continue
         same_type = [name for name, other in unheard.items() if other.type == topic.type]
-        for near in get_close_matches(topic.name, same_type, 1, cutoff=0.75):
+        for similar in get_close_matches(topic.name, same_type, 1, cutoff=0.75):
             yield Problem(
                 f"nothing publishes {topic.name}, which {_nodes(topic)} subscribes to; "
-                f"{_nodes(unheard[near])} publishes {near}, which nobody subscribes to"
+                f"{_nodes(unheard[similar])} publishes {similar}, which nobody subscribes to"
             )
 
 

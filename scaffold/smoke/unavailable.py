@@ -33,13 +33,13 @@ def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterat
         environment: The one to build and run with.
         packages: Those to build: what they provide is there.
     """
-    there = {package.name for package in packages}
+    available = {package.name for package in packages}
     for prefix in environment.variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         index = os.path.join(prefix, "share/ament_index/resource_index/packages")
-        there.update(os.listdir(index) if os.path.isdir(index) else ())
+        available.update(os.listdir(index) if os.path.isdir(index) else ())
     needed: dict[str, list[str]] = {}
     for package in packages:
-        for name in _needed(package) & ROS_PACKAGES - there:
+        for name in _needed(package) & ROS_PACKAGES - available:
             needed.setdefault(name, []).append(package.name)
     distribution = environment.distribution or distributions.DEFAULT
     for name, users in sorted(needed.items()):

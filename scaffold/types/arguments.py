@@ -252,7 +252,10 @@ def _arguments(text: str, start: int) -> tuple[Mapping[str, str], int]:
         return {}, end  # the commas of a comment are none
     if "self" not in words.values():
         return words, end
-    return {key: _object(text, start) if it == "self" else it for key, it in words.items()}, end
+    return {
+        key: _object(text, start) if annotation == "self" else annotation
+        for key, annotation in words.items()
+    }, end
 
 
 def _object(text: str, at: int) -> str:

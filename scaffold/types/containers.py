@@ -133,15 +133,15 @@ def _added(text: str, name: str, start: int, end: int) -> list[tuple[int, str]]:
     result: list[tuple[int, str]] = []
     for at in mentions(text, name, start, end):
         after = at + len(name)
-        found = _addition(text, at, after)
-        if found is None:
+        addition = _addition(text, at, after)
+        if addition is None:
             return []
-        if not found[1]:
+        if not addition[1]:
             continue
         place = statement_around(text, at, after)
-        if place < 0 or _OTHER_SCOPE.search(found[1]):
+        if place < 0 or _OTHER_SCOPE.search(addition[1]):
             return []
-        result.append((place, found[1]))
+        result.append((place, addition[1]))
     if any(re.search(rf"\b{re.escape(name)}\b", value) for _, value in result):
         return []
     return result

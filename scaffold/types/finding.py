@@ -101,7 +101,7 @@ class TypeFinding:
     @property
     def enclosing_call(self) -> ast.Call | None:
         """The innermost call around the place."""
-        return next((node for node in self.parents() if isinstance(node, ast.Call)), None)
+        return self.module.enclosing(self.innermost, ast.Call) if self.innermost else None
 
     def expression(self) -> ast.expr | None:
         """Return the outermost expression that is exactly at the place."""
@@ -192,10 +192,11 @@ class TypeFinding:
         if not module.mentions("patch"):
             return False
         around = [node, *module.parents(node)]
-        used = {it.attr for it in around if isinstance(it, ast.Attribute)}
-        called = [it.func for it in around if isinstance(it, ast.Call)]
-        used |= {it.attr for it in called if isinstance(it, ast.Attribute)}
-        functions = (it for it in around if isinstance(it, ast.FunctionDef | ast.AsyncFunctionDef))
+        called = [item.func for item in around if isinstance(item, ast.Call)]
+        used = {item.attr for item in (*around, *called) if isinstance(item, ast.Attribute)}
+        functions = (
+            item for item in around if isinstance(item, ast.FunctionDef | ast.AsyncFunctionDef)
+        )
         return any(
             isinstance(given, ast.Constant) and str(given.value).rpartition(".")[2] in used
             for function in functions
@@ -212,11 +213,11 @@ class TypeFinding:
         module = self.module
         if module.enclosing_function(node) is None:
             return False
-        reported = {full_name(it).partition(".")[0] for it in re.findall(MARKED, self.message)}
-        around = (node, *module.parents(node))
-        call = next((it for it in around if isinstance(it, ast.Call)), node)
-        for name in module.below(call, ast.Name):
-            *earlier, last = self._imports_of(name) or [""]
+        names = re.findall(MARKED, self.message)
+        reported = {full_name(name).partition(".")[0] for name in names}
+        call = node if isinstance(node, ast.Call) else module.enclosing(node, ast.Call) or node
+        for use in module.below(call, ast.Name):
+            *earlier, last = self._imports_of(use) or [""]
             if last not in reported and not reported.isdisjoint(earlier):
                 return True
         return False
@@ -227,7 +228,7 @@ class TypeFinding:
         The type checker holds such a call against all definitions; the last one is called.
         """
         module = self.module
-        call = next((it for it in (node, *module.parents(node)) if isinstance(it, ast.Call)), None)
+        call = node if isinstance(node, ast.Call) else module.enclosing(node, ast.Call)
         if call is None or not isinstance(call.func, ast.Name):
             return False
         lookup = module.index.lookup(call.func.id, call.func)
@@ -242,7 +243,10 @@ class TypeFinding:
         if any(binding.kind != "import" for binding in bindings):
             return []
         statements = (self.module.parent(binding.node) for binding in bindings)
-        if any(it is None or self.module.parent(it) is not self.module.tree for it in statements):
+        if any(
+            statement is None or self.module.parent(statement) is not self.module.tree
+            for statement in statements
+        ):
             return []  # one of them is for another version or platform
         return [binding.target.partition(".")[0] for binding in bindings]
 
@@ -250,28 +254,26 @@ class TypeFinding:
         """Tell whether what is called or used may be another object than the reported one."""
         if self.kind == "missing-attribute":
             return False  # only reported if no object of them has it
-        assigned = next(
-            (it for it in self.module.parents(node) if isinstance(it, ast.Assign)), None
-        )
+        assigned = self.module.enclosing(node, ast.Assign)
         if assigned is not None and "to unpack" in self.message:
             value = assigned.value
             if isinstance(value, ast.Subscript) and origins.is_of_several(self.module, value):
                 return True
             return origins.is_attribute(self.module, value)
-        call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), None)
-        called: list[ast.AST] = [it.func for it in (node, call) if isinstance(it, ast.Call)]
+        call = self.module.enclosing(node, ast.Call)
+        called: list[ast.AST] = [item.func for item in (node, call) if isinstance(item, ast.Call)]
         if any(isinstance(func, ast.Subscript) for func in called):
             return True
         if self.kind in _OF_ELEMENTS:
             called = [node]
-        return any(origins.is_of_several(self.module, it) for it in called or [node])
+        return any(origins.is_of_several(self.module, item) for item in called or [node])
 
     def _is_of_another(self, node: ast.AST) -> bool:
         """Tell whether code for another distribution sets a name, and so its type."""
         not_run = [*stretches_not_run(self.module)]
         if not not_run:
             return False
-        call = next((it for it in self.module.parents(node) if isinstance(it, ast.Call)), node)
+        call = self.module.enclosing(node, ast.Call) or node
         places = [self.module.location(binding) for binding in self._bindings(call)]
         return any(
             stretch[:2] <= (place.line, place.column) < stretch[2:]

@@ -121,19 +121,19 @@ def _inherited(text: str, names: Mapping[str, str]) -> Iterator[Place]:
 
 def _of_object(text: str, name: str, class_: str) -> Iterator[Place]:
     """Yield the calls of methods of a variable or attribute, unless it may be another object."""
-    found: list[Place] = []
+    places: list[Place] = []
     times_set = 0
     for start in mentions(text, name):
         end = start + len(name)
         called = _METHOD.match(text, end)
         if called is not None:
-            found.append(Place(f"{class_}.{called[1]}", start, called.end()))
+            places.append(Place(f"{class_}.{called[1]}", start, called.end()))
         elif _SET.match(text, end):
             times_set += 1
         elif _BOUND.search(text, text.rfind("\n", 0, start) + 1, start):
             return
     if times_set == 1:
-        yield from found
+        yield from places
 
 
 def module_of(package: Package, path: str) -> str:
@@ -170,8 +170,8 @@ def callers(package: Package, path: str) -> tuple[str, ...]:
 @fact
 def _all_called(package: Package) -> Mapping[str, frozenset[str]]:
     """Return what each module of a package calls of others; only those that call anything."""
-    found = {path: _called(package, path) for path in package.python_files}
-    return {path: names for path, names in found.items() if names}
+    called = {path: _called(package, path) for path in package.python_files}
+    return {path: names for path, names in called.items() if names}
 
 
 @fact

@@ -144,12 +144,12 @@ def _table(
         case ast.Call(func=ast.Attribute(value=value, attr="items" | "values" as method), args=[]):
             iterated = value
     if isinstance(iterated, ast.Name | ast.Attribute):
-        known = values.get(_key(place, iterated), [])
-        if not known and isinstance(iterated, ast.Name):
-            known = values.get((None, iterated.id), [])
-        if len(known) != 1:
+        stored = values.get(_key(place, iterated), [])
+        if not stored and isinstance(iterated, ast.Name):
+            stored = values.get((None, iterated.id), [])
+        if len(stored) != 1:
             return []
-        iterated = known[0]
+        iterated = stored[0]
     match iterated:
         case ast.Dict(keys=keys, values=entries) if method and None not in keys:
             pairs = zip(keys, entries, strict=True)
@@ -189,8 +189,8 @@ def _replaced(
         case ast.Name(id=name) if name in row:
             return row[name]
         case ast.Name():
-            known = values.get(_key(place, value), [])
-            return known[0] if place.function is not None and len(known) == 1 else value
+            stored = values.get(_key(place, value), [])
+            return stored[0] if place.function is not None and len(stored) == 1 else value
         case ast.Call(func=func, args=[first, *rest]):
             return ast.Call(func, [_replaced(first, row, place, values), *rest], value.keywords)
         case ast.Lambda(args=parameters, body=ast.Call(func=ast.Name() as called) as body):

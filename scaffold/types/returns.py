@@ -164,8 +164,8 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
     docstring = _DOCSTRING.match(body)
     if docstring is not None:
         inner.append(docstring.span())
-    found: list[_Kept] = []
-    own = [it for it in _ANY_WORD.finditer(body) if not _is_within(it.start(), inner)]
+    kept: list[_Kept] = []
+    own = [word for word in _ANY_WORD.finditer(body) if not _is_within(word.start(), inner)]
     derived = _derived(body, taken) if taken and own else set[str]()
     for match in own:
         line = body.rfind("\n", 0, match.start()) + 1
@@ -182,8 +182,8 @@ def _kept(body: str, start: int, taken: Collection[str]) -> Iterator[_Kept]:
         name = f"{_KEPT}_{place}"
         written = " ".join(map(str.strip, value.split("\n")))
         added = f"{body[line : match.start()]}global {name}; {name} = [({written})]"
-        found.append(_Kept(match[0], value, place, name, added))
-    yield from found
+        kept.append(_Kept(match[0], value, place, name, added))
+    yield from kept
 
 
 def _inner_functions(body: str) -> Iterator[tuple[int, int]]:

@@ -160,12 +160,12 @@ class Run:
 class _Process:
     """A running ty."""
 
-    def __init__(self, arguments: Sequence[str], home: str) -> None:
+    def __init__(self, arguments: Sequence[str], directory: str) -> None:
         program = executable()
         # Nothing else of the user's environment: variables name configurations and environments.
         environment = {
-            "HOME": home,
-            "XDG_CONFIG_HOME": home,
+            "HOME": directory,
+            "XDG_CONFIG_HOME": directory,
             # The workers of this tool need the others, and threads that wait cost time as well.
             "TY_MAX_PARALLELISM": str(max(len(os.sched_getaffinity(0)) // 2, 1)),
         }

@@ -97,8 +97,8 @@ def _open_file(directory: str) -> tuple[int, str]:
     """Return the lock file of a directory in the user's cache."""
     status = os.stat(directory)
     key = f"{os.path.realpath(directory)}\0{status.st_dev}\0{status.st_ino}"
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    path = os.path.join(home, "ros2-scaffold", "locks", digest(os.fsencode(key)))
+    cache_home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    path = os.path.join(cache_home, "ros2-scaffold", "locks", digest(os.fsencode(key)))
     try:
         os.makedirs(os.path.dirname(path), exist_ok=True)
         flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC

@@ -24,8 +24,8 @@ def base(roots: Sequence[str]) -> str:
     them, and the current directory itself outside of any repository. When a root is elsewhere, it
     is the repository around all roots, or the deepest directory that holds them all.
     """
-    here = os.getcwd()
-    top = _repository(here) or here
+    current = os.getcwd()
+    top = _repository(current) or current
     real = [os.path.realpath(root) for root in roots]
     if all(_is_in(root, top) for root in real):
         return top

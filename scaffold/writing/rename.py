@@ -82,9 +82,9 @@ def try_rename(source: str, target: str, flags: int) -> bool:
     call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
     if call is None:
         return False
-    here = ctypes.c_int(_CURRENT_DIRECTORY)
+    current = ctypes.c_int(_CURRENT_DIRECTORY)
     old, new = ctypes.c_char_p(os.fsencode(source)), ctypes.c_char_p(os.fsencode(target))
-    if call(here, old, here, new, ctypes.c_uint(flags)) == 0:
+    if call(current, old, current, new, ctypes.c_uint(flags)) == 0:
         return True
     number = ctypes.get_errno()
     if number in _UNSUPPORTED:

@@ -78,8 +78,8 @@ class _Mute:
         start, end = match.span()
         prefix = ""
         if match.string[start - 1 : start].isalpha():
-            found = _PREFIX.search(match.string, max(start - 3, 0), start)
-            prefix = found[1] if found else ""
+            prefix_match = _PREFIX.search(match.string, max(start - 3, 0), start)
+            prefix = prefix_match[1] if prefix_match else ""
         self.literals.append((start - len(prefix), start, end))
         quotes = literal[:3] if literal[:3] in {'"""', "'''"} else literal[0]
         content = literal[len(quotes) : -len(quotes)]

@@ -195,11 +195,11 @@ class PythonText:
     def lines_with(self, pattern: str) -> list[LogicalLine]:
         """Return the logical lines whose text may contain a pattern."""
         code, starts, opaque = self._code
-        found = {
+        result = {
             bisect_right(starts, item.end() - 1) - 1
             for item in re.finditer(pattern, code, re.MULTILINE)
         }
-        return [self.logical_lines[at] for at in sorted(found | opaque)]
+        return [self.logical_lines[at] for at in sorted(result | opaque)]
 
     @cached_property
     def _code(self) -> tuple[str, list[int], set[int]]:

@@ -68,14 +68,14 @@ class EarlierFacts:
 
     def recall(self, wanted: FactId) -> Fact | None:
         """Return a fact if it is known to have the value that it had."""
-        known = self._settled.get(wanted) or self._untouched(wanted)
-        if isinstance(known, StoredFact):
-            self._settled[wanted] = known
-            fact = Fact(*wanted, known)
+        stored = self._settled.get(wanted) or self._untouched(wanted)
+        if isinstance(stored, StoredFact):
+            self._settled[wanted] = stored
+            fact = Fact(*wanted, stored)
             # Views of this package may be used for another, which does not know what it is made of.
-            fact.reads.facts.update(item for item in map(self.recall, known.facts) if item)
+            fact.reads.facts.update(item for item in map(self.recall, stored.facts) if item)
             return fact
-        return known
+        return stored
 
     def _untouched(self, wanted: FactId) -> StoredFact | None:
         """Return a fact if nothing that it was made of has changed."""
@@ -86,17 +86,17 @@ class EarlierFacts:
 
     def _made_again(self, wanted: FactId) -> Fact | None:
         directory, key = wanted
-        home = self._homes.get(directory)
-        if home is None or wanted not in self._stored:
+        package = self._homes.get(directory)
+        if package is None or wanted not in self._stored:
             return None
         try:
             with time_limit.limited():
-                ask_again(home, key)
+                ask_again(package, key)
         except ViewError:
             pass  # the fact says so
         except Exception:  # noqa: BLE001  whoever asks for it fails in the same way
             return None
-        result = home.known_fact(key)
+        result = package.known_fact(key)
         is_same = result is not None and result.encoded == self._stored[wanted].encoded
         return result if is_same else None
 
@@ -123,18 +123,18 @@ def to_store(
         taken_over: Those that what is taken over depends on.
         settled: What is known of facts of the earlier run.
     """
-    known: Settled = {fact.id: fact for fact in facts}
-    pending = [*known, *taken_over]
+    stored: Settled = {fact.id: fact for fact in facts}
+    pending = [*stored, *taken_over]
     result: dict[FactId, StoredFact] = {}
     while pending:
         wanted = pending.pop()
         if wanted in result:
             continue
-        item = known.get(wanted) or settled.get(wanted)
+        item = stored.get(wanted) or settled.get(wanted)
         if isinstance(item, Fact):
             item, used = item.stored()
             for fact in used:
-                known.setdefault(fact.id, fact)
+                stored.setdefault(fact.id, fact)
         if item is not None:
             result[wanted] = item
             pending += item.facts

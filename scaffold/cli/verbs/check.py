@@ -268,8 +268,8 @@ def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target
     from scaffold.model.discovery.targets import Target
 
     def find_again() -> list[Target]:
-        found = find_targets(options, session, None)
-        return [item for item in found if item.package.directory not in options.refused]
+        targets = find_targets(options, session, None)
+        return [item for item in targets if item.package.directory not in options.refused]
 
     written, has_failed = fixing.write(options, session, targets, find_again)
     results = [Result(item.package, len(item.package.files), item.diagnostics) for item in written]

@@ -215,7 +215,7 @@ def _note_unexamined(moves: Sequence[Moved]) -> bool:
 
     every = [item for move in moves for item in move.consequences]
     return fixing.note_unexamined(
-        [(at.result.package, one) for at in every for one in at.unexamined]
+        [(at.result.package, diagnostic) for at in every for diagnostic in at.unexamined]
     )
 
 

@@ -25,14 +25,14 @@ def check(machine: Machine) -> Iterator[Finding]:
     wanted = machine.variables.get("RMW_IMPLEMENTATION")
     if not wanted or not machine.prefixes:
         return
-    there = middlewares(machine.prefixes)
-    if wanted in there:
+    available = middlewares(machine.prefixes)
+    if wanted in available:
         return
     package = f"ros-{machine.distribution}-{wanted.replace('_', '-')}"
     yield Finding(
         Severity.ERROR,
         f"RMW_IMPLEMENTATION is {wanted!r}, which is not installed: `import rclpy` fails; "
-        f"installed: {', '.join(there) or 'none'}",
+        f"installed: {', '.join(available) or 'none'}",
         f"sudo apt install {package}  # or: unset RMW_IMPLEMENTATION"
         if wanted in KNOWN and any(map(machine.distribution_of, machine.prefixes))
         else "unset RMW_IMPLEMENTATION",

@@ -183,12 +183,12 @@ def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str,
     )
     result: dict[str, bytes] = {}
     for path, text in made.rendered.files.items():
-        there = _content(target, path)
+        existing = _content(target, path)
         data = text.encode()
-        if there is None:
+        if existing is None:
             result[path] = data
-        elif is_there or path in REPOSITORY_FILES or _timeless(there) == _timeless(data):
-            result[path] = there
+        elif is_there or path in REPOSITORY_FILES or _timeless(existing) == _timeless(data):
+            result[path] = existing
         else:
             result[path] = data
     return result

@@ -82,10 +82,10 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
 
 def identify_text(data: bytes) -> str | None:
     """Return the license that a text is of; a BSD license by its clauses, however it is set."""
-    known = notices.identify_file("LICENSE", data)
+    license_ = notices.identify_file("LICENSE", data)
     text = " ".join(data.decode("utf-8", "replace").split())
-    if known is not None or _BSD not in text:
-        return known
+    if license_ is not None or _BSD not in text:
+        return license_
     return "BSD-3-Clause" if _THIRD_CLAUSE in text else "BSD-2-Clause"
 
 

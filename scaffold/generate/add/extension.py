@@ -48,8 +48,8 @@ def of(package: Package, wanted: Wanted) -> Extension:
         if question in wanted.given:
             lines = fields(wanted.given[question].value, package.directory).lines
             _append(section, list(_missing(section, lines, path)))
-        there = [line.strip() for line in section if line.strip()]
-        given[question] = Given(there, path)
+        existing = [line.strip() for line in section if line.strip()]
+        given[question] = Given(existing, path)
     ending = "\r\n" if "\r\n" in source.text else "\n"
     separator = f"{SEPARATOR}{ending}"
     text = separator.join("".join(f"{line}{ending}" for line in lines) for lines in sections)
@@ -69,14 +69,15 @@ def _sections(text: str) -> list[list[str]]:
 
 def _missing(section: Sequence[str], lines: Sequence[str], path: str) -> Iterator[str]:
     """Yield the lines that define something new."""
-    known = {name: line for line in section for name in _defined(line)}
+    defined = {name: line for line in section for name in _defined(line)}
     for line in lines:
         for name, meaning in _defined(line).items():
-            if name not in known:
+            if name not in defined:
                 yield line
-            elif _defined(known[name])[name] != meaning:
+            elif _defined(defined[name])[name] != meaning:
+                existing = defined[name].strip()
                 raise InputError(
-                    f"{path} has {name!r} already, as {known[name].strip()!r}; choose another name"
+                    f"{path} has {name!r} already, as {existing!r}; choose another name"
                 )
 
 

@@ -36,8 +36,8 @@ def provenance_of(package: Package) -> Provenance | None:
     sidecar = package.source(BASES).text if package.has(BASES) else None
     path = f"{package.directory}/{NAME}"
     old = provenance.parse(package.source(NAME).text, path, sidecar)
-    there = {path: package.tree.read(path) for path in old.lost if package.has(path)}
-    return old.completed(there)
+    existing = {path: package.tree.read(path) for path in old.lost if package.has(path)}
+    return old.completed(existing)
 
 
 def remembered(old: Provenance | None) -> dict[str, Given]:

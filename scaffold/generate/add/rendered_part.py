@@ -152,8 +152,8 @@ def _launch_file(package: Package, given: str) -> str:
         InputError: it is not a launch file of the package.
     """
     existing = launch_files(package)
-    here = os.path.relpath(os.path.realpath(given), os.path.realpath(package.root or "."))
-    path = next((path for path in (os.path.normpath(given), here) if path in existing), None)
+    relative = os.path.relpath(os.path.realpath(given), os.path.realpath(package.root or "."))
+    path = next((path for path in (os.path.normpath(given), relative) if path in existing), None)
     if path is None:
         names = ", ".join(existing) or "none"
         raise InputError(

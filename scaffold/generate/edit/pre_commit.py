@@ -17,20 +17,20 @@ _IDS = ("ros2-scaffold", "ros2-scaffold-check", "ros2-scaffold-fix")
 """The hooks that our own repository has."""
 
 
-def missing_entry(there: bytes, text: str) -> str | None:
+def missing_entry(existing: bytes, text: str) -> str | None:
     """Return the entry that a configuration has and another one lacks, in one line.
 
     ``None`` if the other one has it, or a hook that checks the package as well.
 
     Args:
-        there: The configuration that exists; whatever is in it.
+        existing: The configuration that exists; whatever is in it.
         text: One with a single entry in ``repos``, which has a single hook.
     """
     import yaml
 
     (entry,) = yaml.safe_load(text)["repos"]
     (hook,) = entry["hooks"]
-    if any(_checks(other, hook.get("files")) for other in _hooks(there)):
+    if any(_checks(other, hook.get("files")) for other in _hooks(existing)):
         return None
     line = yaml.safe_dump([entry], default_flow_style=True, sort_keys=False, width=float("inf"))
     return f"- {line.strip()[1:-1]}"
@@ -47,11 +47,11 @@ def _checks(hook: dict[str, Any], files: str | None) -> bool:
     return command.startswith(f"{_CHECK} ") and chosen == files is not None
 
 
-def _hooks(there: bytes) -> Iterator[dict[str, Any]]:
+def _hooks(data: bytes) -> Iterator[dict[str, Any]]:
     import yaml
 
     try:
-        configuration = yaml.safe_load(there)
+        configuration = yaml.safe_load(data)
     except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError):
         return
     for repository in _entries(configuration, "repos"):

@@ -104,11 +104,11 @@ def add_to_readme(source: Source, addition: Addition) -> Outcome:
 def _merge(source: Source, part: Source, new: Section) -> Source:
     """Add a section, or to the section of that title what is not in a table."""
     order = sections(part)
-    there = {section.title: section for section in sections(source)}
-    old = there.get(new.title)
+    existing = {section.title: section for section in sections(source)}
+    old = existing.get(new.title)
     if old is None:
         following = (section.title for section in order if section.start > new.start)
-        behind = next(filter(None, map(there.get, following)), None)
+        behind = next(filter(None, map(existing.get, following)), None)
         at = source.offset(behind.start + 1) if behind else len(source.text)
         body = [f"{_HEADING}{new.title}", "", *new.lines, "", ""]
         return spliced(source, [Edit(source.path, at, at, source.newline.join(body))])
@@ -125,11 +125,11 @@ def _join(source: Source, title: str, new: Section) -> Source:
     section = next(item for item in sections(source) if item.title == title)
     blocks = _blocks(source.lines, section)
     head = next(filter(_is_row, new.lines), None)
-    home = next((block for block in blocks if block.title == new.title), None)
-    if home is None and head in blocks[0].lines:
-        home = blocks[0]
-    if home is not None:
-        return _extend(source, home, new)
+    block_of_title = next((block for block in blocks if block.title == new.title), None)
+    if block_of_title is None and head in blocks[0].lines:
+        block_of_title = blocks[0]
+    if block_of_title is not None:
+        return _extend(source, block_of_title, new)
     if _says(source.lines, new):  # the README of a single node says it in several sections
         return source
     lines = [f"{_BELOW}{new.title}", "", *new.lines]

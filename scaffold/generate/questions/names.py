@@ -113,18 +113,18 @@ def node_name(text: str) -> str:
     return text
 
 
-def _check_form(text: str, what: str, *, at_least: int = 1) -> None:
+def _check_form(text: str, kind: str, *, at_least: int = 1) -> None:
     if re.fullmatch(_NAME, text) and at_least <= len(text) <= MAX_LENGTH:
         return
     if not at_least <= len(text) <= MAX_LENGTH:
         raise InputError(
-            f"the {what} {_shortened(text)!r} has {len(text)} character{'s' * (len(text) != 1)}; "
+            f"the {kind} {_shortened(text)!r} has {len(text)} character{'s' * (len(text) != 1)}; "
             f"it must have {at_least} to {MAX_LENGTH}"
         )
     better = _repaired(text)
     hint = f", such as {better}" if re.fullmatch(_NAME, better) and len(better) > 1 else ""
     raise InputError(
-        f"the {what} {text!r} must be lower-case words of letters and digits joined by single "
+        f"the {kind} {text!r} must be lower-case words of letters and digits joined by single "
         f"underscores, starting with a letter{hint}"
     )
 
@@ -177,7 +177,7 @@ def program_name(text: str) -> str:
     return text
 
 
-def topic(text: str, what: str = "topic") -> str:
+def topic(text: str, kind: str = "topic") -> str:
     """Return the name of a topic, service or action.
 
     It is relative, absolute (``/x``) or private (``~/x``).
@@ -188,17 +188,17 @@ def topic(text: str, what: str = "topic") -> str:
     plain = text.removeprefix("~/") if text.startswith("~") else text.removeprefix("/")
     if len(text) > MAX_TOPIC:
         raise InputError(
-            f"the {what} {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
+            f"the {kind} {_shortened(text)!r} has {len(text)} characters; the limit is {MAX_TOPIC}"
         )
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", plain):
         raise InputError(
-            f"the {what} {text!r} must be words of letters, digits and underscores joined by '/', "
+            f"the {kind} {text!r} must be words of letters, digits and underscores joined by '/', "
             "none starting with a digit, such as battery/voltage"
         )
     if "__" in text:
-        raise InputError(f"the {what} {text!r} has a double underscore, which ROS reserves")
+        raise InputError(f"the {kind} {text!r} has a double underscore, which ROS reserves")
     if resolve(text, "node") in _RESERVED_TOPICS:
-        raise InputError(f"the {what} {text!r} is used by ROS itself")
+        raise InputError(f"the {kind} {text!r} is used by ROS itself")
     return text
 
 

@@ -13,12 +13,12 @@ from scaffold.errors import ConflictError, InputError
 from scaffold.generate.templates.template import BASE, FOLDERS, MANIFEST, Template
 
 
-def copy(templates: Mapping[str, Template], what: str, content: str, name: str = "") -> str:
+def copy(templates: Mapping[str, Template], kind: str, content: str, name: str = "") -> str:
     """Copy a template into a content directory and return where it is then.
 
     Args:
         templates: All templates.
-        what: The name of a template, or of one and the path of a file in it.
+        kind: The name of a template, or of one and the path of a file in it.
         content: The directory that gets it, in its ``templates``.
         name: What the copy is called; by default as the template, which it overrides.
 
@@ -26,7 +26,7 @@ def copy(templates: Mapping[str, Template], what: str, content: str, name: str =
         InputError: there is no such template or file.
         ConflictError: something is there already.
     """
-    original, _, path = what.partition("/")
+    original, _, path = kind.partition("/")
     if original not in templates:
         closest = get_close_matches(original, templates, n=1)
         hint = f"; did you mean {closest[0]!r}?" if closest else "; `ros2-scaffold templates`"

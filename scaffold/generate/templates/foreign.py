@@ -74,10 +74,10 @@ class ForeignEngine:
             raise ContentError(f"{self._place(str(request[1]))}: {_cause_of_death(process)}")
         entry = json.loads(answer)
         if "error" in entry:
-            what, name = map(str, request[:2])
+            task, name = map(str, request[:2])
             own = f"template {name!r}"  # which names no file, if it is a short text
             message = entry["error"]
-            if what == "text" and message.startswith(own):
+            if task == "text" and message.startswith(own):
                 message = self._place(name) + message.removeprefix(own)
             raise ContentError(message)
         return entry["value"]

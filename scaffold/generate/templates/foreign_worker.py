@@ -41,9 +41,9 @@ def _limit(which: int, most: int) -> None:
 
 def _rendered(engine: LocalEngine, request: bytes, characters: int) -> bytes:
     """Return the answer to a request: a value, or what is wrong with the template."""
-    what, name, *context = pickle.loads(request)  # noqa: S301  made by the parent
+    task, name, *context = pickle.loads(request)  # noqa: S301  made by the parent
     try:
-        value = getattr(engine, what)(name, *context)
+        value = getattr(engine, task)(name, *context)
     except ContentError as error:
         return _answer(error=str(error)[:characters])
     except MemoryError:

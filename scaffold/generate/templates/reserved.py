@@ -46,8 +46,10 @@ def refuse_shadowing(templates: Mapping[str, Template], base: str, manifest: str
         for question in template.questions:
             name = question.name
             if name in _FLAGS or name in _VARIABLES:
-                what = f"the option --{name.replace('_', '-')}" if name in _FLAGS else "a variable"
-                _refuse(template, manifest, name, f"{what} of ours")
+                taken_by = (
+                    f"the option --{name.replace('_', '-')}" if name in _FLAGS else "a variable"
+                )
+                _refuse(template, manifest, name, f"{taken_by} of ours")
             if template.name != base and owners.get(name) == base:
                 _refuse(template, manifest, name, f"the question of {base}")
             if is_part:
@@ -60,6 +62,6 @@ def refuse_shadowing(templates: Mapping[str, Template], base: str, manifest: str
                 _refuse(template, manifest, question.name, of)
 
 
-def _refuse(template: Template, manifest: str, name: str, what: str) -> None:
+def _refuse(template: Template, manifest: str, name: str, taken_by: str) -> None:
     path = os.path.join(template.directory, manifest)
-    raise ContentError(f"{path}: the question {name!r} shadows {what}; rename it")
+    raise ContentError(f"{path}: the question {name!r} shadows {taken_by}; rename it")

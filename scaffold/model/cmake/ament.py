@@ -85,7 +85,7 @@ def nested(
         package: The package.
         is_asked_for: Tells whether a command is not to be followed.
     """
-    known = {"CMakeLists.txt"}
+    visited = {"CMakeLists.txt"}
     modules = [*_module_directories(package.cmake)]
     pending = [("", package.cmake)]
     while pending:
@@ -93,13 +93,13 @@ def nested(
         dead = [*lines_not_run(lists)]
         for command in lists.find("add_subdirectory", "include"):
             path = _named_file(package, directory, lists, command, modules)
-            if path is None or path in known:
+            if path is None or path in visited:
                 continue
             if any(first <= command.location.line <= last for first, last in dead):
                 continue
             if is_asked_for is not None and is_asked_for(lists, command):
                 continue
-            known.add(path)
+            visited.add(path)
             below = CMakeLists.parse(package.source(path))
             is_own = command.name == "add_subdirectory"
             pending.append((posixpath.dirname(path) if is_own else directory, below))

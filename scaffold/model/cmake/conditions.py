@@ -64,9 +64,9 @@ class Scope:
     def __init__(self) -> None:
         self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_asked=True)}
 
-    def set(self, name: str, known: Known) -> None:
+    def set(self, name: str, value: Known) -> None:
         """Give a variable another value."""
-        self._known[name] = known
+        self._known[name] = value
 
     def lookup(self, name: str) -> Known:
         """Return the value of a variable; the distribution's of ``rclcpp_VERSION_MAJOR``."""
@@ -90,11 +90,11 @@ class Scope:
             if not piece.endswith("}") or not piece.startswith("$"):
                 parts.append(unescape(piece))
                 continue
-            known = self._value(piece)
-            if known.value is None:
+            part = self._value(piece)
+            if part.value is None:
                 return UNKNOWN
-            is_asked |= known.is_asked
-            parts.append(known.value)
+            is_asked |= part.is_asked
+            parts.append(part.value)
         value = "".join(parts)
         return UNKNOWN if re.search(r"\$\w*[{<]", value) else Known(value, is_asked)
 
@@ -174,13 +174,17 @@ def _compared(first: Word, operator: str, second: Word, scope: Scope) -> Decisio
 
 
 def _numeric(operator: str, left: Known, right: Known) -> Decision:
-    values = [one.value for one in (left, right) if one.value is not None and one.value.isdigit()]
+    values = [
+        operand.value
+        for operand in (left, right)
+        if operand.value is not None and operand.value.isdigit()
+    ]
     if len(values) < len((left, right)):
         return UNDECIDED
     longest = max(map(len, values))
     padded = [
-        one._replace(value=value.rjust(longest, "0"))
-        for one, value in zip((left, right), values, strict=True)
+        operand._replace(value=value.rjust(longest, "0"))
+        for operand, value in zip((left, right), values, strict=True)
     ]
     return compare(operator, *padded)
 
@@ -195,16 +199,16 @@ def compare(operator: str, left: Known, right: Known) -> Decision:
 
 def _operand(word: Word, scope: Scope) -> Known:
     """Return what a comparison compares: the value of a variable of that name, or the word."""
-    known = UNKNOWN if word.is_quoted else scope.lookup(word.text)
-    is_variable = not word.is_quoted and (scope.is_set(word.text) or known.value is not None)
-    return known if is_variable else scope.expand(word.text)
+    value = UNKNOWN if word.is_quoted else scope.lookup(word.text)
+    is_variable = not word.is_quoted and (scope.is_set(word.text) or value.value is not None)
+    return value if is_variable else scope.expand(word.text)
 
 
 def _truth(word: Word, scope: Scope) -> Decision:
-    known = _operand(word, scope)
-    if known.value is None or not known.is_asked:
+    operand = _operand(word, scope)
+    if operand.value is None or not operand.is_asked:
         return UNDECIDED
-    value = known.value.upper()
+    value = operand.value.upper()
     if value in _FALSE or value.endswith("-NOTFOUND"):
         return Decision(holds=False, is_asked=True)
     return Decision(holds=True, is_asked=True) if value in _TRUE else UNDECIDED
@@ -220,10 +224,10 @@ def _matched(text: Known, pattern: Known) -> Decision:
     if text.value is None or pattern.value is None or "[:" in pattern.value:
         return UNDECIDED
     try:
-        found = re.search(pattern.value, text.value) is not None
+        is_match = re.search(pattern.value, text.value) is not None
     except (re.error, RecursionError, OverflowError):
         return UNDECIDED
-    return Decision(found, text.is_asked or pattern.is_asked)
+    return Decision(is_match, text.is_asked or pattern.is_asked)
 
 
 def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> Decision:

@@ -163,7 +163,7 @@ class _Walk:
     @property
     def _function(self) -> _Block | None:
         """The function around the command."""
-        return next((one for one in reversed(self._blocks) if one.name == "function"), None)
+        return next((block for block in reversed(self._blocks) if block.name == "function"), None)
 
     @property
     def _is_sure(self) -> bool:
@@ -198,13 +198,13 @@ class _Walk:
             case _ if command.name not in HARMLESS:
                 self._forget(command)
 
-    def _set(self, name: str, known: Known) -> None:
+    def _set(self, name: str, value: Known) -> None:
         """Give a variable a value, if the command that does so runs."""
         if any(block.is_dead for block in self._blocks):
             before = self._scope.lookup(name) if self._scope.is_set(name) else Known("")
             self._scope.set(name, before._replace(is_asked=True))
         elif all(block.is_sure for block in self._blocks):
-            self._scope.set(name, known._replace(is_asked=known.is_asked or bool(self._blocks)))
+            self._scope.set(name, value._replace(is_asked=value.is_asked or bool(self._blocks)))
         else:
             self._scope.set(name, UNKNOWN)
 
@@ -216,11 +216,14 @@ class _Walk:
 
     def _joined(self, arguments: list[Argument]) -> Known:
         known = [
-            Known(one.text) if one.bracket else self._scope.expand(one.text) for one in arguments
+            Known(argument.text) if argument.bracket else self._scope.expand(argument.text)
+            for argument in arguments
         ]
-        values = [one.value for one in known if one.value is not None]
+        values = [argument.value for argument in known if argument.value is not None]
         is_all = len(values) == len(known)
-        return Known(";".join(values) if is_all else None, any(one.is_asked for one in known))
+        return Known(
+            ";".join(values) if is_all else None, any(argument.is_asked for argument in known)
+        )
 
     def _line(self, command: Command) -> int:
         return _line(self._lists, command)

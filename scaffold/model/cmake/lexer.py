@@ -154,8 +154,8 @@ class _Lexer:
         closing = "]" + "=" * level + "]"
         end = self.text.find(closing, opened)
         if end < 0:
-            what = "bracket comment" if is_comment else "bracket argument"
-            self._complain(start, opened, f'"{closing}" expected: this {what} is not closed')
+            kind = "bracket comment" if is_comment else "bracket argument"
+            self._complain(start, opened, f'"{closing}" expected: this {kind} is not closed')
             self._add("bad", start)
             return len(self.text)
         self._add("bracket_comment" if is_comment else "bracket", start)

@@ -59,7 +59,7 @@ class Variables:
     """Follows ``set``, ``list(APPEND)``, ``unset`` and ``foreach`` from the top to the bottom."""
 
     def __init__(self, commands: Sequence[Command], directory: str, project: str | None) -> None:
-        here = f"{ROOT}/{directory}" if directory else ROOT
+        current = f"{ROOT}/{directory}" if directory else ROOT
         self._fixed: dict[str, str] = dict.fromkeys(
             (
                 "CMAKE_CURRENT_SOURCE_DIR",
@@ -67,7 +67,7 @@ class Variables:
                 "CMAKE_SOURCE_DIR",
                 "PROJECT_SOURCE_DIR",
             ),
-            here,
+            current,
         )
         self._turns = _MOST_TURNS
         self._history: dict[str, list[_Entry]] = {}
@@ -84,7 +84,7 @@ class Variables:
             name = self.evaluate(project, None, {})
             if name is not None:
                 self._fixed["PROJECT_NAME"] = self._fixed["CMAKE_PROJECT_NAME"] = name
-                self._fixed[f"{name}_SOURCE_DIR"] = here
+                self._fixed[f"{name}_SOURCE_DIR"] = current
         self._follow_all(commands)
 
     # -- asking
@@ -293,14 +293,14 @@ def _reaches(setter: Command, reader: Command | None) -> str:
         return "surely" if id(setter) in around else "never"
     branches = dict(_branches(reader)) if reader is not None else {}
     for opener, branch in _branches(setter):
-        there = branches.get(opener)
-        if there is branch:
+        reached = branches.get(opener)
+        if reached is branch:
             continue
         if opener.name == "function":
             parents = setter.arguments[-1:]
             leaves = bool(parents) and parents[0].value == "PARENT_SCOPE"
             return "perhaps" if leaves else "never"
-        if there is not None:
+        if reached is not None:
             return "never"  # in another branch of the same if()
         return "perhaps"
     return "surely"

@@ -330,10 +330,10 @@ class _Parser:
             self._problem(ProblemKind.VALUE, word.at, str(error))
             return None
 
-    def _unique(self, name: str, at: Location, what: str) -> None:
-        before = self._seen.setdefault(f"{what} {name}", at)
+    def _unique(self, name: str, at: Location, kind: str) -> None:
+        before = self._seen.setdefault(f"{kind} {name}", at)
         if before is not at:
-            message = f"the {what} {name!r} exists already, in line {before.line}"
+            message = f"the {kind} {name!r} exists already, in line {before.line}"
             self._problem(ProblemKind.DUPLICATE, at, message)
 
     def _problem(self, kind: ProblemKind, at: Location, message: str) -> None:

@@ -138,21 +138,21 @@ def _is_action_class(name: str) -> bool:
 
 
 def _literal(node: ast.expr) -> str:
-    what = ""
+    kind = ""
     match node:
         case ast.List() | ast.ListComp():
-            what = "this is a list"
+            kind = "this is a list"
         case ast.Tuple():
-            what = "this is a tuple"
+            kind = "this is a tuple"
         case ast.Dict() | ast.DictComp():
-            what = "this is a dictionary"
+            kind = "this is a dictionary"
         case ast.Constant(value=None):
-            what = "this is None"
+            kind = "this is None"
         case ast.Constant(value=str()) | ast.JoinedStr():
-            what = "this is a string"
+            kind = "this is a string"
         case ast.Constant(value=bool() | int() | float()):
-            what = "this is a number"
-    return what
+            kind = "this is a number"
+    return kind
 
 
 def _called(launch: LaunchFile, node: ast.Call) -> str:

@@ -122,9 +122,9 @@ def _split(attribute: Attribute) -> list[Word]:
 
 def _text(word: str) -> str:
     """Return a word of markup; of a program that launch looks for, its name."""
-    found = _FOUND.fullmatch(word)
-    if found:
-        return found[1]
+    substitution = _FOUND.fullmatch(word)
+    if substitution:
+        return substitution[1]
     return UNSAID if "$(" in word else word
 
 

@@ -53,7 +53,7 @@ def as_text(decision: bool | None, *, is_asked: bool) -> Text:  # noqa: FBT001  
 def joined(parts: Iterable[Text]) -> Text:
     """Return texts one after the other, as launch joins lists of substitutions."""
     listed = [*parts]
-    return Text("".join(one.value for one in listed), any(one.is_asked for one in listed))
+    return Text("".join(text.value for text in listed), any(text.is_asked for text in listed))
 
 
 def of_environment(name: str) -> Text:
@@ -68,8 +68,8 @@ def applied(kind: str, operands: Sequence[Text]) -> Text:
         kind: What XML calls it, such as ``equals``.
         operands: Its arguments.
     """
-    is_asked = any(one.is_asked for one in operands)
-    values = [_holds(one) for one in operands]
+    is_asked = any(operand.is_asked for operand in operands)
+    values = [_holds(operand) for operand in operands]
     match kind, operands:
         case "env", [name, *_]:
             return of_environment(name.value)

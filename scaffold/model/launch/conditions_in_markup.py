@@ -42,7 +42,7 @@ class Variables:
             if name == "var" and operands:
                 yield self._variable(operands[0], depth)
             else:
-                yield applied(name, [self.text(one, depth + 1) for one in operands])
+                yield applied(name, [self.text(operand, depth + 1) for operand in operands])
             at = end + 1
         yield Text(value[at:])
 

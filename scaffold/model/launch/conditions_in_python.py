@@ -65,8 +65,8 @@ class Conditions:
         return self._plain(node) if call is None else self._substituted(call, depth)
 
     def _assigned(self, node: ast.Name) -> ast.expr | None:
-        found = self._launch.module.index.lookup(node.id, node)
-        values = [binding.value for binding in found[1]] if found else []
+        lookup = self._launch.module.index.lookup(node.id, node)
+        values = [binding.value for binding in lookup[1]] if lookup else []
         return values[0] if len(values) == 1 else None
 
     def _plain(self, node: ast.expr) -> Text:

@@ -79,7 +79,7 @@ def _stretch(at: Location) -> Stretch:
 
 def _in_xml(document: Document) -> Iterator[Stretch]:
     elements = [document.root, *document.root.descendants()]
-    variables = _variables((one.tag, one.get) for one in elements)
+    variables = _variables((each.tag, each.get) for each in elements)
     for element in elements:
         if _is_left_out(variables, element.get):
             yield _stretch(element.location)

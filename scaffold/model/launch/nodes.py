@@ -117,8 +117,8 @@ def code_of(package: Package, name: str, program: str) -> KnownNode | None:
         name: The name of the package with the node.
         program: What is started.
     """
-    home = package if name == package.name else package.workspace.get(name)
-    nodes = nodes_of(home, program) if home is not None else []
+    owner = package if name == package.name else package.workspace.get(name)
+    nodes = nodes_of(owner, program) if owner is not None else []
     return nodes[0] if len(nodes) == 1 else None
 
 

@@ -143,10 +143,10 @@ def _is_reported_as_condition(launch: LaunchFile, node: ast.expr) -> bool:
     return False
 
 
-def _single(launch: LaunchFile, node: ast.expr, what: str) -> Iterator[TextUse]:
+def _single(launch: LaunchFile, node: ast.expr, use: str) -> Iterator[TextUse]:
     kind = _kind(launch, node)
     if kind:
-        yield TextUse(node, kind, what)
+        yield TextUse(node, kind, use)
 
 
 def _value_of(launch: LaunchFile, node: ast.expr) -> ast.expr | None:
@@ -218,7 +218,7 @@ def never_equal(launch: LaunchFile, node: ast.expr | None) -> tuple[str, bool]:
                 problem = _argument_never_is(launch, part, right)
                 problems.setdefault(launch.module.text(part), []).append(problem)
     # Who compares with several spellings means all of them.
-    wrong = [found[0] for found in problems.values() if all(why for why, _ in found)]
+    wrong = [uses[0] for uses in problems.values() if all(why for why, _ in uses)]
     return wrong[0] if wrong else ("", False)
 
 

@@ -76,10 +76,10 @@ def misspelled(condition: str) -> Iterator[tuple[str, str]]:
     for token in _tokens(condition):
         if token.kind == "variable" and token.text not in variables:
             close = get_close_matches(token.text, variables, 1, _NEAR)
-            yield from ((token.text, known) for known in close)
+            yield from ((token.text, suggestion) for suggestion in close)
     for name in _unknown_distributions(condition):
-        near = get_close_matches(name.lower(), distributions.NAMES, 1, _NEAR)
-        yield from ((name, known) for known in near)
+        similar = get_close_matches(name.lower(), distributions.NAMES, 1, _NEAR)
+        yield from ((name, suggestion) for suggestion in similar)
 
 
 def _unknown_distributions(condition: str) -> list[str]:
@@ -87,8 +87,8 @@ def _unknown_distributions(condition: str) -> list[str]:
     return [
         other.content
         for left, _, right in _comparisons(condition)
-        for one, other in ((left, right), (right, left))
-        if one.text == f"${distributions.VARIABLE}"
+        for side, other in ((left, right), (right, left))
+        if side.text == f"${distributions.VARIABLE}"
         and other.kind != "variable"
         and other.content not in _DISTRIBUTIONS
     ]

@@ -91,8 +91,8 @@ class Structure:
     @cached_property
     def missing(self) -> list[str]:
         """The tags of elements that every manifest has."""
-        there = {child.tag for child in self.known}
-        return [tag for tag in REQUIRED if tag not in there] if self.is_manifest else []
+        present = {child.tag for child in self.known}
+        return [tag for tag in REQUIRED if tag not in present] if self.is_manifest else []
 
     @cached_property
     def repeated(self) -> list[tuple[Element, Element]]:

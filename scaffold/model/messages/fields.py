@@ -91,8 +91,8 @@ class TypeMismatches:
     def _is_field(self, condition: ast.If, node: ast.expr) -> bool:
         """Tell whether an expression is a field with a message: that is never ``None``."""
         if isinstance(node, ast.Name):
-            found = self._assigned_before(condition, node.id)
-            return found is not None and self._is_field(condition, found)
+            attribute = self._assigned_before(condition, node.id)
+            return attribute is not None and self._is_field(condition, attribute)
         is_of_message = (
             isinstance(node, ast.Attribute) and self._types.type_of(node.value) is not None
         )

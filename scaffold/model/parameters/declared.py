@@ -68,9 +68,9 @@ def declared_by(owner: NodeDefinition | KnownNode, package: Package) -> Declared
     """Return what a node declares: in its class, in base classes, and where it is made."""
     if isinstance(owner, KnownNode):
         return _declared_at(owner.home(package), owner.path, owner.number)
-    home = home_of(owner, package)
+    owner_package = home_of(owner, package)
     number = next(at for at, node in enumerate(owner.facts.nodes) if node is owner)
-    return _declared_at(home, owner.facts.module.path, number)
+    return _declared_at(owner_package, owner.facts.module.path, number)
 
 
 @fact

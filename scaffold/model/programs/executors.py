@@ -31,10 +31,10 @@ class Shutdowns:
         if place is None:
             return None
         holder, block, number = place
-        there = self._blocks.get((holder, block), {})
-        for at in range(number - 1, max(number - _FAR, 0) - 1, -1) if there else ():
-            if at in there:
-                return there[at]
+        calls = self._blocks.get((holder, block), {})
+        for at in range(number - 1, max(number - _FAR, 0) - 1, -1) if calls else ():
+            if at in calls:
+                return calls[at]
             if "init" in ast.unparse(getattr(holder, block)[at]):
                 return None
         return None

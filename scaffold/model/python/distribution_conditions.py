@@ -107,14 +107,14 @@ def text_on_target(module: SyntaxTree, value: ast.expr) -> str | None:
 
 def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
     """Return what an expression is worth on the target, and whether the distribution decides it."""
-    found, notes = _DistributionEvaluator(module).trace(value)
-    return found, bool(notes)
+    result, notes = _DistributionEvaluator(module).trace(value)
+    return result, bool(notes)
 
 
 def _only_value(module: SyntaxTree, test: ast.expr) -> ast.expr | None:
     """Return what a name is set to, if that happens once."""
-    found = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
-    match found:
+    lookup = module.index.lookup(test.id, test) if isinstance(test, ast.Name) else None
+    match lookup:
         case (_, [binding]) if binding.kind == "assignment":
             return binding.value
     return None
@@ -171,23 +171,23 @@ class _DistributionEvaluator(Evaluator):
             return True
         match node:
             case ast.Attribute(value=ast.Name() as holder, attr="environment"):
-                found = self.module.index.lookup(holder.id, holder)
-                return found is not None and [item.kind for item in found[1]] == ["parameter"]
+                lookup = self.module.index.lookup(holder.id, holder)
+                return lookup is not None and [item.kind for item in lookup[1]] == ["parameter"]
         return False
 
     def _returned(self, name: str, at: ast.expr) -> object:
         """Return what a function of the file without arguments does, if that is all that it is."""
-        found = self.module.index.lookup(name, at)
-        match [item.node for item in (found[1] if found else ())]:
+        lookup = self.module.index.lookup(name, at)
+        match [item.node for item in (lookup[1] if lookup else ())]:
             case [ast.FunctionDef(body=[*_, ast.Return(value=value)] as body, decorator_list=[])]:
-                is_all = all(isinstance(one, ast.Expr) for one in body[:-1])
+                is_all = all(isinstance(statement, ast.Expr) for statement in body[:-1])
                 return self.evaluate(value) if is_all else UNKNOWN
         return UNKNOWN
 
     def attribute(self, node: ast.Attribute) -> object:
         """Return the value of an attribute of ``self`` that is set once."""
         index = self.module.index
-        class_ = next((one for one in index.parents(node) if isinstance(one, ast.ClassDef)), None)
+        class_ = self.module.enclosing_class(node)
         if class_ is None or not isinstance(node.value, ast.Name) or node.value.id != "self":
             return UNKNOWN
         values = [binding.value for binding in index.bindings(class_).get(node.attr, ())]
@@ -195,8 +195,8 @@ class _DistributionEvaluator(Evaluator):
             if not isinstance(store.ctx, ast.Load):
                 above = index.parent(store)
                 values.append(above.value if isinstance(above, ast.Assign) else None)
-        known = [self.evaluate(value) for value in values]  # each has notes
-        return known[0] if len(known) == 1 else UNKNOWN
+        evaluated = [self.evaluate(value) for value in values]  # each has notes
+        return evaluated[0] if len(evaluated) == 1 else UNKNOWN
 
     def _imported(self, node: ast.expr) -> object:
         python = target().python
@@ -292,6 +292,6 @@ class _DistributionEvaluator(Evaluator):
     def _contained(self, item: object, op: ast.cmpop, holder: object) -> object:
         if not isinstance(item, str) or not isinstance(holder, str | tuple | list | set | dict):
             return UNKNOWN
-        if not isinstance(holder, str) and not all(isinstance(one, str) for one in holder):
+        if not isinstance(holder, str) and not all(isinstance(element, str) for element in holder):
             return UNKNOWN
         return (item in holder) == isinstance(op, ast.In)

@@ -58,7 +58,7 @@ def exports_of(package: Package, path: str) -> Exports:
         frozenset(name for name in names if module.defines(name) is None),
         module.defines("") is None,
         (*module.functions,),
-        tuple(name for name, one in module.functions.items() if _is_coroutine(one.node)),
+        tuple(name for name, function in module.functions.items() if _is_coroutine(function.node)),
         (*module.classes,),
     )
 

@@ -85,7 +85,7 @@ def _goes_on(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler
         return True
     bound = [node for node in module.below(failing, ast.Name) if isinstance(node.ctx, ast.Store)]
     lookups = [module.index.lookup(node.id, node) for node in bound]
-    return all(found is not None and len(found[1]) > 1 for found in lookups)
+    return all(lookup is not None and len(lookup[1]) > 1 for lookup in lookups)
 
 
 def _replaces(module: PythonModule, failing: ast.stmt, handler: ast.ExceptHandler) -> bool:
@@ -111,7 +111,7 @@ def _does_the_same(module: PythonModule, first: ast.Call, second: ast.Call) -> b
         return True
     match first.func, second.func:
         case ast.Attribute(value=one), ast.Attribute(value=other):
-            given = [[*map(ast.unparse, (*it.args, *it.keywords))] for it in (first, second)]
+            given = [[*map(ast.unparse, (*call.args, *call.keywords))] for call in (first, second)]
             is_given = bool(given[0]) and given[0] == given[1]
             return is_given and module.text(one) == module.text(other)
     return False
@@ -283,8 +283,8 @@ def _behind(module: PythonModule, node: ast.AST) -> Iterator[ast.expr]:
             is_own = owner in {"self", "cls"}
             if is_own:
                 yield from _stored(module, name)
-            known = module.classes.get(owner)
-            class_ = module.enclosing_class(node) if is_own else known and known.node
+            defined = module.classes.get(owner)
+            class_ = module.enclosing_class(node) if is_own else defined and defined.node
             bindings = module.index.bindings(class_).get(name, ()) if class_ else ()
         case _:
             return

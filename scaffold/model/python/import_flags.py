@@ -43,8 +43,8 @@ def _attempts(module: PythonModule, test: ast.expr) -> Iterator[ast.Try]:
 
 
 def _bindings(module: PythonModule, name: ast.AST) -> Sequence[Binding]:
-    found = module.index.lookup(name.id, name) if isinstance(name, ast.Name) else None
-    return found[1] if found else ()
+    lookup = module.index.lookup(name.id, name) if isinstance(name, ast.Name) else None
+    return lookup[1] if lookup else ()
 
 
 def _imports(body: Sequence[ast.stmt], package: str) -> bool:

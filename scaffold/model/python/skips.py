@@ -57,8 +57,8 @@ def _conditions(module: PythonModule, mark: ast.expr, depth: int) -> Iterator[Sk
             for part in parts:
                 yield from _conditions(module, part, depth + 1)
         case ast.Name(id=name) if depth < _DEEPEST:
-            found = module.index.lookup(name, mark)
-            for binding in found[1] if found and len(found[1]) == 1 else ():
+            lookup = module.index.lookup(name, mark)
+            for binding in lookup[1] if lookup and len(lookup[1]) == 1 else ():
                 if binding.kind == "assignment" and binding.value is not None:
                     yield from _conditions(module, binding.value, depth + 1)
         case ast.Call(func=func, args=args, keywords=words):

@@ -107,6 +107,10 @@ class SyntaxTree:
         """Tell whether a node is somewhere below another."""
         return any(parent is scope for parent in self.parents(node))
 
+    def enclosing(self, node: ast.AST, *kinds: type[Node]) -> Node | None:
+        """Return the innermost node of some types around another."""
+        return next((parent for parent in self.parents(node) if isinstance(parent, kinds)), None)
+
     def enclosing_function(self, node: ast.AST) -> FunctionNode | None:
         """Return the function around a node, lambdas aside."""
         for parent in self.parents(node):
@@ -116,10 +120,7 @@ class SyntaxTree:
 
     def enclosing_class(self, node: ast.AST) -> ast.ClassDef | None:
         """Return the innermost class around a node."""
-        for parent in self.parents(node):
-            if isinstance(parent, ast.ClassDef):
-                return parent
-        return None
+        return self.enclosing(node, ast.ClassDef)
 
     def calls_of(self, *functions: str) -> Sequence[ast.Call]:
         """Return the calls of functions that certainly have these full names; see `qualified_name`.

@@ -175,5 +175,7 @@ def _given_before(node: ast.expr) -> int | None:
     """Return how many arguments ``partial(function, 'left')`` gives; ``None``: not known."""
     match node:
         case ast.Call(args=[ast.Name() | ast.Attribute(), *given], keywords=[]):
-            return None if any(isinstance(one, ast.Starred) for one in given) else len(given)
+            return (
+                None if any(isinstance(argument, ast.Starred) for argument in given) else len(given)
+            )
     return None

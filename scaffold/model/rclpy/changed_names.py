@@ -260,7 +260,7 @@ def _argument_meant(call: ast.Call, change: Change) -> ast.AST | None:
     if change.having or None in words:
         return words.get(change.having) if change.having else None
     is_by_position = len(call.args) > _MOST or any(
-        isinstance(one, ast.Starred) for one in call.args
+        isinstance(argument, ast.Starred) for argument in call.args
     )
     return None if change.without in words or is_by_position else call.func
 

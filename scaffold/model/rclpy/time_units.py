@@ -25,11 +25,11 @@ def unit_problems(file: RclpyFile) -> Iterator[tuple[ast.expr, str]]:
         if len(compared.ops) == 1 and isinstance(
             compared.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE
         ):
-            for one, other in (
+            for operand, other in (
                 (compared.left, compared.comparators[0]),
                 (compared.comparators[0], compared.left),
             ):
-                yield from _compared(file, one, other)
+                yield from _compared(file, operand, other)
     for node in file.module.walk(ast.BinOp):
         if isinstance(node.op, ast.Sub):
             yield from _mixed(node)
@@ -83,8 +83,8 @@ def _mixed(node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
 
 def _added(file: RclpyFile, node: ast.BinOp) -> Iterator[tuple[ast.expr, str]]:
     """Find ``stamp.sec + stamp.nanosec / 1e6``, and the sum of both parts as they are."""
-    for one, other in ((node.left, node.right), (node.right, node.left)):
-        first, second = _part(file, one, "sec"), _part(file, other, "nanosec")
+    for operand, other in ((node.left, node.right), (node.right, node.left)):
+        first, second = _part(file, operand, "sec"), _part(file, other, "nanosec")
         if first is None or second is None or first[0] != second[0]:
             continue
         right = first[1] * 1e-9

@@ -24,11 +24,11 @@ def node_scripts(package: Package) -> list[EntryPoint]:
     """
     if any(entry.group.startswith("ros2cli.") for entry in package.setup_py.entry_points):
         return []
-    found = {*_put_into_lib(package)}
+    scripts = {*_put_into_lib(package)}
     return [
         entry
         for entry in package.setup_py.console_scripts
-        if entry.name not in found and _is_node(package, entry)
+        if entry.name not in scripts and _is_node(package, entry)
     ]
 
 

@@ -67,8 +67,8 @@ def cached_keys(disk: Disk, variables: Mapping[str, str] = os.environ) -> Rosdep
         disk: Records what was accessed.
         variables: The environment: ``ROS_HOME``, ``HOME``.
     """
-    home = variables.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
-    cache = os.path.join(home, "rosdep", "sources.cache")
+    ros_home = variables.get("ROS_HOME") or os.path.join(os.path.expanduser("~"), ".ros")
+    cache = os.path.join(ros_home, "rosdep", "sources.cache")
     try:
         index = disk.read_renewed(os.path.join(cache, "index")).decode()
     except (OSError, ValueError):

@@ -37,10 +37,10 @@ class Entries:
 
 def directory() -> Path | None:
     """Return where the ledgers of this user are; ``None`` if there is no such place."""
-    home = os.environ.get("XDG_STATE_HOME") or os.path.join(
+    state_home = os.environ.get("XDG_STATE_HOME") or os.path.join(
         os.path.expanduser("~"), ".local", "state"
     )
-    return Path(home, "ros2-scaffold", "smoke") if os.path.isabs(home) else None
+    return Path(state_home, "ros2-scaffold", "smoke") if os.path.isabs(state_home) else None
 
 
 @contextmanager

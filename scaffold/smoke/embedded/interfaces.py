@@ -56,12 +56,12 @@ async def provide(
         return environment
     bundle = Bundle()
     own = {package.name for package in packages}
-    there = [*own, *_packages_in(environment.prefix)]
-    missing = bundle.closure(_needed(packages) - own, there)
+    available = [*own, *_packages_in(environment.prefix)]
+    missing = bundle.closure(_needed(packages) - own, available)
     if not missing:
         return environment
     # What interface packages are made from has to have the C++ part as well.
-    complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, there)}
+    complete = {*bundle.closure(_needed(filter(_has_interfaces, packages)) - own, available)}
     places = {name: _place(environment, bundle, complete=name in complete) for name in missing}
     remembered = [
         place / name for name, place in places.items() if place and (place / name).is_dir()

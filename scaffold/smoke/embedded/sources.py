@@ -67,13 +67,13 @@ class Bundle:
             names: Packages; those that are not in the bundle are left out.
             available: What need not be built.
         """
-        there = {*available}
+        installed = {*available}
         result: set[str] = set()
         waiting = [*names]
         while waiting:
             name = waiting.pop()
             package = self._source.package(name)
-            if package is not None and name not in result | there:
+            if package is not None and name not in result | installed:
                 result.add(name)
                 waiting += self._dependencies(name, package)
         return sorted(result)
@@ -124,12 +124,12 @@ class Bundle:
                     yield f"{kind}/{name}.{kind}", text.source.text
 
     def _dependencies(self, name: str, package: KnownPackage) -> set[str]:
-        found: set[str] = set()
+        dependencies: set[str] = set()
         for path, text in self._texts(package):
-            found.update(_OTHER_PACKAGE.findall(text))
+            dependencies.update(_OTHER_PACKAGE.findall(text))
             if path.endswith(".action"):
-                found.add("action_msgs")
-        return found - {name}
+                dependencies.add("action_msgs")
+        return dependencies - {name}
 
     def _version(self, package: KnownPackage) -> str:
         for kind in SECTIONS:

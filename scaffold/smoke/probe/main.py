@@ -134,10 +134,10 @@ class Probe:
         """Return name and type of the services that a node answers."""
         namespace, _, name = node.rpartition("/")
         try:
-            found = self._node.get_service_names_and_types_by_node(name, namespace or "/")
+            services = self._node.get_service_names_and_types_by_node(name, namespace or "/")
         except Exception:  # noqa: BLE001  the node has gone since it was listed
             return []
-        return [[service, types[0]] for service, types in found]
+        return [[service, types[0]] for service, types in services]
 
     def _look_at(self, name: str, types: list[str]) -> dict[str, object]:
         publishers = [

@@ -144,8 +144,8 @@ def _height_of_neighbors(name: Name, arrows: Sequence[Arrow], boxes: dict[Name, 
     heights = [
         boxes[other].y
         for begin, end in arrows
-        for one, other in ((begin, end), (end, begin))
-        if one == name and other in boxes
+        for node, other in ((begin, end), (end, begin))
+        if node == name and other in boxes
     ]
     return sum(heights) / len(heights) if heights else 0.0
 

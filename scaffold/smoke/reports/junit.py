@@ -22,7 +22,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
 
 def _suite(package: PackageResult, *, verbose: bool) -> ET.Element:
     cases = [_build(package)]
-    cases += [_executable(package, one, verbose=verbose) for one in package.runs]
+    cases += [_executable(package, execution, verbose=verbose) for execution in package.runs]
     cases += _tests(package)
     seconds = sum(float(case.get("time", "0")) for case in cases)
     suite = junit.suite_of(package.name, cases, seconds)

@@ -68,9 +68,9 @@ def lines_of(executable: Executable, *, verbose: bool) -> list[str]:
 
 
 def _lines(result: Smoke, paint: Paint, *, verbose: bool) -> Iterator[str]:
-    found = result.environment
-    title = " ".join(["ROS 2", *found.get("distribution", "").capitalize().split()])
-    yield f"{title} ({found['kind']}): {found['prefix']}, {found['rmw']}"
+    environment = result.environment
+    title = " ".join(["ROS 2", *environment.get("distribution", "").capitalize().split()])
+    yield f"{title} ({environment['kind']}): {environment['prefix']}, {environment['rmw']}"
     for note in result.notes:
         yield f"note: not used: {note}"
     for package in result.packages:
@@ -203,10 +203,10 @@ def summary(result: Smoke, paint: Paint = _plain) -> str:
         for package in result.packages
         for run in package.runs
     ]
-    said = f"{count(len(result.packages), 'package')}, {count(len(executables), 'executable')}"
+    counts = f"{count(len(result.packages), 'package')}, {count(len(executables), 'executable')}"
     seconds = f"in {result.seconds:.1f} s"
     if result.ok:
-        return f"{said}: {paint('ok', _GREEN)} {seconds}"
+        return f"{counts}: {paint('ok', _GREEN)} {seconds}"
     unbuilt = [package.name for package in result.packages if not package.build.ok]
     bad = [name for name, run in named if run.problems]
     unfinished = [name for name, run in named if run.interrupted and not run.problems]
@@ -216,7 +216,7 @@ def summary(result: Smoke, paint: Paint = _plain) -> str:
     failed = [item.name for item in result.packages if item.tests and not item.tests.ok]
     parts += [f"tests of {_listed(failed)} failed"] if failed else []
     verdict = "; ".join(parts) or "ended early"
-    return f"{said}: {paint(verdict, _RED)} {seconds}"
+    return f"{counts}: {paint(verdict, _RED)} {seconds}"
 
 
 def _listed(names: list[str]) -> str:

@@ -74,11 +74,11 @@ class _Reader:
         return result
 
     def _scenario(self, node: YamlNode, name: str, duration: float | None) -> Scenario:
-        known = (
+        allowed = (
             "arguments", "parameters", "topics", "services", "actions", "publish", "duration",
             "exit_code", "skip", "transitions",
         )  # fmt: skip
-        keys = self._keys(node, f"executable {name!r}", known)
+        keys = self._keys(node, f"executable {name!r}", allowed)
         own = self._optional(keys, "duration", self._positive)
         return Scenario(
             arguments=tuple(self._optional(keys, "arguments", self._strings) or ()),
@@ -124,8 +124,8 @@ class _Reader:
         )
 
     def _field(self, key: Scalar, node: YamlNode) -> FieldExpectation:
-        known = ("changes", "minimum", "maximum", "equals")
-        keys = self._keys(node, f"field {key.text!r}", known)
+        allowed = ("changes", "minimum", "maximum", "equals")
+        keys = self._keys(node, f"field {key.text!r}", allowed)
         return FieldExpectation(
             key.text,
             changes=self._optional(keys, "changes", self._boolean),
@@ -137,15 +137,15 @@ class _Reader:
 
     def _call(self, kind: str, key: Scalar, node: YamlNode) -> Call:
         name = self._name(key)
-        known = ("type", "request", "answer") if kind == "service" else ("type", "goal", "result")
-        keys = self._keys(node, f"{kind} {name!r}", known)
+        allowed = ("type", "request", "answer") if kind == "service" else ("type", "goal", "result")
+        keys = self._keys(node, f"{kind} {name!r}", allowed)
         given = self._required(keys, "type", key, f"{kind} {name!r}")
         return Call(
             kind,
             name,
             self._type(given, "srv" if kind == "service" else "action"),
-            self._optional(keys, known[1], self._fields) or {},
-            self._optional(keys, known[2], self._fields) or {},
+            self._optional(keys, allowed[1], self._fields) or {},
+            self._optional(keys, allowed[2], self._fields) or {},
         )
 
     def _stimulus(self, key: Scalar, node: YamlNode) -> Stimulus:
@@ -269,31 +269,31 @@ class _Reader:
             return node.text
         loader = SafeLoader("")
         tag = loader.resolve(ScalarNode, node.text, (True, False))  # type: ignore[no-untyped-call]  # of PyYAML
-        known = {f"{_TAG}{kind}" for kind in ("int", "float", "bool", "null")}
-        if tag not in known or len(node.text) > _MOST_DIGITS:
+        plain_tags = {f"{_TAG}{kind}" for kind in ("int", "float", "bool", "null")}
+        if tag not in plain_tags or len(node.text) > _MOST_DIGITS:
             return node.text
         return loader.construct_object(ScalarNode(tag, node.text))
 
     # -- structure
 
-    def _keys(self, node: YamlNode, what: str, known: tuple[str, ...]) -> dict[str, YamlNode]:
+    def _keys(self, node: YamlNode, holder: str, allowed: tuple[str, ...]) -> dict[str, YamlNode]:
         result: dict[str, YamlNode] = {}
-        for key, value in self._pairs(node, what):
-            if key.text not in known:
-                hint = _nearest(key.text, known) or f"; it has {_listed(known)}"
-                self.refuse(key.location.line, f"{what} has no key {key.text!r}{hint}")
+        for key, value in self._pairs(node, holder):
+            if key.text not in allowed:
+                hint = _nearest(key.text, allowed) or f"; it has {_listed(allowed)}"
+                self.refuse(key.location.line, f"{holder} has no key {key.text!r}{hint}")
             result[key.text] = value
         return result
 
-    def _pairs(self, node: YamlNode | None, what: str) -> list[tuple[Scalar, YamlNode]]:
+    def _pairs(self, node: YamlNode | None, holder: str) -> list[tuple[Scalar, YamlNode]]:
         if node is None or (isinstance(node, Scalar) and self._plain(node) is None):
             return []
         if not isinstance(node, YamlMapping):
-            self.refuse(node.location.line, f"{what} needs keys with values")
+            self.refuse(node.location.line, f"{holder} needs keys with values")
         names: set[str] = set()
         for key, _ in node.pairs:
             if key.text in names:
-                self.refuse(key.location.line, f"{what} has the key {key.text!r} twice")
+                self.refuse(key.location.line, f"{holder} has the key {key.text!r} twice")
             names.add(key.text)
         return node.pairs
 
@@ -304,10 +304,10 @@ class _Reader:
         return read(keys[name]) if name in keys else None
 
     def _required(
-        self, keys: Mapping[str, YamlNode], name: str, holder: Scalar, what: str
+        self, keys: Mapping[str, YamlNode], name: str, holder: Scalar, kind: str
     ) -> YamlNode:
         if name not in keys:
-            self.refuse(holder.location.line, f"{what} needs the key {name!r}")
+            self.refuse(holder.location.line, f"{kind} needs the key {name!r}")
         return keys[name]
 
     def _wrong(self, node: YamlNode, wanted: str) -> NoReturn:
@@ -330,9 +330,9 @@ def _as_float(text: str) -> float | None:
         return None
 
 
-def _nearest(word: str, known: Collection[str]) -> str:
-    near = get_close_matches(word, sorted(known), 1)
-    return f"; did you mean {near[0]!r}?" if near else ""
+def _nearest(word: str, words: Collection[str]) -> str:
+    matches = get_close_matches(word, sorted(words), 1)
+    return f"; did you mean {matches[0]!r}?" if matches else ""
 
 
 def _listed(names: Collection[str]) -> str:

@@ -67,33 +67,37 @@ def problems(scenario: Scenario, seen: Observation) -> Iterator[Problem]:
 def _of_field(
     topic: str, expected: FieldExpectation, seen: FieldFigures | None
 ) -> Iterator[Problem]:
-    what = f"{expected.path} of {topic}"
+    subject = f"{expected.path} of {topic}"
     if seen is None or not seen.count:
         why = seen.error if seen is not None and seen.error else "no message came"
-        yield Problem(f"{what} was not seen: {why}")
+        yield Problem(f"{subject} was not seen: {why}")
         return
     if expected.changes is True and not seen.changes:
-        yield Problem(f"{what} is always {_shown(seen.last)}: {FILE} expects it to change")
+        yield Problem(f"{subject} is always {_shown(seen.last)}: {FILE} expects it to change")
     if expected.changes is False and seen.changes:
         yield Problem(
-            f"{what} changes from {_shown(seen.first)} to {_shown(seen.last)}: "
+            f"{subject} changes from {_shown(seen.first)} to {_shown(seen.last)}: "
             f"{FILE} expects it to stay"
         )
     if expected.has_equals and (seen.changes or not _fits(expected.equals, seen.last)):
-        yield Problem(f"{what} is {_shown(seen.last)}: {FILE} expects {_shown(expected.equals)}")
-    yield from _out_of_range(what, expected, seen)
+        yield Problem(f"{subject} is {_shown(seen.last)}: {FILE} expects {_shown(expected.equals)}")
+    yield from _out_of_range(subject, expected, seen)
 
 
-def _out_of_range(what: str, expected: FieldExpectation, seen: FieldFigures) -> Iterator[Problem]:
+def _out_of_range(
+    subject: str, expected: FieldExpectation, seen: FieldFigures
+) -> Iterator[Problem]:
     if expected.minimum is None and expected.maximum is None:
         return
     if seen.least is None or seen.greatest is None:
-        yield Problem(f"{what} is {_shown(seen.last)}: {FILE} expects a number")
+        yield Problem(f"{subject} is {_shown(seen.last)}: {FILE} expects a number")
         return
     if expected.minimum is not None and seen.least < expected.minimum:
-        yield Problem(f"{what} is {seen.least:g}: {FILE} expects at least {expected.minimum:g}")
+        yield Problem(f"{subject} is {seen.least:g}: {FILE} expects at least {expected.minimum:g}")
     if expected.maximum is not None and seen.greatest > expected.maximum:
-        yield Problem(f"{what} is {seen.greatest:g}: {FILE} expects at most {expected.maximum:g}")
+        yield Problem(
+            f"{subject} is {seen.greatest:g}: {FILE} expects at most {expected.maximum:g}"
+        )
 
 
 def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:

@@ -66,7 +66,7 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
             yield Finding(code, row, column + 1, message)
     if not is_by_token:
         yield from _tight_punctuation(logical)
-    for pattern, codes, what in (
+    for pattern, codes, description in (
         (_OPERATOR, ("E221", "E222", "E223", "E224"), "operator"),
         (_KEYWORD, ("E272", "E271", "E274", "E273"), "keyword"),
     ):
@@ -79,7 +79,7 @@ def check(logical: LogicalLine) -> Iterator[Finding]:
                 else:
                     continue
                 row, column = logical.position(item.start(group))
-                yield Finding(code, row, column + 1, f"{whitespace} {side} the {what}")
+                yield Finding(code, row, column + 1, f"{whitespace} {side} the {description}")
 
 
 def _tight_punctuation(logical: LogicalLine) -> Iterator[Finding]:

@@ -36,11 +36,11 @@ def check(text: PythonText, options: Options) -> Iterator[Finding]:
 def _spaces(logical: LogicalLine) -> Iterator[Finding]:
     for item in _AFTER_PUNCTUATION.finditer(logical.text):
         row, column = logical.position(item.start() + 1)
-        what = f"after '{item[0][0]}'"
+        position = f"after '{item[0][0]}'"
         if "\t" in item[0]:
-            yield Finding("E242", row, column + 1, f"a tab {what}")
+            yield Finding("E242", row, column + 1, f"a tab {position}")
         else:
-            yield Finding("E241", row, column + 1, f"several spaces {what}")
+            yield Finding("E241", row, column + 1, f"several spaces {position}")
 
 
 def _breaks(logical: LogicalLine) -> Iterator[Finding]:

@@ -47,12 +47,12 @@ def _trailing(text: PythonText) -> Iterator[Finding]:
         if shown == rest:
             continue
         start, end = len(rest) + 1, len(shown) + 1
-        code, what = (
+        code, message = (
             ("W291", "trailing whitespace") if rest else ("W293", "whitespace on a blank line")
         )
         inside_string = _is_inside_string(text, number)
         fix = () if inside_string else ((number, start, number, end, ""),)
-        yield Finding(code, number, start, what, number, end, fix, "remove the whitespace")
+        yield Finding(code, number, start, message, number, end, fix, "remove the whitespace")
 
 
 def _is_inside_string(text: PythonText, line: int) -> bool:

@@ -34,18 +34,18 @@ def _wrong_result(file: RclpyFile, value: ast.expr | None) -> str:
         return f"a SetParametersResult without successful=True: {_REFUSED}" if is_refusal else ""
     value = _one_of_constants(file, value) or file.evaluator.single_value(value)
     full = file.module.qualified_name(value.func if isinstance(value, ast.Call) else value) or ""
-    what = ""
+    problem = ""
     if isinstance(value, ast.Constant):
-        what = repr(value.value)
+        problem = repr(value.value)
     elif isinstance(value, ast.List | ast.Tuple | ast.Dict):
-        what = f"a {type(value).__name__.lower()}"
+        problem = f"a {type(value).__name__.lower()}"
     elif full == RESULT and not isinstance(value, ast.Call):
         return "the class SetParametersResult; instantiate it with successful=True"
     elif full != RESULT and re.fullmatch(_MESSAGE, full) and full[0] != ".":
-        what = f"a {full.rpartition('.')[2]}"
+        problem = f"a {full.rpartition('.')[2]}"
     elif isinstance(value, ast.Call) and (constants := _plain_results(file, value)):
-        what = f"the result of {file.module.text(value.func)}(), which is {constants}"
-    return f"{what}, not a SetParametersResult: {_REFUSED}" if what else ""
+        problem = f"the result of {file.module.text(value.func)}(), which is {constants}"
+    return f"{problem}, not a SetParametersResult: {_REFUSED}" if problem else ""
 
 
 def _one_of_constants(file: RclpyFile, value: ast.expr) -> ast.Constant | None:

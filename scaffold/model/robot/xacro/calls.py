@@ -28,7 +28,7 @@ class Calls:
     def bind(self, name: str, macro: Macro, element: Element, frame: Frame) -> Scope | None:
         """Return the parameters of a call; ``None`` if it does not fit."""
         scope = Scope(macro.scope or frame.scope)
-        known = tuple(item for item in macro.parameters if not item.startswith("*"))
+        parameters = tuple(item for item in macro.parameters if not item.startswith("*"))
         given = element.attributes
         if element.tag == "xacro:call":
             given.pop("macro", None)
@@ -42,14 +42,16 @@ class Calls:
                 )
             elif ":" not in attribute.name and attribute.name != "xmlns":
                 place = attribute._replace(location=attribute.name_location)
-                self._problems.misfit("unknown", name, attribute.name, frame.file, place, known)
+                self._problems.misfit(
+                    "unknown", name, attribute.name, frame.file, place, parameters
+                )
         self._bind_blocks(name, macro, element, frame, scope)
         for parameter, default in macro.parameters.items():
             if parameter in scope.values or parameter.startswith("*"):
                 continue
             value = self._default(parameter, default, macro, frame)
             if value is None:
-                self._problems.misfit("missing", name, parameter, frame.file, element, known)
+                self._problems.misfit("missing", name, parameter, frame.file, element, parameters)
             else:
                 scope.values[parameter] = value
         return scope if len(self._problems.misfits) == before else None
