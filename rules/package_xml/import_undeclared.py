@@ -23,6 +23,7 @@ _LAUNCH = frozenset({"launch", "launch_ros"})
 """Whoever can start a launch file has them."""
 _BUILD = "python3-setuptools"
 """Whoever has colcon has it."""
+_MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""
 
