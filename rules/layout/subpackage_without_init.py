@@ -52,6 +52,16 @@ class SubpackageWithoutInit(Rule):
             },
         ),
         Example(
+            "among tests in the package",
+            {
+                **_FILES,
+                "talker/text/__init__.py": "",
+                "talker/tests/__init__.py": "",
+                "talker/tests/test_node.py": "from .etc.ports import Port\n",
+                "talker/tests/etc/ports.py": "class Port: ...\n",
+            },
+        ),
+        Example(
             "without",
             _FILES,
             Report(
@@ -70,7 +80,7 @@ class SubpackageWithoutInit(Rule):
             return
         reported: set[str] = set()
         for path, imports in imports_by_path(package):
-            for item in imports:
+            for item in (one for one in imports if not one.in_tests):
                 for directory in _directories(package, path, item):
                     init = f"{directory}/__init__.py"
                     if init in reported or package.has(init):

@@ -138,6 +138,10 @@ class NodeNotConstructed(RclpyRule):
             },
         ),
         Example(
+            "a mixin for nodes of other packages",
+            {"talker.py": _NODE_BASE.format("").replace("'talker'", "")},
+        ),
+        Example(
             "a node without a base class",
             {"talker.py": _NODE_BASE.format("")},
             "4:7: class 'Talker' uses methods of Node; inherit from Node",
@@ -286,6 +290,8 @@ def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
     text = file.module.source.text
     if class_.name in {base for other in file.module.walk(ast.ClassDef) for base in _bases(other)}:
         return False
+    if _hands_on(file, class_):
+        return False
     own = {*file.module.index.bindings(class_)}
     return any(
         f"self.{name}(" in text
@@ -296,6 +302,19 @@ def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
         )
         for name in _CREATES
     )
+
+
+def _hands_on(file: RclpyFile, class_: ast.ClassDef) -> bool:
+    """Tell whether a class without bases calls the constructor of what it is mixed into."""
+    for call in file.module.below(class_, ast.Call):
+        match call:
+            case ast.Call(
+                func=ast.Attribute(value=ast.Call(func=ast.Name("super")), attr="__init__"),
+                args=[],
+                keywords=[],
+            ):
+                return True
+    return False
 
 
 def _bases(class_: ast.ClassDef) -> list[str]:

@@ -108,6 +108,20 @@ class ParameterDefaultUnusable(RclpyRule):
             "7:32: parameter 'rate' has no default: its value is None until it is set",
         ),
         Example(
+            "a value that the node asks for",
+            {
+                "talker.py": _PLAIN.format("'joints'")
+                + "        self.joints = self.get_parameter('joints').value\n"
+                "        if self.joints is None or len(self.joints) == 0:\n"
+                "            raise ValueError('joints is not set')\n"
+            },
+            Report(
+                "7:32",
+                "parameter 'joints' has no default: its value is None until it is set",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "names whose values are only tested",
             {
                 "talker.py": _PLAIN.format("'quiet'")
@@ -275,11 +289,20 @@ def _set_names(package: Package) -> frozenset[str]:
 
 
 def _is_only_tested(file: RclpyFile, parameter: Parameter) -> bool:
-    """Tell whether the code reads a parameter, and does with it only what None is good for."""
+    """Tell whether the code reads a parameter, and expects None, or does nothing else with it."""
     module = file.module
     reads = [read.call for read in file.parameter_reads if read.name == parameter.name]
     values = [value for call in reads for value in _uses(module, call)]
+    if any(_is_compared_with_none(module, value) for value in values):
+        return True
     return bool(values) and all(_is_tested(module, value) for value in values)
+
+
+def _is_compared_with_none(module: PythonModule, value: ast.AST) -> bool:
+    match module.parent(value):
+        case ast.Compare(ops=[ast.Is() | ast.IsNot()], comparators=[ast.Constant(value=None)]):
+            return True
+    return False
 
 
 def _uses(module: PythonModule, call: ast.Call) -> Sequence[ast.AST]:

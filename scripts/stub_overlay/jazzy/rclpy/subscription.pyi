@@ -26,6 +26,7 @@ class Subscription(Generic[MsgType]):
     ) -> None: ...
     msg_type: type[MsgType]
     topic: str
+    event_handlers: list[EventHandler]
     raw: bool
     callback_group: CallbackGroup
     def get_publisher_count(self) -> int: ...

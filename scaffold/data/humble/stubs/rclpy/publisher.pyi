@@ -33,4 +33,4 @@ class Publisher(Generic[MsgType]):
     msg_type: type[MsgType]
     topic: str
     qos_profile: QoSProfile
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]

@@ -36,7 +36,7 @@ class Subscription(Generic[MsgType]):
     _executor_event: Any
     qos_profile: QoSProfile
     raw: bool
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]
 
 class MessageInfo(TypedDict):
     source_timestamp: int

@@ -37,7 +37,7 @@ class Publisher(Generic[MsgType]):
     msg_type: type[MsgType]
     topic: str
     qos_profile: QoSProfile
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]
 
     def __enter__(self) -> Self: ...
     def __exit__(

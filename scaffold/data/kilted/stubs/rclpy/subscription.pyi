@@ -50,7 +50,7 @@ class Subscription(Generic[MsgType]):
     _executor_event: Any
     qos_profile: QoSProfile
     raw: bool
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]
     _callback: Any
     _callback_type: Any
 

@@ -39,7 +39,7 @@ class Publisher(BasePublisher, Generic[MsgType]):
     msg_type: type[MsgType]
     topic: str
     qos_profile: QoSProfile
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]
     _destroy: Any
     _on_destroy: Any
 

@@ -55,7 +55,7 @@ class Subscription(BaseSubscription, Generic[MsgType]):
     _executor_event: Any
     qos_profile: QoSProfile
     raw: bool
-    event_handlers: EventHandler
+    event_handlers: list[EventHandler]
     _callback: Any
     _callback_type: Any
     _destroy: Any
