@@ -24,7 +24,7 @@ EARLIEST = distributions.ORDER[0]
 
 
 class Change(NamedTuple):
-    """Something that is no longer, or no longer the same."""
+    """A name or a call that was removed, deprecated or changed."""
 
     names: tuple[str, ...]
     """Full names; a last one may end in ``*``."""

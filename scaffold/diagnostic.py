@@ -10,7 +10,7 @@ from scaffold.source import Location
 
 
 class Severity(Enum):
-    """How much a diagnostic matters."""
+    """The severity of a diagnostic."""
 
     ERROR = "error"
     """It breaks at build, run, test or release."""
@@ -21,7 +21,7 @@ class Severity(Enum):
 
 
 class Effect(IntEnum):
-    """What a flaw does; a screen shows the findings of one severity in this order."""
+    """The effect of a flaw; the screen sorts findings of one severity by it."""
 
     STOPS_BUILD = 0
     """A file is not read, or the package is not built."""
@@ -40,7 +40,7 @@ class Effect(IntEnum):
 
 
 class Diagnostic(NamedTuple):
-    """A finding at a place."""
+    """A finding at a location."""
 
     code: str
     name: str

@@ -36,7 +36,7 @@ VARIABLE = "ROS_DISTRO"
 
 
 class Distribution:
-    """A distribution.
+    """A distribution of ROS 2 and its properties.
 
     Args:
         name: One of ``NAMES``.

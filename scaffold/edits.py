@@ -48,7 +48,7 @@ Change = Edit | CreateFile | MakeExecutable | Remove
 
 
 class Fix(NamedTuple):
-    """Changes that make a diagnostic go away, applied together or not at all."""
+    """Changes that resolve a diagnostic, applied together or not at all."""
 
     title: str
     changes: tuple[Change, ...]

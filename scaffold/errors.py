@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class ScaffoldError(Exception):
-    """The user's input or environment is at fault; the text says what to do next (exit 2)."""
+    """An error in the user's input or environment; the text says what to do (exit 2)."""
 
 
 class ConfigError(ScaffoldError):
@@ -32,7 +32,7 @@ class EnvironmentMissingError(ScaffoldError):
 
 
 class OutOfTimeError(Exception):
-    """A file takes more time than anything that people write."""
+    """Checking a file exceeded the time limit."""
 
 
 EXHAUSTED: tuple[type[Exception], ...] = (RecursionError, MemoryError, OutOfTimeError)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class _Record(tuple):  # type: ignore[type-arg]  # what is in it, each class says
-    """What all records do alike."""
+    """The common base class of all records."""
 
     __slots__ = ()
     _fields: tuple[str, ...]
@@ -42,7 +42,7 @@ class _Record(tuple):  # type: ignore[type-arg]  # what is in it, each class say
 
 
 class _Definition(type):
-    """Makes a plain class from the body of a class statement."""
+    """Creates a plain class from the body of a class statement."""
 
     def __new__(cls, name: str, _: tuple[type, ...], namespace: dict[str, Any]) -> Any:  # noqa: ANN401  of another class
         from _collections import _tuplegetter  # type: ignore[import-not-found]  # as namedtuple does

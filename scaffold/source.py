@@ -9,7 +9,7 @@ from scaffold.record import NamedTuple
 
 
 class Location(NamedTuple):
-    """A stretch of a file: lines and columns count from 1, the end is exclusive."""
+    """A range in a file: lines and columns count from 1, the end is exclusive."""
 
     path: str
     """Relative to the package's root, with ``/`` between the parts."""
@@ -109,7 +109,7 @@ class Source:
 
 
 class ViewError(Exception):
-    """A view of a package cannot be had; rules that need it stay silent."""
+    """A view of a package is not available; rules that need it report nothing."""
 
 
 class MissingFileError(ViewError):
@@ -126,11 +126,11 @@ class ParseError(ViewError):
 
 
 class EncodingError(ParseError):
-    """A file is not text of its encoding; not everybody who reads it minds."""
+    """A file is not valid in its encoding; not every reader requires that."""
 
 
 class UnreadEndError(ParseError):
-    """What is wrong is outside of the element that those who read the file look for."""
+    """The error is outside of the element that the readers of the file use."""
 
 
 class TooLargeError(ParseError):
@@ -138,7 +138,7 @@ class TooLargeError(ParseError):
 
 
 class NewerSyntaxError(ViewError):
-    """A Python file that only a newer Python than the running one can parse; not a flaw."""
+    """A Python file that needs a newer Python than the running one; not a flaw."""
 
     def __init__(self, location: Location, version: tuple[int, int]) -> None:
         super().__init__(f"needs Python {version[0]}.{version[1]} or newer")

@@ -57,7 +57,7 @@ def _identity() -> str:
 
 
 class _File:
-    """A file to check: read once, answered from the cache or by ruff and the own rules."""
+    """A file to check: read once, checked from the cache, or by ruff and our rules."""
 
     def __init__(self, path: str, data: bytes, settings: Sequence[Settings]) -> None:
         self.path = path

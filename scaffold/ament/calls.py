@@ -155,7 +155,7 @@ _SAME_PATH = frozenset(
 
 
 class _TestEvaluator(Evaluator):
-    """Knows where the file of a test is, and what is made of its path.
+    """Evaluates ``__file__`` of a test, and paths derived from it.
 
     Args:
         module: The file.

@@ -28,7 +28,7 @@ _HOLDER = 12  # words that the name of a copyright holder has at most
 
 
 class Header(NamedTuple):
-    """What a source file says about its copyright."""
+    """The copyright notice and license header of a source file."""
 
     path: str
     location: Location
@@ -235,7 +235,7 @@ def _holder(notice: str) -> str:
 
 
 class KnownText(NamedTuple):
-    """A text that belongs to a license: the parts between the placeholders for names."""
+    """The text of a license, split at the placeholders for names."""
 
     licence: str
     sections: tuple[str, ...]

@@ -44,7 +44,7 @@ _HANDLER_MODULE = "FindPackageHandleStandardArgs"
 
 
 class Finding(NamedTuple):
-    """A line that a filter of the linter rejects."""
+    """A line that the linter reports."""
 
     filter: str
     source: Source

@@ -300,11 +300,11 @@ class PackageSettings:
 
 
 class _StopError(Exception):
-    """The linter ends with an error before it looks at anything."""
+    """The linter would end with an error before it checks anything."""
 
 
 class _Parser(argparse.ArgumentParser):
-    """Reads a command line as the linter does."""
+    """Parses a command line as the linter does."""
 
     def __init__(self) -> None:
         super().__init__(add_help=False)

@@ -25,7 +25,7 @@ _FINDING = ("ament_lint_auto_find_test_dependencies", "ament_auto_find_test_depe
 
 
 class Use(NamedTuple):
-    """How a package uses a linter."""
+    """How the tests of a package use a linter."""
 
     runs: bool
     why_not: str = ""

@@ -256,7 +256,7 @@ def _loads_conversions(item: RuffDiagnostic) -> bool:
 
 
 class _Alignment:
-    """Knows what continuation lines are aligned with."""
+    """The columns with which continuation lines are aligned."""
 
     def __init__(self, text: PythonText) -> None:
         self._text = text

@@ -62,11 +62,11 @@ def check(path: str, data: bytes) -> tuple[Location, str] | None:
 
 
 class _Limit(Exception):  # noqa: N818  ends the reading; no one else sees it
-    """The file is beyond what xmllint reads."""
+    """The file exceeds a limit of xmllint."""
 
 
 class _Reader:
-    """Reads a file for its mistakes only."""
+    """Parses a file only to find errors."""
 
     def __init__(self) -> None:
         self.parser = parser = expat.ParserCreate()

@@ -27,7 +27,7 @@ Key = tuple[str, tuple[str, ...] | None]
 
 @dataclass(frozen=True)
 class Settings:
-    """What a session is made of, and where its packages come from."""
+    """The settings of a session, and where its packages come from."""
 
     selection: Selection
     adjustments: Adjustments
@@ -41,7 +41,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Batch:
-    """Targets to check, and what their verdict depends on besides the files."""
+    """Targets to check, and inputs of the check other than files."""
 
     targets: frozenset[Key]
     settings: Settings
@@ -57,7 +57,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class Checked:
-    """What was found in a target."""
+    """The findings in a target."""
 
     key: Key
     files: int
@@ -67,7 +67,7 @@ class Checked:
 
 @dataclass(frozen=True)
 class Answer:
-    """What comes back of a batch."""
+    """The result of a batch."""
 
     checked: Sequence[Checked]
     types_failure: str

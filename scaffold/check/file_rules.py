@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class FileRule(Rule):
-    """Reads the files of one kind, each by itself.
+    """A rule that reads the files of one kind separately.
 
     A subclass has ``check_file``, or ``check_in`` if it looks at more than the file.
     """
@@ -54,7 +54,7 @@ class FileRule(Rule):
 
 
 class PythonRule(FileRule):
-    """Reads every Python file of a package that can be parsed."""
+    """A rule that reads every Python file of a package that parses."""
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file; raises ViewError if it cannot be read."""
@@ -66,7 +66,7 @@ class PythonRule(FileRule):
 
 
 class TestRule(FileRule):
-    """Reads the Python files that pytest collects."""
+    """A rule that reads the Python files that pytest collects."""
 
     __test__ = False  # not for pytest itself
 
@@ -86,7 +86,7 @@ class TestRule(FileRule):
 
 
 class RclpyRule(FileRule):
-    """Reads the Python files that import rclpy, tests aside: those try what nodes must not do."""
+    """A rule that reads Python files that import rclpy, except for tests."""
 
     def paths(self, package: Package) -> Sequence[str]:
         """Return the files that import rclpy."""
@@ -106,7 +106,7 @@ class RclpyRule(FileRule):
 
 
 class MessageRule(FileRule):
-    """Reads the Python files that use classes of messages, services or actions."""
+    """A rule that reads Python files that use message, service or action classes."""
 
     def paths(self, package: Package) -> Sequence[str]:
         """Return the files that import such classes."""
@@ -126,7 +126,7 @@ class MessageRule(FileRule):
 
 
 class LaunchRule(FileRule):
-    """Reads the launch files that are written in Python."""
+    """A rule that reads launch files written in Python."""
 
     def paths(self, package: Package) -> Sequence[str]:
         """Return the files that import launch, except those of tests."""

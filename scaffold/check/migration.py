@@ -55,7 +55,7 @@ ORDER = ("I100", "I101", "I201")
 
 
 class Consequences(NamedTuple):
-    """What a move does to one package."""
+    """The effects of a migration on one package."""
 
     result: Result
     breaks: Sequence[Diagnostic]
@@ -134,7 +134,7 @@ def _is_ignored(package: Package, path: str) -> bool:
 
 
 class MigratingSession(Session):
-    """Reports what is not known of the distribution that the packages come from."""
+    """A session that reports what the source distribution does not report."""
 
     known: Known = ()
     """What is found there, as `identities` returns it."""
@@ -166,7 +166,7 @@ class MigratingSession(Session):
 
 
 class OrderSession(Session):
-    """Reports imports that are not in order, in files where more are so than before the fixes."""
+    """A session that reports unsorted imports only in files that were mostly sorted."""
 
     unordered: Mapping[tuple[str, str], int] = MappingProxyType({})
     """How many were so, by directory and path of the file."""

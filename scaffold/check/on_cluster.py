@@ -24,7 +24,7 @@ _INDEX = "share/ament_index/resource_index/packages"
 
 
 class ClusterSession(AgreedSession):
-    """Checks on a cluster what it is given, with the rules of the tool."""
+    """A session that checks packages on a cluster, with the built-in rules."""
 
     address = ""
     """Of the scheduler."""

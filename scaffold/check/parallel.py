@@ -80,7 +80,7 @@ class _Task(NamedTuple):
 
 
 class _Done(NamedTuple):
-    """What a task found, by the place of the package."""
+    """The results of a task, by index of the package."""
 
     rules: dict[int, Ruled]
     style: dict[int, Style]
@@ -238,7 +238,7 @@ def _run(number: int) -> _Done:
 
 
 class _Garbage:
-    """Looks for garbage in a worker, where there may be much.
+    """Controls garbage collection in a worker.
 
     What was parsed holds itself: Python would find it after most of a task, or very late. Looking
     for it after each takes a tenth of the time of a check.

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """What was found in one go: by a rule in a package, or by all rules that read one file."""
+    """The findings of one unit: a rule in a package, or all rules that read one file."""
 
     files: frozenset[str]
     """The files that it depends on, by ``Package.full_path``."""
@@ -25,7 +25,7 @@ class Part(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What was found in a package, in parts that hold while what they depend on is the same.
+    """The findings in a package, in parts with their dependencies.
 
     That is on condition that nothing but files that are followed (`scaffold.model.reads`) was
     edited: after any other change nothing in it holds.
@@ -47,7 +47,7 @@ class Verdict(NamedTuple):
 
 
 class Earlier(NamedTuple):
-    """What an earlier check of a package found, and what was edited since."""
+    """The findings of an earlier check of a package, and the edits since."""
 
     verdict: Verdict
     """Its style is that of the files as they are now."""
@@ -68,7 +68,7 @@ class Earlier(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What was found in one package."""
+    """The findings in one package."""
 
     package: Package
     files: int

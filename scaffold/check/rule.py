@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Located(Protocol):
-    """Anything that knows its place: an element, a command, a location itself."""
+    """Anything that has a location: an element, a command, or a location itself."""
 
     @property
     def location(self) -> Location:
@@ -24,7 +24,7 @@ class Located(Protocol):
 
 
 class Report:
-    """What a user reads about one diagnostic of an example, word for word.
+    """An expected diagnostic of an example, as shown to users.
 
     ``"line:column: message"`` is the short form of one without a fix, with the usual severity.
 

@@ -47,7 +47,7 @@ def check(package: Package, rules: Iterable[Rule]) -> list[Diagnostic]:
 
 
 class Check:
-    """The rules at work on one package.
+    """A run of rules on one package.
 
     Args:
         package: The package.

@@ -31,7 +31,7 @@ _JOINED = re.compile(
 
 
 class AgreedSession(Session):
-    """Offers, where packages are for several distributions, the fixes that are right for all."""
+    """A session whose fixes must be correct for all distributions of a package."""
 
     agreed: Agreed | None = None
     """What `agreed` returns; ``None`` to offer all fixes."""

@@ -80,7 +80,7 @@ def _may_hold_suppression(path: str) -> bool:
 
 
 class _Comment(NamedTuple):
-    """A ``noqa``."""
+    """A ``noqa`` comment."""
 
     line: int
     codes: tuple[tuple[str, int], ...]

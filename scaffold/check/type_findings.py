@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Typed(NamedTuple):
-    """What types show in a package."""
+    """The type findings in a package."""
 
     diagnostics: Sequence[Diagnostic] = ()
     parts: Mapping[str, Part] = {}
@@ -30,7 +30,7 @@ class Typed(NamedTuple):
 
 
 class TypeFindings:
-    """Checks the types of packages; the type checker runs from the start.
+    """Checks the types of packages; the type checker starts immediately.
 
     Args:
         rules: The rules that judge what it reports.

@@ -21,7 +21,7 @@ _KEY = "reported by the type checker"
 
 
 class TypeRule(FileRule):
-    """Judges what the type checker reports; a subclass has ``judge``."""
+    """A rule about reports of the type checker; a subclass has ``judge``."""
 
     kinds: ClassVar[frozenset[str]]
     """The rules of the type checker that it is made of."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Choices:
-    """Resolves the words of the configuration and of flags to rules.
+    """Resolves words of the configuration and the flags to rules.
 
     Args:
         settings: The configuration.

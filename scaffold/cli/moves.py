@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Move(NamedTuple):
-    """Packages that move from one distribution to another."""
+    """A migration of packages from one distribution to another."""
 
     origin: Distribution
     directories: Sequence[str]
@@ -30,7 +30,7 @@ class Move(NamedTuple):
 
 
 class Moved(NamedTuple):
-    """What becomes of them; nothing is written."""
+    """The result of a migration, in memory."""
 
     consequences: Sequence[Consequences]
     """Of what is left."""
@@ -47,7 +47,7 @@ class Moved(NamedTuple):
 
 
 class Mover:
-    """Checks and fixes packages that move.
+    """Checks and fixes packages that are migrated.
 
     Args:
         options: The flags of the verb.

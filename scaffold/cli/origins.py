@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Origins(NamedTuple):
-    """Where packages come from."""
+    """The distributions that packages are migrated from."""
 
     directories: Mapping[Distribution, Sequence[str]]
     """The directories of the packages that move, by where they come from, oldest first."""

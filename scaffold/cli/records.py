@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Recorded(NamedTuple):
-    """What became of the records of packages."""
+    """The records that were updated, and those that were not."""
 
     before: Mapping[str, Sequence[str]]
     """What the packages were for whose records are changed, by directory."""

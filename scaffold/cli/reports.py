@@ -101,7 +101,7 @@ def text(results: Sequence[Result], shown: ReportOptions) -> str:
 
 
 class _Copy(StringIO):
-    """What is written to standard output, and may be again."""
+    """Standard output that is recorded, so that it can be repeated."""
 
     def __init__(self, *, is_terminal: bool) -> None:
         super().__init__()

@@ -31,7 +31,7 @@ def validate(options: argparse.Namespace) -> None:
 
 
 class Since:
-    """A check of what differs from a commit.
+    """A check of the differences from a commit.
 
     Args:
         directory: Where the checked packages are.

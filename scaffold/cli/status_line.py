@@ -16,7 +16,7 @@ _ERASE = "\r\033[K"
 
 
 class StatusLine:
-    """Written again and again on standard error, if that is a terminal; lines go above it."""
+    """A line on standard error that is updated in place, if that is a terminal."""
 
     def __init__(self) -> None:
         self._is_shown = sys.stderr.isatty()

@@ -36,7 +36,7 @@ def held(directory: str, *, is_dry: bool) -> Iterator[None]:
 
 
 class Held(NamedTuple):
-    """Packages that this run holds."""
+    """The packages that this run has locked."""
 
     roots: frozenset[str]
     has_waited: bool

@@ -34,7 +34,7 @@ Dask = Any
 
 @dataclass(frozen=True)
 class Done(Generic[Result]):
-    """What became of a task."""
+    """The outcome of a task."""
 
     name: str
     worker: str = ""
@@ -45,7 +45,7 @@ class Done(Generic[Result]):
 
 
 class Cluster:
-    """A connection.
+    """A connection to a cluster.
 
     Args:
         client: Dask's.

@@ -24,7 +24,7 @@ _MARKER = "COLCON_IGNORE"
 
 @dataclass(frozen=True)
 class Mirror:
-    """Directories, packed."""
+    """Packed directories."""
 
     archive: bytes
     """Files, links and directories by their paths without the leading slash."""
@@ -35,7 +35,7 @@ class Mirror:
 
 
 class Packer:
-    """Packs directories and files, each once."""
+    """Packs directories and files, each only once."""
 
     def __init__(self) -> None:
         self._out = io.BytesIO()

@@ -14,7 +14,7 @@ PATIENCE = 30.0
 
 
 class Silence:
-    """Asks the scheduler for its state, and reports workers that it has not heard from for a while.
+    """Polls the scheduler, and reports workers without a recent heartbeat.
 
     Args:
         client: Dask's.

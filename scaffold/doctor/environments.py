@@ -22,7 +22,7 @@ class Missing(NamedTuple):
 
 
 class Environment(NamedTuple):
-    """A ROS 2 that is there, or could be."""
+    """A ROS 2 environment, installed or missing."""
 
     kind: str
     """``sourced``, ``installed`` or ``wheels``."""

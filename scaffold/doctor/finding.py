@@ -7,7 +7,7 @@ from scaffold.record import NamedTuple
 
 
 class Finding(NamedTuple):
-    """Something that is wrong, or worth to know, and what helps."""
+    """A problem or a hint, with its remedy."""
 
     severity: Severity
     message: str

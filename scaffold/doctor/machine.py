@@ -22,7 +22,7 @@ _PYTHON = re.compile(r"python(3\.\d+)")
 
 @dataclass(frozen=True)
 class Machine:
-    """Where everything is; tests make others of it."""
+    """The paths and variables that are read; tests replace them."""
 
     variables: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
     installed: str = INSTALLED

@@ -38,7 +38,7 @@ class LargeFileError(OSError):
 
 
 class Disk:
-    """Answers, and what was answered so far."""
+    """Accesses to the file system, recorded with their results."""
 
     def __init__(self) -> None:
         self.seen: dict[Question, Answer] = {}

@@ -54,7 +54,7 @@ class Tree(Protocol):
 
 
 class DiskTree:
-    """A directory; it is listed once, when first asked."""
+    """A directory; it is listed once, on first use."""
 
     def __init__(self, root: str | os.PathLike[str], disk: Disk | None = None) -> None:
         self.root = os.fspath(root)

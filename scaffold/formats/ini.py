@@ -50,7 +50,7 @@ class IniOption(NamedTuple):
 
 
 class IniSection:
-    """A section; one that is there twice is an error, as it is for setuptools."""
+    """A section; a duplicate one is an error, as for setuptools."""
 
     def __init__(
         self, name: str, location: Location, name_location: Location, start: int, end: int

@@ -62,7 +62,7 @@ def _same(offset: int) -> int:
 
 
 class _Offsets:
-    """Tells which character a byte of UTF-8 belongs to."""
+    """Converts byte offsets in UTF-8 to character offsets."""
 
     STEP = 128
 

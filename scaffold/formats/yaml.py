@@ -20,7 +20,7 @@ MAX_DEPTH = 60
 
 
 class _Mark(Protocol):
-    """A place as PyYAML gives it; its two parsers have classes of their own."""
+    """A position, with the attributes that both parsers of PyYAML have."""
 
     @property
     def line(self) -> int:
@@ -51,7 +51,7 @@ class Sequence(NamedTuple):
 
 
 class Mapping(NamedTuple):
-    """Pairs of keys and values, repeated keys too."""
+    """Pairs of keys and values, including duplicate keys."""
 
     pairs: list[tuple[Scalar, YamlNode]]
     """Keys that are not scalars are skipped."""
@@ -59,7 +59,7 @@ class Mapping(NamedTuple):
 
 
 class Alias(NamedTuple):
-    """``*name``: what is written elsewhere."""
+    """``*name``: a reference to an anchor."""
 
     name: str
     location: Location

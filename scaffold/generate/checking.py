@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class _Judged(NamedTuple):
-    """What is checked of a draft; it goes to another process."""
+    """The checked part of a draft; it is sent to another process."""
 
     name: str
     files: Mapping[str, str]
@@ -53,7 +53,7 @@ class _Judged(NamedTuple):
 
 
 class Check:
-    """The check of a draft; style begins at once, in the background.
+    """The check of a draft; the style check starts immediately, in the background.
 
     Args:
         draft: The draft.
@@ -158,7 +158,7 @@ def ahead() -> Iterator[RuleProcess | None]:
 
 
 class RuleProcess:
-    """A process that loads the built-in rules, and runs them over the package that it is sent."""
+    """A process that loads the built-in rules, and runs them on the package it receives."""
 
     def __init__(self) -> None:
         requests, to = os.pipe()

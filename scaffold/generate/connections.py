@@ -50,7 +50,7 @@ class Use(NamedTuple):
 
 
 class Mismatch(NamedTuple):
-    """A topic whose subscription asks for more than its publisher offers."""
+    """A topic whose subscription requests more than its publisher offers."""
 
     publisher: Use
     subscription: Use
@@ -139,7 +139,7 @@ def _uses_of(template: Template, answers: Mapping[str, Any], node: str) -> Itera
 
 
 class Open(NamedTuple):
-    """A part whose answers may still follow from those of others."""
+    """A part with answers that may still be derived from other parts."""
 
     template: Template
     answers: Mapping[str, Any]

@@ -141,7 +141,7 @@ def _refuse_different(
 
 
 class Composed(NamedTuple):
-    """All answers and what follows from them; nothing is rendered yet."""
+    """All answers and the values derived from them, before rendering."""
 
     layers: Sequence[Template]
     context: dict[str, Any]
@@ -152,7 +152,7 @@ class Composed(NamedTuple):
 
 
 class Existing(NamedTuple):
-    """What an existing package has, if something is added to one."""
+    """The parts of an existing package, if something is added to one."""
 
     answers: Mapping[str, Any] = MappingProxyType({})
     """Those that are as they are, such as its name."""
@@ -272,7 +272,7 @@ def _requests(templates: Mapping[str, Template], given: Mapping[str, Given]) -> 
 
 
 class _Settings(NamedTuple):
-    """What the answers of parts follow from."""
+    """The settings from which the answers of parts are derived."""
 
     given: Mapping[str, Given]
     answers: Mapping[str, Any]

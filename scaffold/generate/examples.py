@@ -23,7 +23,7 @@ PACKAGE = "example_package"
 
 
 class Example(NamedTuple):
-    """Answers that make a package with a template in it."""
+    """Answers for a package that contains a template."""
 
     template: str
     title: str
@@ -61,7 +61,7 @@ def _is_for(template: Template, build_type: str) -> bool:
 
 
 class Tried(NamedTuple):
-    """An example and what became of it."""
+    """An example and its result."""
 
     example: Example
     made: Draft | None

@@ -28,7 +28,7 @@ _MOST_NAMED = 3
 
 
 class Request(NamedTuple):
-    """A part that the user wants."""
+    """A part that the user requests."""
 
     template: Template
     given: Mapping[str, Given]

@@ -66,7 +66,7 @@ def read(path: str, kind: type[ScaffoldError] = InputError) -> Any:  # noqa: ANN
 
 
 class _Reader:
-    """Makes data of the parser's events."""
+    """Builds data from parser events."""
 
     def __init__(self, path: str, kind: type[ScaffoldError]) -> None:
         self._path = path

@@ -35,7 +35,7 @@ _INTERFACES = (".msg", ".srv", ".action", ".idl")
 
 
 class Identity(NamedTuple):
-    """What all that is found in a package, or in others of its workspace, may depend on."""
+    """The properties of a package on which findings in other packages may depend."""
 
     name: str
     may_define_interfaces: bool

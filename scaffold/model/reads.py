@@ -27,7 +27,7 @@ _recorders: list[Reads] = []
 
 
 class Reads:
-    """The files that something was made of, directly or through views.
+    """The files that a result depends on, directly or through views.
 
     A view may read more files when it is used; that counts for everything made of it, also if
     that was before.

@@ -25,7 +25,7 @@ _HOW = "write it with `check --write-baseline`"
 
 
 class Entry(NamedTuple):
-    """A finding that is accepted."""
+    """An accepted finding."""
 
     path: str
     code: str
@@ -34,7 +34,7 @@ class Entry(NamedTuple):
 
 
 class Filtered(NamedTuple):
-    """Results without the findings of a baseline, and notes on it."""
+    """Results without accepted findings, and notes about the baseline."""
 
     results: list[Result]
     note: str

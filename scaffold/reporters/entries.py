@@ -34,14 +34,14 @@ _SEVERAL = 3
 
 
 class Place(NamedTuple):
-    """A finding, and where it is."""
+    """A finding and its location."""
 
     package: Package
     finding: Diagnostic
 
 
 class Entry(NamedTuple):
-    """Findings that have one cause; one edit may end them all, or one edit in each package.
+    """Findings with one cause: one edit may resolve all, or one edit in each package.
 
     Attributes:
         places: The findings, the worst first, then in reading order; there is at least one.

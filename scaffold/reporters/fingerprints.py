@@ -28,7 +28,7 @@ _NUMBERS = re.compile(r"\d+")
 
 
 class Fingerprints:
-    """Gives each finding of a report a fingerprint that no other one has.
+    """Assigns a unique fingerprint to each finding of a report.
 
     It depends on the file, the code, the text of the line unless the finding is about the whole
     file, and the message without its numbers, which may be those of other lines, and without the

@@ -19,7 +19,7 @@ class Replacement(NamedTuple):
 
 
 class PlacedFix(NamedTuple):
-    """What a fix changes; paths are relative to the package's root."""
+    """The changes of a fix; paths are relative to the package's root."""
 
     replacements: tuple[Replacement, ...]
     created: tuple[CreateFile, ...]
@@ -53,7 +53,7 @@ def placed(package: Package, fix: Fix) -> PlacedFix | None:
 
 
 class Repetitions:
-    """Which large fixes of a package have been written already, each with which finding."""
+    """The large fixes of a package that have been written already, with their findings."""
 
     def __init__(self) -> None:
         self._written: dict[Fix, int] = {}

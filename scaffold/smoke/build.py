@@ -35,7 +35,7 @@ _SUCCESS = re.compile(r"'rc': 0\b")
 
 @dataclass(frozen=True)
 class Layout:
-    """Where colcon puts what it makes."""
+    """The directories in which colcon builds and installs."""
 
     build: Path
     install: Path
@@ -230,7 +230,7 @@ class _Job:
 
 @dataclass(frozen=True)
 class _Log:
-    """What one run of colcon has written."""
+    """The output of one run of colcon."""
 
     directory: Path
     jobs: Mapping[str, _Job] | None

@@ -57,7 +57,7 @@ _BOOTSTRAPPED = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 
 @dataclass(frozen=True)
 class Environment:
-    """A ROS 2 that can build packages and run them."""
+    """A ROS 2 environment that can build and run packages."""
 
     kind: str
     """``sourced``, ``installed`` or ``wheels``."""
@@ -75,7 +75,7 @@ class Environment:
 
 
 class _UnusableError(Exception):
-    """This one cannot be used; the text says why."""
+    """The environment cannot be used; the text says why."""
 
 
 def select(

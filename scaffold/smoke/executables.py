@@ -26,7 +26,7 @@ Expectations = Mapping[str, Mapping[str, Expectation]]
 
 
 class ExecutableRuns:
-    """Runs executables, as many at the same time as there are jobs.
+    """Runs executables, as many in parallel as there are jobs.
 
     Args:
         plan: What is the same for all runs.

@@ -66,7 +66,7 @@ class Offer:
 
 @dataclass(frozen=True)
 class Expectation:
-    """What the source of an executable says."""
+    """The behavior that the source of an executable declares."""
 
     publications: tuple[Publication, ...] = ()
     offers: tuple[Offer, ...] = ()

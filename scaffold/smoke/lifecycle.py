@@ -34,7 +34,7 @@ _GET_TYPE = "lifecycle_msgs/srv/GetState"
 
 
 class Lifecycles:
-    """The managed nodes of an executable.
+    """The lifecycle nodes of an executable.
 
     Args:
         observer: It has seen them.

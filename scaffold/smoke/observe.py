@@ -53,7 +53,7 @@ _ACTION = "/_action/"
 
 
 class Watched(Protocol):
-    """What is observed; the observation ends with it."""
+    """The observed processes; the observation ends with them."""
 
     @property
     def exit_code(self) -> int | None:
@@ -64,7 +64,7 @@ class Watched(Protocol):
 
 
 class ObserverError(Exception):
-    """The observer itself has failed; the text says how."""
+    """The observer itself failed; the text says how."""
 
 
 @asynccontextmanager
@@ -111,7 +111,7 @@ async def observing(
 
 
 class Observer:
-    """What the probe has reported so far."""
+    """The reports of the probe so far."""
 
     def __init__(self, probe: process.Running) -> None:
         self._stdin = cast("asyncio.StreamWriter", probe.stdin)

@@ -23,7 +23,7 @@ from scaffold.smoke.session import smoke
 
 @dataclass(frozen=True)
 class Task:
-    """A package to run, with all that it needs of the others."""
+    """A package to run, with the packages that it needs."""
 
     name: str
     archives: Mapping[str, bytes]
@@ -33,7 +33,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a worker sends back."""
+    """The result of a worker."""
 
     environment: Mapping[str, str]
     package: PackageResult

@@ -38,7 +38,7 @@ _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
 
 @dataclass(frozen=True)
 class RunSettings:
-    """What is the same for all runs."""
+    """The settings that all runs share."""
 
     variables: Mapping[str, str]
     """Those of the environment with the built packages in it."""
@@ -52,7 +52,7 @@ class RunSettings:
 
 @dataclass
 class NodeRun:
-    """What came of a run."""
+    """The outcome of a run."""
 
     observation: Observation = field(default_factory=Observation)
     stop: Stop = field(default_factory=lambda: Stop(None, None, 0.0))

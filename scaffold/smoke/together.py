@@ -40,7 +40,7 @@ _IGNORED = re.compile(
 
 @dataclass(frozen=True)
 class Group:
-    """What is run in one domain."""
+    """The executables that run in one domain."""
 
     name: str
     """For people."""

@@ -18,7 +18,7 @@ _NOT_RUN = ("launch", "test")
 
 
 class Lack(NamedTuple):
-    """A ROS package that is not there."""
+    """A missing ROS package."""
 
     message: str
     """Who needs it and how to get it, in a line."""

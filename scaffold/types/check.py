@@ -54,7 +54,7 @@ _SUPPRESSION = re.compile(rb"noqa:[^\n]*\bTY[0-9]", re.IGNORECASE)
 
 
 class _File:
-    """A file to check: answered from the cache or by the type checker.
+    """A file to check: from the cache or by the type checker.
 
     Args:
         checked: The file.
@@ -77,7 +77,7 @@ class _File:
 
 
 class TypeCheck:
-    """Checks the Python files of packages; the type checker runs from the start.
+    """Checks the Python files of packages; the type checker starts immediately.
 
     Args:
         packages: The packages.

@@ -57,7 +57,7 @@ _OTHER_SCOPE = re.compile(r"\b(?:lambda|yield|for)\b|:=|#|\bself\s*(?:$|[,)\]])"
 
 
 class Kept(NamedTuple):
-    """A container, and what is put into it."""
+    """A container, and the values put into it."""
 
     stretches: Sequence[tuple[int, int, str]]
     """Where it is made, and what to write there."""

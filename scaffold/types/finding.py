@@ -52,7 +52,7 @@ _SHORT = 2
 
 
 class TypeFinding:
-    """A report about a place.
+    """A report at a location.
 
     Args:
         package: Where the file is.

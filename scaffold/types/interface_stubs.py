@@ -89,7 +89,7 @@ def module_name(name: str) -> str:
 
 
 class _Member(NamedTuple):
-    """A field of a class: what reading it gives, and what may be assigned."""
+    """A field of a class: the type when read, and the type when assigned."""
 
     name: str
     read: str

@@ -51,7 +51,7 @@ class Place(NamedTuple):
 
 
 class Passed(NamedTuple):
-    """What a call gives a function of another module."""
+    """The arguments that a call passes to a function of another module."""
 
     function: str
     """See ``Place``."""

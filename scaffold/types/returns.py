@@ -60,7 +60,7 @@ _MOST = 8
 
 
 class Results(NamedTuple):
-    """What the functions of a file give."""
+    """The return values of the functions of a file."""
 
     lines: Mapping[int, list[str]]
     """The lines to add, by the place that they go before."""
@@ -230,7 +230,7 @@ def _assignments(body: str) -> Sequence[tuple[Sequence[str], str]]:
 
 
 class _Attributes:
-    """What the attributes of ``self`` in a file are given.
+    """The values assigned to attributes of ``self`` in a file.
 
     Args:
         text: The file.

@@ -146,7 +146,7 @@ def _arguments(arguments: ast.arguments) -> Iterator[ast.arg]:
 
 
 class _Edits:
-    """A text with stretches replaced by others of the same length."""
+    """A text with ranges replaced by others of the same length."""
 
     def __init__(self, text: str) -> None:
         self._text = text

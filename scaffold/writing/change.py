@@ -27,7 +27,7 @@ class Change(NamedTuple):
 
 
 class ChangedError(Exception):
-    """A file is not what it was when it was read."""
+    """A file has changed since it was read."""
 
     def __init__(self, path: str) -> None:
         super().__init__(path)
@@ -35,7 +35,7 @@ class ChangedError(Exception):
 
 
 class Replacement(NamedTuple):
-    """What a file is to become."""
+    """The new content of a file."""
 
     path: str
     """Relative to the root, without links; it may lead out of the root with ``..``."""

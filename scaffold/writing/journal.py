@@ -28,7 +28,7 @@ from scaffold.writing.stage import JOURNAL, MARK, NEW_JOURNAL, SPARE, Stage
 
 
 class Transaction:
-    """The changes that a journal lists, and how far they are done."""
+    """The changes in a journal, and which of them are done."""
 
     def __init__(
         self,

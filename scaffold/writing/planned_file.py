@@ -8,7 +8,7 @@ from scaffold.record import NamedTuple
 
 
 class State(Enum):
-    """What writing a file would do."""
+    """The effect of writing a file."""
 
     NEW = "new"
     """There is no such file."""

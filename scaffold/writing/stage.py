@@ -22,7 +22,7 @@ SPARE = ".old"
 
 
 class Stage:
-    """A hidden directory for what is written, on the file system of the place that it is for."""
+    """A hidden directory for staged files, on the same file system as their destination."""
 
     def __init__(self, parent: str, path: str) -> None:
         self.parent = parent

@@ -22,7 +22,7 @@ LINTERS: Mapping[int, str] = {
 
 
 class AmentCode(NamedTuple):
-    """A code for one thing that a linter of ament reports."""
+    """The metadata of one code."""
 
     code: str
     name: str

@@ -52,7 +52,7 @@ def _without(findings: Iterable[Finding], covers: Callable[[Finding], bool]) -> 
 
 
 class _Silenced:
-    """The codes silenced on each line of a file."""
+    """The codes that are suppressed on each line of a file."""
 
     def __init__(self, text: PythonText) -> None:
         self._text = text

@@ -48,7 +48,7 @@ _TOKENS = r"(?P<code>[A-Z]+[0-9]*(?=$|\s|,))|(?P<file>[^\s:,]+)|(?P<colon>\s*:\s
 
 
 class OptionsError(Exception):
-    """ament_flake8 stops at the configuration."""
+    """The configuration is invalid: ament_flake8 would stop."""
 
 
 class Options(NamedTuple):

@@ -63,7 +63,7 @@ def messages(index: ScopeIndex, path: str, builtins: Collection[str]) -> list[Me
 
 
 class QuickChecker(Checker):
-    """Reports what pyflakes reports."""
+    """A faster checker with the findings of pyflakes."""
 
     _in_annotation: int
     _nodeHandlers: dict[type[ast.AST], Callable[[ast.AST], None]]  # noqa: N815

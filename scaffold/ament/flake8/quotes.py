@@ -190,7 +190,7 @@ def _docstrings(text: PythonText) -> set[Position]:
 
 
 class _Places:
-    """Where docstrings are allowed: first in the file, or behind the colon of a header."""
+    """The places of docstrings: first in the file, or after the colon of a header."""
 
     def __init__(self) -> None:
         self.found: set[Position] = set()

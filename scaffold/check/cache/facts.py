@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class EarlierFacts:
-    """The facts that a verdict of an earlier run depends on.
+    """The facts that a cached result depends on.
 
     Args:
         package: The package of the verdict.
@@ -102,7 +102,7 @@ class EarlierFacts:
 
 
 class _Recall:
-    """Looks for facts of one package."""
+    """Looks up cached facts of one package."""
 
     def __init__(self, facts: EarlierFacts, directory: str) -> None:
         self._facts = facts

@@ -34,7 +34,7 @@ _NOTHING = Part(frozenset(), frozenset(), ())
 
 
 class _Record(NamedTuple):
-    """The results of a package in a remembered run, in types that marshal can write."""
+    """The cached results of a package, in types that marshal can write."""
 
     directory: str
     only: tuple[str, ...] | None
@@ -245,7 +245,7 @@ def _seen(package: Package, before: Seen, result: Result) -> Seen | None:
 
 
 class Needs:
-    """Which packages a verdict depends on, directly or through others."""
+    """The packages that a result depends on, directly and indirectly."""
 
     def __init__(self, packages: Sequence[Package], identities: Sequence[Identity]) -> None:
         self._packages = packages
@@ -274,7 +274,7 @@ class Needs:
 
 
 class _Coder:
-    """Makes of diagnostics what marshal can write, and the other way, of each once."""
+    """Converts diagnostics to data for marshal and back, each only once."""
 
     def __init__(self) -> None:
         self._stored: dict[int, tuple[Any, ...]] = {}

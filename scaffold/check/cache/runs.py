@@ -45,7 +45,7 @@ _MAGIC = b"scaffold-run-8\n"
 
 
 class CachedRun:
-    """What a run found; it contains only what marshal can write.
+    """The findings of a run, in types that marshal can write.
 
     Args:
         number: Tells it from other runs.
@@ -90,7 +90,7 @@ class CachedRun:
 
 
 class CachedReport:
-    """What a run reported.
+    """The report of a run.
 
     Args:
         shown: The runs whose findings it shows: the names of their files, and their numbers.
@@ -113,7 +113,7 @@ class CachedReport:
 
 
 class RunEntry:
-    """Where the findings of a run are remembered.
+    """The cache entry for the findings of a run.
 
     Attributes:
         name: The name of the file.
@@ -137,7 +137,7 @@ class RunEntry:
 
 
 class ReportEntry:
-    """Where a report is remembered: one place for each command line, directory and environment.
+    """The cache entry for a report: one per command line, directory and environment.
 
     Made before the run, because a rule that is edited meanwhile must not count as the one used.
     """

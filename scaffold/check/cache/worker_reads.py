@@ -28,7 +28,7 @@ class _Seen(NamedTuple):
 
 
 class WorkerReads(NamedTuple):
-    """What was learnt about a package and around it; packages are places in a list."""
+    """What a worker read about a package; packages are indices into a list."""
 
     at: int
     inside: _Seen

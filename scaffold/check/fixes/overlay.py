@@ -32,7 +32,7 @@ class Changes(Protocol):
 
 
 class Overlay:
-    """A tree with changes on top of it, none of them on disk.
+    """A tree with changes on top of another one, in memory.
 
     A file below the changes is what it was when it was first read, however it changes meanwhile.
     A change of a link is a change of the file that it leads to.

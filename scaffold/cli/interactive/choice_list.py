@@ -22,7 +22,7 @@ _MOST_FOOT = 3
 
 
 class Choice(NamedTuple):
-    """Something to choose."""
+    """An entry of the list."""
 
     name: str
     summary: str = ""
@@ -33,7 +33,7 @@ class Choice(NamedTuple):
 
 
 class ChoiceList:
-    """A list of choices: arrow keys move in it, what is typed leaves those that match."""
+    """A list of choices: arrow keys move the cursor, typing filters the entries."""
 
     def __init__(
         self,

@@ -12,11 +12,11 @@ Answer = TypeVar("Answer")
 
 
 class BackError(Exception):
-    """The user wants the question before."""
+    """The user wants to return to the previous question."""
 
 
 class History:
-    """Remembers the answers of an interview.
+    """The answers given so far.
 
     To go back the interview starts over: `ask` returns what was answered before without asking, up
     to the question that the user wants again. So its questions may depend on each other as they

@@ -17,7 +17,7 @@ _USUAL, _OTHER = "usual", "other"
 
 
 class Usual(NamedTuple):
-    """What to offer for an answer."""
+    """The suggested answers."""
 
     default: object = None
     """Instead of that of the question."""

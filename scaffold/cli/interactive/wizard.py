@@ -35,7 +35,7 @@ _ANYBODY = {
 
 
 class Asked(NamedTuple):
-    """What the user answered."""
+    """The answers of the user."""
 
     given: dict[str, Given]
     command: str
@@ -43,7 +43,7 @@ class Asked(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """Whether answers can be used; each raises a `ScaffoldError` if not."""
+    """Validates answers; raises a `ScaffoldError` if they cannot be used."""
 
     name: Callable[[str], None]
     """For the name of the package alone."""
@@ -88,7 +88,7 @@ def ask(
 
 
 class _Interview:
-    """One question after the other."""
+    """Asks the questions in order."""
 
     def __init__(
         self,

@@ -35,7 +35,7 @@ HEADER_RULES = frozenset({"copyright-notice-missing", "license-header-unknown"})
 
 
 class Added(NamedTuple):
-    """A package with something new, in memory."""
+    """A package after an addition, in memory."""
 
     files: Mapping[str, bytes]
     """What is written in the package: new files and those that are edited."""

@@ -44,7 +44,7 @@ _Scope = tuple[Template, Mapping[str, Any]]
 
 
 class Target(NamedTuple):
-    """A package that something is added to, and the templates to use."""
+    """The package to which something is added, and the templates to use."""
 
     package: Package
     roots: Sequence[str]
@@ -61,7 +61,7 @@ class Target(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """What the user wants in a package."""
+    """The addition that the user requests."""
 
     template: Template
     name: str | None
@@ -73,7 +73,7 @@ class Wanted(NamedTuple):
 
 
 class Piece(NamedTuple):
-    """What is added, in memory."""
+    """The rendered addition, in memory."""
 
     template: Template
     composed: Composed

@@ -40,7 +40,7 @@ class Compiled(NamedTuple):
 
 
 class Addition(NamedTuple):
-    """What a package gets besides new files."""
+    """What is added to a package besides new files."""
 
     package: str
     """The name of the package."""
@@ -74,7 +74,7 @@ def inside(addition: Addition, directory: str) -> list[str]:
 
 
 class ByHand(NamedTuple):
-    """A line that the user has to write: no edit was safe."""
+    """A line that the user has to add, because no edit was safe."""
 
     path: str
     line: str
@@ -84,7 +84,7 @@ class ByHand(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """A file after its edits."""
+    """The result of the edits of a file."""
 
     source: Source
     by_hand: tuple[ByHand, ...] = ()

@@ -47,7 +47,7 @@ def runs_test(lists: CMakeLists, path: str) -> bool:
 
 
 class Editor:
-    """A CMakeLists.txt that is edited step by step and read again after each."""
+    """A CMakeLists.txt that is edited step by step and parsed again after each."""
 
     def __init__(self, source: Source, package: str) -> None:
         self.package = package

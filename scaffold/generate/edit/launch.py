@@ -74,7 +74,7 @@ def _starts(source: Source, package: str, program: Program) -> bool:
 
 
 class _Description(NamedTuple):
-    """How a launch file puts together what it starts, all at the top of its function."""
+    """How a launch file builds its LaunchDescription, all in the body of its function."""
 
     assigned: Mapping[ast.expr, tuple[str, ast.stmt]]
     """Where values get a name."""

@@ -81,7 +81,7 @@ def _installs(data: DataFile, path: str) -> bool:
 
 
 class _Editor:
-    """A setup.py that is edited step by step and read again after each."""
+    """A setup.py that is edited step by step and parsed again after each."""
 
     def __init__(self, source: Source, package: str) -> None:
         self.package = package

@@ -28,7 +28,7 @@ def is_now(stamp: str) -> str:
 
 
 class Block:
-    """Statements on one level, with the loops in it."""
+    """Statements of one block, including its loops."""
 
     def __init__(self, parent: Block | None = None, counter: str = COUNTER) -> None:
         self._parent = parent

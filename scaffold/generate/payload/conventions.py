@@ -19,7 +19,7 @@ _VALUES = "std_msgs"
 
 
 class Convention(NamedTuple):
-    """What people expect of a topic."""
+    """The conventions for a topic."""
 
     topic: str
     offered: str = "10"

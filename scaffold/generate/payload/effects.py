@@ -42,7 +42,7 @@ def of_statements(statements: Iterable[str], target: str) -> Effects:
 
 
 class _Walk:
-    """Follows what changes through the statements."""
+    """Tracks the effects of statements."""
 
     def __init__(self, target: str) -> None:
         self._target = target

@@ -33,7 +33,7 @@ VECTOR = "geometry_msgs/msg/Vector3"
 
 
 class Types:
-    """An interface and the messages of its fields, all of them readable."""
+    """An interface and the messages of its fields, all of which are known."""
 
     def __init__(
         self, interface: Interface, messages: Mapping[str, Interface], definitions: Definitions

@@ -20,7 +20,7 @@ _PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
 
 
 class Payload(NamedTuple):
-    """How a node fills one message and how its test judges it."""
+    """Code that fills a message, and assertions about it for a test."""
 
     package: str
     name: str
@@ -123,7 +123,7 @@ class Payload(NamedTuple):
 
 
 class SectionPayload(NamedTuple):
-    """How a node fills a section of a service or an action, and how the other side judges it."""
+    """Code that fills a section of a service or an action, and assertions about it."""
 
     statements: tuple[str, ...]
     """Lines of a method, without its indentation; they fill the variable of the section's name:
@@ -177,7 +177,7 @@ class SectionPayload(NamedTuple):
 
 
 class ServicePayload(NamedTuple):
-    """How a client fills the request of a service, and how a server answers it."""
+    """Code that fills the request of a service, and code that answers it."""
 
     package: str
     name: str
@@ -218,7 +218,7 @@ class ServicePayload(NamedTuple):
 
 
 class ActionPayload(NamedTuple):
-    """How a client fills the goal of an action, and how a server works on it.
+    """Code that fills the goal of an action, and code that executes it.
 
     A server accepts a ``goal`` unless ``refused``, runs the statements of ``start`` once, then
     those of ``feedback`` for each ``step`` in ``steps`` and publishes it, and at the end those

@@ -12,7 +12,7 @@ from scaffold.record import NamedTuple
 
 
 class Process(NamedTuple):
-    """How a message is made of another one."""
+    """Code that computes a message from another one."""
 
     says: str
     """What comes out, to be read after "publish"."""

@@ -43,7 +43,7 @@ def find(full_name: str) -> Recipe | None:
 
 
 class ServiceRecipe(NamedTuple):
-    """How to ask and answer a service."""
+    """How to call and answer a service."""
 
     says: str
     """What it does, as in `ServicePayload.says`."""
@@ -58,7 +58,7 @@ class ServiceRecipe(NamedTuple):
 
 
 class ActionRecipe(NamedTuple):
-    """How to ask for an action and work on it."""
+    """How to send a goal of an action and execute it."""
 
     says: str
     """What it does, as in `ActionPayload.says`."""

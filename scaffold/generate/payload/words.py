@@ -10,7 +10,7 @@ from scaffold.record import NamedTuple
 
 
 class Quantity(NamedTuple):
-    """A physical quantity that swings around a value."""
+    """A physical quantity that oscillates around a value."""
 
     base: float
     swing: float

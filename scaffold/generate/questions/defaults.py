@@ -24,7 +24,7 @@ _GIT_KEYS = {"maintainer_name": "user.name", "maintainer_email": "user.email"}
 
 
 class User:
-    """What is known about the user without asking.
+    """The identity of the user, from git and the login.
 
     Args:
         directory: Where the package is to be; a repository there may have its own git settings.

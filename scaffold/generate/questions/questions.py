@@ -26,7 +26,7 @@ INTERFACES: Mapping[str, str] = {"message": "msg", "service": "srv", "action": "
 
 
 class Given(NamedTuple):
-    """What the user wrote for one question, and where."""
+    """An answer of the user, and its source."""
 
     value: Any
     origin: str

@@ -15,7 +15,7 @@ _MOST = 500
 
 
 class Compiled(BytecodeCache):
-    """Keeps the code of templates; Jinja itself sees whether it belongs to their text.
+    """A bytecode cache; Jinja checks that an entry matches the source.
 
     A cache that cannot be read or written is ignored.
 

@@ -34,7 +34,7 @@ TOO_MUCH_MEMORY = "uses too much memory"
 
 
 class Engine(Protocol):
-    """What renders, in this process or in another one."""
+    """A renderer, in this process or in another one."""
 
     def has(self, name: str) -> bool:
         """Tell whether there is a file, such as ``launch/_readme.md.jinja``."""
@@ -126,7 +126,7 @@ class LocalEngine:
 
 
 class _Undefined(StrictUndefined):
-    """What a template uses and nothing defines; a macro that a file lacks is called one."""
+    """An undefined variable, or a macro that a file lacks."""
 
     @property
     def _undefined_message(self) -> str:
@@ -198,7 +198,7 @@ def _learner_line(match: re.Match[str]) -> str:
 
 
 class _TemplateErrors:
-    """Turns what Jinja raises into one line for the author of the template."""
+    """Converts exceptions of Jinja to one-line errors for the template author."""
 
     def __init__(self, where: str) -> None:
         self._where = where

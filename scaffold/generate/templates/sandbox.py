@@ -19,7 +19,7 @@ _MOST_REPEATED = 1_000_000
 
 
 class Sandbox(ImmutableSandboxedEnvironment):
-    """Jinja's sandbox, in which loops and what multiplies have bounds."""
+    """Jinja's sandbox, with limits on loops and on operations that multiply data."""
 
     intercepted_binops = frozenset({"*", "**"})
 

@@ -24,7 +24,7 @@ DEPEND_KINDS = ("buildtool", "build", "build_export", "depend", "exec", "test")
 
 
 class Role(Enum):
-    """What a template is for."""
+    """The role of a template."""
 
     PACKAGE = "package"
     """Files that every package has."""
@@ -53,7 +53,7 @@ PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
 
 
 class Question(NamedTuple):
-    """Something that a template asks for."""
+    """A question of a template."""
 
     name: str
     type: str
@@ -69,7 +69,7 @@ class Question(NamedTuple):
 
 
 class Template(NamedTuple):
-    """A template as its manifest describes it."""
+    """A template as declared by its ``template.yaml``."""
 
     name: str
     directory: str

@@ -59,7 +59,7 @@ class Source(NamedTuple):
 
 
 class Provenance(NamedTuple):
-    """How a package was made."""
+    """The record of how a package was generated."""
 
     date: date
     """The date in its files."""

@@ -27,7 +27,7 @@ _FIXED_PARTS = 2
 
 
 class Known(NamedTuple):
-    """What a variable or a word is worth on the target."""
+    """The value of a variable or a word on the target."""
 
     value: str | None
     """``None`` if that is not known."""
@@ -59,7 +59,7 @@ class Word(NamedTuple):
 
 
 class Scope:
-    """The variables of a file, as far as they are followed; see `expand` and `lookup`."""
+    """The variables of a file, as far as they are known; see `expand` and `lookup`."""
 
     def __init__(self) -> None:
         self._known: dict[str, Known] = {VARIABLE: Known(target().name, is_asked=True)}

@@ -105,7 +105,7 @@ class _Block:
 
 
 class _Walk:
-    """Reads a file from the top to the bottom, with the values of its variables."""
+    """Reads a file from top to bottom, with the values of its variables."""
 
     def __init__(self, lists: CMakeLists) -> None:
         self._lists = lists

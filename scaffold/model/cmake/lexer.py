@@ -45,7 +45,7 @@ class Token(NamedTuple):
 
 
 class LexicalError(NamedTuple):
-    """What CMake refuses, from offset ``start`` to before ``end``."""
+    """A lexical error of CMake, from offset ``start`` to before ``end``."""
 
     start: int
     end: int

@@ -49,7 +49,7 @@ _NO_BINDINGS: Mapping[str, str] = {}
 
 
 class FoundPackage(NamedTuple):
-    """A package that is looked for with ``find_package``."""
+    """A package named in a call of ``find_package``."""
 
     name: str
     location: Location

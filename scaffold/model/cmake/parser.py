@@ -221,7 +221,7 @@ class Command:
 
 
 class Parsed(NamedTuple):
-    """A file as commands."""
+    """The commands of a file."""
 
     tokens: Tokens
     commands: list[Command]
@@ -264,7 +264,7 @@ def _without_continuations(text: str) -> str:
 
 
 class _Parser:
-    """Reads what CMake's parser reads; after the first error it also looks for new beginnings."""
+    """Parses what CMake's parser accepts, and recovers after the first error."""
 
     def __init__(self, source: Source, tokens: Tokens, *, broken: bool) -> None:
         self.source = source

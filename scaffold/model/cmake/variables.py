@@ -56,7 +56,7 @@ class _Entry(NamedTuple):
 
 
 class Variables:
-    """Follows ``set``, ``list(APPEND)``, ``unset`` and ``foreach`` from the top to the bottom."""
+    """Tracks ``set``, ``list(APPEND)``, ``unset`` and ``foreach`` from top to bottom."""
 
     def __init__(self, commands: Sequence[Command], directory: str, project: str | None) -> None:
         current = f"{ROOT}/{directory}" if directory else ROOT

@@ -40,7 +40,7 @@ _MOST_BYTES = 200_000
 
 
 class Foreign:
-    """Tells what is not the user's.
+    """Decides which files somebody else maintains.
 
     Args:
         kinds: What counts, of the keys of `WHERE`.

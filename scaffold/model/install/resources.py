@@ -34,7 +34,7 @@ _READERS = frozenset(
 
 
 class OwnFile(NamedTuple):
-    """A file that a module reads from next to itself."""
+    """A file that a module reads relative to itself."""
 
     path: str
     """Relative to the root of the package."""
@@ -42,7 +42,7 @@ class OwnFile(NamedTuple):
 
 
 class _FileEvaluator(Evaluator):
-    """Knows where ``__file__`` is."""
+    """An evaluator that knows the value of ``__file__``."""
 
     def evaluate(self, node: ast.expr | None) -> object:
         """Return the value of an expression."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Share(NamedTuple):
-    """The share directory of a package as far as it is known."""
+    """The share directory of a package, as far as it is known."""
 
     files: dict[str, str]
     """Source by path relative to ``share/<package>``."""

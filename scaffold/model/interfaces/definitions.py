@@ -108,7 +108,7 @@ def _is_of_another(prefix: str) -> bool:
 
 
 class Definitions:
-    """Looks interfaces up; the first source that knows a package answers for all of it."""
+    """Looks up interfaces; the first source that has a package provides all of it."""
 
     def __init__(self, sources: Sequence[DefinitionSource]) -> None:
         self._sources = sources

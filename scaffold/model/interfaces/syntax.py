@@ -37,7 +37,7 @@ _BOM = "\ufeff"
 
 
 class ProblemKind(Enum):
-    """What a problem is about."""
+    """The kind of a problem."""
 
     TYPE_NAME = "type name"
     FIELD_NAME = "field name"
@@ -50,7 +50,7 @@ class ProblemKind(Enum):
 
 
 class Problem(NamedTuple):
-    """Something that rosidl_adapter refuses."""
+    """An error that rosidl_adapter reports."""
 
     kind: ProblemKind
     location: Location
@@ -100,7 +100,7 @@ class Section(NamedTuple):
 
 
 class Definition(NamedTuple):
-    """What a file defines, as far as it can be read."""
+    """The content of a definition file, as far as it can be parsed."""
 
     sections: tuple[Section, ...]
     problems: tuple[Problem, ...]
@@ -222,7 +222,7 @@ class _Word(NamedTuple):
 
 
 class _Words(NamedTuple):
-    """What a line declares."""
+    """The declaration on a line."""
 
     type: _Word
     name: _Word
@@ -232,7 +232,7 @@ class _Words(NamedTuple):
 
 
 class _Parser:
-    """Reads the lines of one section."""
+    """Parses the lines of one section."""
 
     def __init__(self, path: str, package: str, problems: list[Problem]) -> None:
         self._path = path

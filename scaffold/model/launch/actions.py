@@ -32,7 +32,7 @@ _MANY = ("LaunchDescription", "GroupAction", "TimerAction", "OpaqueFunction")
 
 
 class Entity(NamedTuple):
-    """An item of a list of actions, or what is given instead of such a list."""
+    """An item of a list of actions, or what is passed instead of such a list."""
 
     node: ast.expr
     holder: str

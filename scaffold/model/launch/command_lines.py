@@ -46,7 +46,7 @@ class Word(NamedTuple):
 
 
 class CommandLine(NamedTuple):
-    """The words that a program is started with, all of them."""
+    """The complete command line of a program."""
 
     location: Location
     """The place of the action."""

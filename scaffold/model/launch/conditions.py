@@ -24,7 +24,7 @@ _LONGEST = 1000
 
 
 class Text(NamedTuple):
-    """What a substitution gives."""
+    """The value of a substitution."""
 
     value: str
     """With `HOLE` for each part that is not known."""
@@ -110,7 +110,7 @@ def _evaluated(expression: Text) -> Text:
 
 
 class _Holes(ast.NodeTransformer):
-    """Makes texts with holes in them names, whose values are not known."""
+    """Replaces unknown parts of texts with names whose values are unknown."""
 
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         is_open = isinstance(node.value, str) and HOLE in node.value

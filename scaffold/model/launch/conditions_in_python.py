@@ -31,7 +31,7 @@ _DEEPEST = 20
 
 
 class Conditions:
-    """What the conditions of a launch file are worth on the target."""
+    """The values of the conditions of a launch file on the target."""
 
     def __init__(self, launch: LaunchFile) -> None:
         self._launch = launch

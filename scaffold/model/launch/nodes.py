@@ -32,7 +32,7 @@ _SETTERS = ("SetParameter", "SetParametersFromFile")
 
 
 class GivenParameter(NamedTuple):
-    """A parameter that a launch file gives a node by itself."""
+    """A parameter that a launch file sets directly on a node."""
 
     name: str
     key_location: Location
@@ -46,7 +46,7 @@ class GivenParameter(NamedTuple):
 
 
 class StartedNode(NamedTuple):
-    """A node that a launch file starts, as the file says it."""
+    """A node that a launch file starts."""
 
     launch: str
     """The path of the launch file."""

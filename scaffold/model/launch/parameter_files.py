@@ -28,7 +28,7 @@ _LAUNCH_ENDINGS = ("launch.xml", "launch.yaml", "launch.yml", ".launch", ".py")
 
 
 class FileUse(NamedTuple):
-    """Who reads a parameter file."""
+    """The use of a parameter file by a node."""
 
     nodes: list[StartedNode]
     """The nodes that the launch files of the package give it to."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class GivenValue(NamedTuple):
-    """A value that a launch file gives."""
+    """A value that a launch file sets."""
 
     type: str
     text: str

@@ -28,7 +28,7 @@ _OTHER_ENDPOINTS = ("message_filters", "wait_for_message", "image_transport", "c
 
 
 class Remapped(NamedTuple):
-    """A node of the workspace that a launch file gives remappings."""
+    """A node of the workspace with remappings in a launch file."""
 
     owner: KnownNode
     program: str

@@ -32,7 +32,7 @@ _CONDITIONS = ("IfCondition", "UnlessCondition")
 
 
 class TextUse(NamedTuple):
-    """A place where a substitution is taken for text."""
+    """A place where a substitution is used as text."""
 
     node: ast.expr
     kind: str

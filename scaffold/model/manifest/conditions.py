@@ -95,7 +95,7 @@ def _unknown_distributions(condition: str) -> list[str]:
 
 
 class Constant(NamedTuple):
-    """A comparison of two texts, which no environment changes."""
+    """A comparison of two literals, whose result is always the same."""
 
     text: str
     variable: str
@@ -161,7 +161,7 @@ def _tokens(condition: str) -> list[_Token]:
 
 
 class _Evaluation:
-    """Evaluates with two stacks: ``and`` binds tighter than ``or``, both from the left."""
+    """Evaluates with two stacks: ``and`` binds tighter than ``or``; both associate left."""
 
     def __init__(self, tokens: list[_Token], end: int, environment: Mapping[str, str]) -> None:
         self.tokens = tokens

@@ -37,7 +37,7 @@ _SCHEMA_ATTRIBUTES = frozenset({"noNamespaceSchemaLocation", "schemaLocation"})
 
 
 class Unknown(NamedTuple):
-    """An element that the format does not have at this place."""
+    """An element that the format does not allow at this place."""
 
     element: Element
     since: int | None
@@ -45,7 +45,7 @@ class Unknown(NamedTuple):
 
 
 class Misplaced(NamedTuple):
-    """Elements of one kind, side by side, that are in the wrong place."""
+    """Adjacent elements of one kind at the wrong place."""
 
     elements: list[Element]
     after: Element | None
@@ -55,7 +55,7 @@ class Misplaced(NamedTuple):
 
 
 class Structure:
-    """How a manifest is built; every property is a list of mistakes of one kind."""
+    """The structure of a manifest; every property is a list of mistakes of one kind."""
 
     def __init__(self, manifest: Manifest) -> None:
         self.manifest = manifest

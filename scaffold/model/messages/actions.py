@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Wrapped(NamedTuple):
-    """A message that holds a part of an action and little else."""
+    """A message that wraps a part of an action."""
 
     client: ActionClient
     part: str
@@ -27,7 +27,7 @@ class Wrapped(NamedTuple):
 
 
 class ActionMessages:
-    """Finds in a file the messages that action clients are given."""
+    """Finds the messages that action clients receive in a file."""
 
     def __init__(self, file: RclpyFile) -> None:
         self._facts = file

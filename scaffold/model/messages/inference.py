@@ -72,7 +72,7 @@ class MessageClass(NamedTuple):
 
 
 class Assigned(NamedTuple):
-    """A value that a field is given: ``message.field = value`` or ``Message(field=value)``."""
+    """A value that is assigned to a field, or passed for it to the constructor."""
 
     owner: MessageClass
     field: Field
@@ -106,7 +106,7 @@ def _uses_interfaces(package: Package, path: str) -> bool:
 
 
 class MessageTypes:
-    """What is known about the messages in one Python file."""
+    """The types of the message objects in one Python file."""
 
     def __init__(self, file: RclpyFile, definitions: Definitions) -> None:
         self.facts = file

@@ -46,7 +46,7 @@ _SENDS = frozenset({"publish", "sendTransform"})
 
 
 class Unstamped(NamedTuple):
-    """A message that leaves the node with the stamp it was made with: zero."""
+    """A message that is published with its default stamp, zero."""
 
     made: ast.Call
     message: MessageClass
@@ -56,7 +56,7 @@ class Unstamped(NamedTuple):
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
-    """Something else may set the stamp."""
+    """Other code may set the stamp."""
 
 
 def unstamped(types: MessageTypes) -> Iterator[Unstamped]:

@@ -86,7 +86,7 @@ class Misplaced(NamedTuple):
 
 
 class Refused(NamedTuple):
-    """Something that is YAML, and that rcl does not take."""
+    """Valid YAML that rcl rejects."""
 
     location: Location
     message: str

@@ -23,7 +23,7 @@ _MAX_FILES = 200
 
 
 class EntryPoint(NamedTuple):
-    """Where a program of a package begins."""
+    """The entry point of a program of a package."""
 
     program: str
     path: str
@@ -32,7 +32,7 @@ class EntryPoint(NamedTuple):
 
 
 class Execution(NamedTuple):
-    """What a program runs in its own file."""
+    """The code of its own file that a program executes."""
 
     facts: RclpyFile
     functions: Sequence[FunctionNode]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class KnownNode(NamedTuple):
-    """A node that the code of a file makes; `definition` has the rest."""
+    """A node that the code of a file creates; `definition` has the details."""
 
     package: str
     """The name of the package that the file is in."""

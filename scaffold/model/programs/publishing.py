@@ -38,7 +38,7 @@ _MAX_CALLS = 4
 
 
 class _Doubt(Exception):  # noqa: N818  it is not an error, it ends a search
-    """Something else may happen as well."""
+    """Other code may publish as well."""
 
 
 def publish_calls(file: RclpyFile, publisher: Publisher) -> Sequence[ast.Call] | None:
@@ -340,7 +340,7 @@ _COMPREHENSIONS = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
 
 
 class Reach(Enum):
-    """Whether a place in the source is run."""
+    """Whether a place in the source is executed."""
 
     ALWAYS = "always"
     PERHAPS = "perhaps"
@@ -355,7 +355,7 @@ def _most(reaches: Iterable[Reach]) -> Reach:
 
 
 class PublishReach:
-    """Which calls that publish are reached in one file.
+    """The calls that publish and are executed, in one file.
 
     Args:
         facts: The file.

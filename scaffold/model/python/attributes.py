@@ -19,7 +19,7 @@ _DEEPEST = 10
 
 
 class Store(NamedTuple):
-    """One place where an attribute gets a value."""
+    """An assignment to an attribute."""
 
     node: ast.Attribute
     class_: ast.ClassDef | None

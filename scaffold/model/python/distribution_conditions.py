@@ -121,7 +121,7 @@ def _only_value(module: SyntaxTree, test: ast.expr) -> ast.expr | None:
 
 
 class _DistributionEvaluator(Evaluator):
-    """Knows ROS_DISTRO, ROS_VERSION and the version of Python; notes what comes from them."""
+    """An evaluator that knows ROS_DISTRO, ROS_VERSION and the Python version."""
 
     def call(self, node: ast.Call) -> object:
         """Return the value of the variable, or what a method says of a text."""

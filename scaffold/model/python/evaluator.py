@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class Element(NamedTuple):
-    """An item of a list, and where it is written."""
+    """An item of a list, and its location."""
 
     node: ast.expr
     value: object
@@ -42,7 +42,7 @@ class Element(NamedTuple):
 
 
 class Elements(NamedTuple):
-    """The items of a list as far as they are known."""
+    """The items of a list, as far as they are known."""
 
     items: tuple[Element, ...]
     complete: bool

@@ -202,7 +202,7 @@ def caught_around(module: PythonModule, node: ast.AST) -> frozenset[str]:
 
 
 class Condition(NamedTuple):
-    """A condition, and what it must be for something to run."""
+    """A condition, and its required value."""
 
     test: ast.expr
     needed: bool

@@ -92,7 +92,7 @@ def read_imports(module: SyntaxTree, *, in_tests: bool) -> Sequence[Import]:
 
 
 class _Guards:
-    """What is around the imports of a file."""
+    """The statements around the imports of a file."""
 
     def __init__(self, module: SyntaxTree) -> None:
         self._module = module

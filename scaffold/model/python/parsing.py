@@ -48,7 +48,7 @@ _WORDS = (
 
 
 class Positions:
-    """Places of syntax tree nodes, whose columns count bytes of UTF-8, in a source."""
+    """Converts positions of syntax tree nodes, whose columns count UTF-8 bytes."""
 
     def __init__(self, source: Source) -> None:
         self._source = source

@@ -38,7 +38,7 @@ MOST_BINDINGS = 200
 
 
 class Binding(NamedTuple):
-    """One place that gives a name a value."""
+    """A place that binds a name."""
 
     name: str
     kind: str

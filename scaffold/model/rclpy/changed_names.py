@@ -328,7 +328,7 @@ def _is_unsure_case(module: PythonModule, parent: ast.AST, child: ast.AST) -> bo
 
 
 class _Asked(NamedTuple):
-    """What a condition asks for that decides whether a name is used."""
+    """A condition that decides whether a name is used."""
 
     module: PythonModule
     name: str

@@ -82,7 +82,7 @@ _DEFAULT_DEPTH = 10
 
 
 class Creation:
-    """Reads what the calls of a file create."""
+    """Finds the entities that the calls of a file create."""
 
     def __init__(self, file: RclpyFile) -> None:
         self._facts = file

@@ -65,7 +65,7 @@ class Qos(NamedTuple):
 
 
 class Created(NamedTuple):
-    """What every call that creates something has."""
+    """The common fields of everything that a call creates."""
 
     call: ast.Call
     location: Location

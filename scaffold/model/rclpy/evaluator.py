@@ -30,7 +30,7 @@ _ACCESSORS: Mapping[str, type] = {
 
 
 class NodeEvaluator(AttributeEvaluator):
-    """Knows what is assigned once, defaults of parameters and arguments of private functions."""
+    """An evaluator for attributes, parameter defaults and arguments of private functions."""
 
     def __init__(
         self,

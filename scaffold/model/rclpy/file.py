@@ -62,7 +62,7 @@ MAX_BASES = 40
 
 
 class Modules(Protocol):
-    """Where the other modules of a package come from; a ``Package`` is one."""
+    """A source of the other modules of a package, such as a ``Package``."""
 
     def has(self, path: str) -> bool:
         """Tell whether a file exists."""
@@ -105,7 +105,7 @@ def rclpy_files(package: Package, *, mentioning: Sequence[str] = ()) -> Iterator
 
 
 class RclpyFile:
-    """Everything that the rclpy code of one file says."""
+    """The rclpy code of one file."""
 
     def __init__(self, module: PythonModule, modules: Modules | None = None) -> None:
         self.module = module

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class NodeDefinition:
-    """A node as the code makes it: of a class of its own, or an object."""
+    """A node that the code creates: from its own class, or as an object."""
 
     def __init__(self, file: RclpyFile, name: str, location: Location) -> None:
         self.facts = file

@@ -156,7 +156,7 @@ def _statement_of(evaluator: AttributeEvaluator, node: ast.AST) -> ast.AST:
 
 
 class Offered(Protocol):
-    """What `conflict_of` compares."""
+    """The policies that `conflict_of` compares."""
 
     @property
     def qos(self) -> Qos | None:

@@ -26,7 +26,7 @@ CONVERSIONS = frozenset({"tf2_geometry_msgs", "tf2_sensor_msgs", "tf2_kdl", "tf2
 
 
 class Lookup(NamedTuple):
-    """A call that asks a buffer of tf2."""
+    """A lookup in a tf2 buffer."""
 
     method: str
     call: ast.Call

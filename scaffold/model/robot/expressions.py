@@ -43,7 +43,7 @@ _OPERATORS: Mapping[type, Callable[..., object]] = {
 
 
 class NotKnownError(Exception):
-    """The value of an expression is known only while xacro runs."""
+    """The value of an expression is only known at run time."""
 
 
 def tokens(text: str) -> Iterator[str]:

@@ -27,7 +27,7 @@ _OF_CONTROL = frozenset({"command_interface", "state_interface"})
 
 
 class Robots(NamedTuple):
-    """What the files of a package describe."""
+    """The robots in the files of a package."""
 
     whole: list[Expansion]
     """The robots."""

@@ -114,7 +114,7 @@ def add_import(module: PythonModule, statement: str) -> Edit | None:
 
 
 class Text(NamedTuple):
-    """A string that is written as two, below each other, where one would be too long."""
+    """A string that is written as two adjacent literals if one would be too long."""
 
     quote: str
     start: str

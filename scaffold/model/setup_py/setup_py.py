@@ -89,7 +89,7 @@ class FindPackages(NamedTuple):
 
 
 class SetupPy:
-    """What a setup.py says, without running it."""
+    """A setup.py, analyzed without running it."""
 
     def __init__(self, module: PythonModule) -> None:
         self.module = module

@@ -6,7 +6,7 @@ from scaffold.record import NamedTuple
 
 
 class Policy(NamedTuple):
-    """The decisions of a project."""
+    """The policy of a project."""
 
     licenses: tuple[str, ...] = ()
     """SPDX identifiers of the licenses that packages may have; empty for any."""

@@ -113,7 +113,7 @@ def _has_key(source: bytes, key: str) -> bool:
 
 
 class _PlainUnpickler(pickle.Unpickler):
-    """Loads containers, texts and numbers; anything that would have to be imported is refused."""
+    """Loads containers, strings and numbers; pickles that import anything are rejected."""
 
     def find_class(self, module_name: str, global_name: str) -> object:
         raise pickle.UnpicklingError(f"{module_name}.{global_name} is no plain data")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Workspace:
-    """What the packages around one declare and define."""
+    """The packages of a workspace, with what they declare and define."""
 
     def __init__(
         self,
@@ -77,7 +77,7 @@ class Workspace:
 
 
 class WorkspaceView:
-    """The workspace as one of its packages sees it; notes whom the verdict on that one needs."""
+    """The workspace as one of its packages sees it; records which others it needs."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace

@@ -17,7 +17,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class InterruptedBySignalError(BaseException):
-    """The run was asked to end; all that it started has ended. ``number`` is the signal."""
+    """A signal ended the run, with everything that it started; ``number`` is the signal."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -25,7 +25,7 @@ class InterruptedBySignalError(BaseException):
 
 
 class Interruption:
-    """Turns the first of some signals into one exception, where that does no harm.
+    """Converts the first signal to one exception, at a safe moment.
 
     A second signal changes nothing: it must not cut the cleaning up short. Outside of the main
     thread no signal arrives, and nothing is done. It may be entered again inside of its block.

@@ -29,7 +29,7 @@ _PATIENCE = 8.0
 
 @dataclass(frozen=True)
 class Run:
-    """A run that is written down."""
+    """A run in the ledger."""
 
     origin: Origin
     scratch: Path

@@ -50,7 +50,7 @@ ament_package()
 
 
 class Bundle:
-    """The packages whose interfaces this tool knows."""
+    """The packages whose interfaces are bundled."""
 
     def __init__(self) -> None:
         self._source = BundleSource()

@@ -67,7 +67,7 @@ def isolated(variables: Mapping[str, str], number: int, scratch: Path) -> dict[s
 
 
 class Stations:
-    """Gives out stations; some can be opened before they are needed, as that takes a while.
+    """A pool of stations, which can be opened in advance.
 
     Args:
         python: The interpreter that has rclpy.

@@ -35,7 +35,7 @@ _UNWATCHED = (ROSOUT, "/parameter_events")
 
 
 class Probe:
-    """The observing node and what it knows."""
+    """The observing node and its state."""
 
     def __init__(self) -> None:
         # Named here, not imported above: the file is read and type-checked where no ROS is.

@@ -25,7 +25,7 @@ _FIELDS = (
 
 
 class Parameters:
-    """Asks nodes for their parameters.
+    """Requests the parameters of nodes.
 
     Args:
         node: The observing node.

@@ -46,7 +46,7 @@ class Spread:
 
 
 class Moments:
-    """When messages came: every one at first, every second, fourth... once there are many."""
+    """Arrival times of messages: all at first, then every second, fourth and so on."""
 
     def __init__(self) -> None:
         self._times: list[float] = []

@@ -20,7 +20,7 @@ _GOAL_SUCCEEDED = 4
 
 
 class Stimuli:
-    """Calls and publishes for a node, and tells what comes of it.
+    """Calls and publishes for a node, and reports the results.
 
     Args:
         node: The observing node.

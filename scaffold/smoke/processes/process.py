@@ -50,7 +50,7 @@ class Origin:
 
 
 class Running:
-    """A command that leads a session, and so a process group, of its own.
+    """A command that is the leader of its own session and process group.
 
     Between it and this process is a supervisor, which ends all that the command has started.
     """
@@ -272,7 +272,7 @@ async def _start(
 
 @dataclass(frozen=True)
 class Captured:
-    """What became of a short command."""
+    """The outcome of a short command."""
 
     exit_code: int
     """Negative for a signal that killed it, as it is when its time was up."""

@@ -12,7 +12,7 @@ from scaffold.smoke.processes.process import Running
 
 @dataclass(frozen=True)
 class Remains:
-    """Something that was left, and has been ended or removed."""
+    """Something that remained and was ended or removed."""
 
     commands: tuple[str, ...]
     """The names of those that may have left it: several may use the same shared memory."""

@@ -14,7 +14,7 @@ TRANSITIONS = ("configure", "activate", "deactivate", "cleanup", "shutdown")
 
 @dataclass(frozen=True)
 class FieldExpectation:
-    """What the values of a field of messages are like; ``None``: anything."""
+    """Expected values of a message field; ``None``: any."""
 
     path: str
     """Such as ``header.frame_id`` or ``ranges[0]``."""
@@ -55,7 +55,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Stimulus:
-    """Messages that an executable gets."""
+    """Messages to publish to an executable."""
 
     topic: str
     type: str
@@ -65,7 +65,7 @@ class Stimulus:
 
 @dataclass(frozen=True)
 class Scenario:
-    """How an executable is run, and what is expected of it."""
+    """How to run an executable, and what to expect."""
 
     arguments: tuple[str, ...] = ()
     parameters: Mapping[str, Any] = field(default_factory=dict)

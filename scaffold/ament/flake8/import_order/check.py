@@ -46,7 +46,7 @@ _TO_FIRST_FOR_TYPES = 3
 
 
 class _Style:
-    """What a style of flake8-import-order asks for."""
+    """The criteria of a style of flake8-import-order."""
 
     def __init__(self, name: str) -> None:
         self.name = name

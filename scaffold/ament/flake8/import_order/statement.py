@@ -19,7 +19,7 @@ Folded = tuple[str, str]
 
 
 class Statement(NamedTuple):
-    """An import statement and what it is sorted by."""
+    """An import statement and its sort key."""
 
     line: int
     column: int

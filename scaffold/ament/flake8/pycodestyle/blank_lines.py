@@ -32,7 +32,7 @@ def check(text: PythonText) -> Iterator[Finding]:
 
 
 class _State:
-    """What the blank lines of the next logical line depend on."""
+    """The state that determines the blank lines before the next logical line."""
 
     def __init__(self, lines: list[str]) -> None:
         self.lines = lines

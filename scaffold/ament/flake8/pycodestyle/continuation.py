@@ -54,7 +54,7 @@ def check(text: PythonText, options: Options = AMENT) -> Iterator[Finding]:
 
 
 class _Bracket:
-    """What is known about one level of brackets; level 0 is the statement itself."""
+    """One level of brackets; level 0 is the statement itself."""
 
     def __init__(self, indent: int, rows: list[int]) -> None:
         self.indent = indent

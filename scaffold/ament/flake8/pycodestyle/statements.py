@@ -146,7 +146,7 @@ def _without_spaces(
 
 
 class _Brackets:
-    """Knows what is open in a logical line; asked in the order of the text, it reads it once."""
+    """The open brackets in a logical line; queries must be in the order of the text."""
 
     def __init__(self, logical: LogicalLine) -> None:
         self._logical = logical

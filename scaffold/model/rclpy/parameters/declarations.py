@@ -24,7 +24,7 @@ SIGNATURES = {
 
 
 class Declaration(NamedTuple):
-    """What one parameter is declared with."""
+    """The declaration of one parameter."""
 
     prefix: str | Unknown
     """The namespace of ``declare_parameters``."""

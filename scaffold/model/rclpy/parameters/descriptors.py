@@ -25,7 +25,7 @@ _KEEPING = ("append", "declare_parameter", "declare_parameters", "print", "set_d
 
 
 class Range(NamedTuple):
-    """The values that a number may have."""
+    """The allowed range of a number."""
 
     type: str
     """``double`` or ``integer``; other types are not compared with it."""
@@ -54,7 +54,7 @@ class Range(NamedTuple):
 
 
 class Descriptor(NamedTuple):
-    """A descriptor that is made in the same function."""
+    """A descriptor that is created in the same function."""
 
     is_dynamic: bool
     is_read_only: bool

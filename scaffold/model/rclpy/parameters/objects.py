@@ -153,7 +153,7 @@ def name_asked(file: RclpyFile, node: ast.AST, variable: str) -> str | None:
 
 
 class ParameterMade(NamedTuple):
-    """A ``Parameter(...)`` that is given to a node to be set."""
+    """A ``Parameter(...)`` that is passed to a node to be set."""
 
     call: ast.Call
     """Which sets it."""
@@ -199,7 +199,7 @@ def _parameter_made(file: RclpyFile, setting: ast.Call, node: ast.expr) -> Param
 
 
 class NameUsed(NamedTuple):
-    """The name of a parameter that a node must have."""
+    """The name of a parameter that must exist."""
 
     owner: NodeDefinition
     call: ast.Call

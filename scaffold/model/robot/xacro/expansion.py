@@ -31,7 +31,7 @@ _UNPREFIXED = frozenset({"include", "macro", "property", "insert_block"})
 
 
 class Expansion:
-    """What xacro makes of a file.
+    """The expansion of a xacro file.
 
     Args:
         file: The file.

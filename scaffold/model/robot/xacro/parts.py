@@ -17,7 +17,7 @@ NOT_URDF = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "plugi
 
 
 class Part:
-    """An element of what xacro writes."""
+    """An element of the output."""
 
     __slots__ = ("attributes", "children", "element", "file", "holder", "is_certain", "tag")
 
@@ -74,7 +74,7 @@ class Part:
 
 
 class NamedFile(NamedTuple):
-    """A file that another one names."""
+    """A file that another file refers to."""
 
     package: str
     """The package whose share directory it is in; empty if the path is relative to a file."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Undefined(NamedTuple):
-    """A name that nothing defines."""
+    """An undefined name."""
 
     kind: str
     """``macro``, ``property``, ``block``, ``argument``, ``command``, ``expression`` or ``tag``."""
@@ -36,7 +36,7 @@ class Misfit(NamedTuple):
 
 
 class Problems:
-    """What is wrong in a file, and how much of it is known.
+    """The problems of a file, and how complete its expansion is.
 
     Args:
         file: The file.

@@ -50,7 +50,7 @@ class Block(NamedTuple):
 
 
 class Scope:
-    """Properties, and those around them."""
+    """Properties, and the enclosing scope."""
 
     __slots__ = ("_parent", "values")
 
@@ -84,7 +84,7 @@ class Scope:
 
 
 class Frame(NamedTuple):
-    """Where the reader is."""
+    """The position of the expansion."""
 
     file: RobotFile
     scope: Scope

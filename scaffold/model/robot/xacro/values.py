@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Values:
-    """Evaluates texts.
+    """Evaluates texts of xacro.
 
     Args:
         package: What is reported on.
