@@ -27,7 +27,7 @@ _ROOTS = frozenset({"launch", "launch_ros"})
 
 
 class PackageUse(NamedTuple):
-    """A package that a launch file names."""
+    """A reference to a package in a launch file."""
 
     name: str
     location: Location
