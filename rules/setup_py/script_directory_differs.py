@@ -41,16 +41,6 @@ class ScriptDirectoryDiffers(Rule):
     name = "script-directory-differs"
     examples = (
         Example(
-            "next to a CMakeLists.txt, where nothing reads it",
-            {
-                "package.xml": _MANIFEST.replace("_python", "_cmake"),
-                "CMakeLists.txt": "",
-                "setup.py": _SETUP.format(_ENTRY),
-                "setup.cfg": _CFG.format("other"),
-                **_NODE,
-            },
-        ),
-        Example(
             "a setup.cfg",
             {
                 "package.xml": _MANIFEST,
@@ -143,6 +133,16 @@ class ScriptDirectoryDiffers(Rule):
                 fix="write $base/lib/talker",
             ),
             fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
+        ),
+        Example(
+            "next to a CMakeLists.txt, where nothing reads it",
+            {
+                "package.xml": _MANIFEST.replace("_python", "_cmake"),
+                "CMakeLists.txt": "",
+                "setup.py": _SETUP.format(_ENTRY),
+                "setup.cfg": _CFG.format("other"),
+                **_NODE,
+            },
         ),
     )
 

@@ -138,15 +138,6 @@ class AttributeMissing(TypeRule):
     kinds = frozenset({"missing-attribute"})
     examples = (
         Example(
-            "methods of a class of which only some are described, called on the class",
-            {
-                "turn.py": "from scipy.spatial.transform import Rotation\n"
-                "from serial import Serial\n\n"
-                "back = Rotation.inv(Rotation.identity())\n"
-                "print(back.apply([1, 0, 0]), Serial.BAUDRATES, Serial().is_open)\n"
-            },
-        ),
-        Example(
             "a method that is kept instead of what it returns",
             {
                 "idle.py": "from rclpy.node import Node\n\n\n"
@@ -567,6 +558,15 @@ class AttributeMissing(TypeRule):
             ),
             fixed={"hint.py": _HINT.format("warning")},
             distro="lyrical",
+        ),
+        Example(
+            "methods of a class of which only some are described, called on the class",
+            {
+                "turn.py": "from scipy.spatial.transform import Rotation\n"
+                "from serial import Serial\n\n"
+                "back = Rotation.inv(Rotation.identity())\n"
+                "print(back.apply([1, 0, 0]), Serial.BAUDRATES, Serial().is_open)\n"
+            },
         ),
     )
 
