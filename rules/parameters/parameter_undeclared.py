@@ -80,6 +80,15 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "in a file that other code loads, with another library",
+            {
+                "talker.py": _NODE.format(""),
+                "tool.py": "from ruamel.yaml import YAML\n\n"
+                "settings = YAML().load(open('a.yaml'))\n",
+                "a.yaml": _FILE.format("topics: [joy]"),
+            },
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),

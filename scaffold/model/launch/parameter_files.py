@@ -100,6 +100,10 @@ def nodes_for(package: Package, path: str, section: Section) -> list[KnownNode]:
     return list(dict.fromkeys(result)) if len(result) == len(owners) else []
 
 
+_LOADERS = ("yaml.safe_load", "yaml.load", "yaml.full_load", "ruamel")
+"""What code that reads YAML itself mentions."""
+
+
 def is_loaded(package: Package, path: str, owners: Sequence[KnownNode] = ()) -> bool:
     """Tell whether Python code of the workspace loads a parameter file itself, as YAML.
 
@@ -120,7 +124,7 @@ def _code_loading_yaml(package: Package) -> list[str]:
     def find() -> Iterator[str]:
         for path in package.python_files:
             with contextlib.suppress(ViewError):
-                if mentions(package, path, "yaml.safe_load"):
+                if any(mentions(package, path, loader) for loader in _LOADERS):
                     yield path
 
     return package.remember("code_loading_yaml", lambda: [*find()])
