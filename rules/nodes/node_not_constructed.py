@@ -130,6 +130,19 @@ class NodeNotConstructed(RclpyRule):
             {"talker.py": _NODE_BASE.format("") + "\n\nclass Both(Node, Talker):\n    pass\n"},
         ),
         Example(
+            "the outline of a node",
+            {
+                "talker.py": "from rclpy.node import Node\n\n\nclass Talker(Node):\n"
+                "    def __init__(self):\n        pass\n"
+            },
+            Report(
+                "5:9",
+                "Talker.__init__() does not call super().__init__(): AttributeError as soon as it "
+                "is used as a node",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a mixin for the nodes of another module",
             {
                 "moving.py": _NODE_BASE.format("").replace("Talker", "Moving"),
@@ -154,11 +167,11 @@ class NodeNotConstructed(RclpyRule):
     )
 
     def check_in(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
-        yield from self._check_call(file)
+        yield from self._check_call(package, file)
         yield from self._check_constructor(file)
         yield from self._check_base(package, file)
 
-    def _check_call(self, file: RclpyFile) -> Iterator[Diagnostic]:
+    def _check_call(self, package: Package, file: RclpyFile) -> Iterator[Diagnostic]:
         for node in file.classes:
             skipped = _skipping(file, node)
             if skipped is not None:
@@ -168,7 +181,7 @@ class NodeNotConstructed(RclpyRule):
                 continue
             at = file.module.name_location(node.constructor)
             message = f"{node.name}.__init__() does not call super().__init__(): AttributeError"
-            if not _is_used_as_node(file, node):
+            if not _is_used_as_node(file, node) or _is_outline(package, file, node):
                 message += " as soon as it is used as a node"
                 yield self.report(at, message, severity=Severity.WARNING)
                 continue
@@ -222,6 +235,19 @@ def _skipping(file: RclpyFile, node: NodeClass) -> tuple[ast.Call, str] | None:
             ):
                 return call, "super() already passes self; the first argument is the node name"
     return None
+
+
+def _is_outline(package: Package, file: RclpyFile, node: NodeClass) -> bool:
+    """Tell whether a constructor does nothing yet, and nothing names its class."""
+    body = node.constructor.body if node.constructor is not None else []
+    if not all(isinstance(item, ast.Pass | ast.Expr) for item in body):
+        return False
+    if any(isinstance(call, ast.Call) for item in body for call in ast.walk(item)):
+        return False
+    modules = package.modules(mentioning=(node.name,))
+    return not any(
+        other.path != file.module.path or other.index.names(node.name) for other in modules
+    )
 
 
 def _is_used_as_node(file: RclpyFile, node: NodeClass) -> bool:

@@ -29,6 +29,18 @@ _NODE_EXECUTORS = (
     "def main():\n    rclpy.init()\n    node = Talker()\n"
     "    executor = SingleThreadedExecutor()\n{}"
 )
+_THREAD = (
+    "import threading\n\nimport rclpy\nfrom rclpy.node import Node\n\n\n"
+    "class Talker(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('talker')\n"
+    "        self.create_timer(1.0, print)\n"
+    "{}\n"
+    "    def start(self):\n"
+    "        threading.Thread(target=rclpy.spin, args=(self,)).start()\n\n"
+    "    def watch(self):\n"
+    "{}        rclpy.spin_once(self)\n"
+)
 _ADD = "    executor.add_node(node)\n"
 _SPIN = "    executor.spin()\n"
 
@@ -104,6 +116,22 @@ class SpunWrongly(RclpyRule):
                 )
             },
             "16:5: the thread of line 15 spins 'node' already: ValueError: generator already "
+            "executing; wait for the future in another way",
+        ),
+        Example(
+            "a thread that another method starts, which this one does not call",
+            {"talker.py": _THREAD.format("", "")},
+        ),
+        Example(
+            "a thread that the constructor starts",
+            {"talker.py": _THREAD.format("        self.start()\n", "")},
+            "17:9: the thread of line 14 spins 'self' already: ValueError: generator already "
+            "executing; wait for the future in another way",
+        ),
+        Example(
+            "a thread that the method starts itself",
+            {"talker.py": _THREAD.format("", "        self.start()\n")},
+            "17:9: the thread of line 13 spins 'self' already: ValueError: generator already "
             "executing; wait for the future in another way",
         ),
         Example(
@@ -263,12 +291,21 @@ def _spinning_threads(file: RclpyFile) -> Iterator[tuple[ast.Call, str]]:
 
 
 def _share_scope(file: RclpyFile, thread: ast.Call, call: ast.Call) -> bool:
-    """Return whether a name means the same node in two calls."""
+    """Return whether a name means the same node in two calls, and the thread runs in both."""
     functions = [file.module.enclosing_function(node) for node in (thread, call)]
     classes = [file.module.enclosing_class(node) for node in (thread, call)]
     if functions[0] is functions[1]:
         return thread.lineno < call.lineno and not file.is_conditional(thread)
-    return classes[0] is not None and classes[0] is classes[1] and "self" in ast.unparse(call)
+    if classes[0] is None or classes[0] is not classes[1] or "self" not in ast.unparse(call):
+        return False
+    starting = functions[0].name if functions[0] is not None else ""
+    return starting == "__init__" or any(
+        isinstance(attribute.ctx, ast.Load)
+        and file.module.enclosing_class(attribute) is classes[0]
+        and (around := file.module.enclosing_function(attribute)) is not None
+        and (around.name == "__init__" or around is functions[1])
+        for attribute in file.module.index.attributes(starting)
+    )
 
 
 def _spun_before(file: RclpyFile, call: RclpyCall) -> int:
