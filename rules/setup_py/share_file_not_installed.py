@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.install import is_copy_of_old_code
 from scaffold.api.launch import DATA_DIRECTORIES, data_files, is_named, launch_files
 from scaffold.api.setup_py import installed_data
 
@@ -43,6 +44,17 @@ class ShareFileNotInstalled(Rule):
                     "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
                 ),
                 "launch/talk.launch.py": _LAUNCH,
+            },
+        ),
+        Example(
+            "a copy of a launch file is not installed",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(
+                    "        ('share/talker/launch', glob('launch/*.launch.py')),\n"
+                ),
+                "launch/talk.launch.py": _LAUNCH,
+                "launch/talk_all_launch-Copy1.py": _LAUNCH,
             },
         ),
         Example(
@@ -138,7 +150,9 @@ class ShareFileNotInstalled(Rule):
         at = package.setup_py.keywords.get("data_files", package.setup_py)
         stems = tuple(path.removesuffix(".py") for path in installed if path.endswith(".py"))
         for path in launch_files(package):
-            if path not in installed and not _is_copy(path, stems):
+            if path in installed or _is_copy(path, stems):
+                continue
+            if not is_copy_of_old_code(package, path):
                 message = f"data_files does not install {path}: `ros2 launch` does not find it"
                 yield self.report(at, message, cause=f"files in {path.rpartition('/')[0]}/")
         for directory in DATA_DIRECTORIES:

@@ -19,11 +19,13 @@ from scaffold.model.install.modules import (
 )
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
+from scaffold.model.install.unused import is_copy_of_old_code
 
 __all__ = [
     "absolute_name",
     "file_of",
     "intended_module",
+    "is_copy_of_old_code",
     "is_elsewhere",
     "is_installed_by_path",
     "is_started",

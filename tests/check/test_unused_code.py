@@ -103,6 +103,8 @@ def test_a_script_that_only_a_comment_names(
         "node - Kopie.py",
         "(UNUSED)talker/nodes.py",
         "old/nodes.py",
+        "untitled1.py",
+        "node_obsolete.py",
     ],
 )
 def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
@@ -126,12 +128,11 @@ def test_a_dependency_of_a_copy_and_of_others(
     assert severities(capsys, "PX020") == {"talker/node (copy).py": severity}
 
 
-def test_a_copy_of_a_robot(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    robot = '<robot name="r"><link name="a"/><gazebo reference="b"><mu1>1</mu1></gazebo></robot>\n'
-    for path in ("urdf/arm copy.urdf", "urdf/arm.urdf"):
-        write(package / path, robot)
-    expected = {"urdf/arm copy.urdf": "warning", "urdf/arm.urdf": "error"}
-    assert severities(capsys, "UR022") == expected
+def test_a_copy_of_parameters(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in ("params/talk copy.yaml", "params/talk.yaml"):
+        write(package / path, "talk:\n  ros__parameters:\n    rate:\n")
+    expected = {"params/talk copy.yaml": "warning", "params/talk.yaml": "error"}
+    assert severities(capsys, "PF007") == expected
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _COPY = re.compile(
-    r"^(?:old|backup|bak|deprecated|unused)[_ -]|^copy[_ -]of"
-    r"|[_ .-](?:old|backup|bak|orig|original|deprecated|unused|copy)(?:[_ -]?\d{1,8})?$"
+    r"^(?:old|backup|bak|deprecated|obsolete|unused)[_ -]|^copy[_ -]of|^untitled\d{0,4}$"
+    r"|[_ .-](?:old|backup|bak|orig|original|deprecated|obsol[eu]te|unused|copy)(?:[_ -]?\d{1,8})?$"
     r"|[ ](?:copy[ ])?\(?\d{1,4}\)?$|[ ]copy[ ]\d{1,4}$"
     r"|[ ](?:-[ ]|\((?:another[ ]|\d{1,2}\w\w[ ])?)(?:copy|kopie|kopia|copia|copie)\b[^/]{0,5}$",
     re.IGNORECASE,
