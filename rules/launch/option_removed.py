@@ -6,23 +6,40 @@ from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Edit, Example, Fix, Package, Report, Rule
 from scaffold.api.distributions import of_kind
-from scaffold.api.launch import CommandLine, Word, processes
+from scaffold.api.launch import CommandLine, Word, command_lines, processes
 
 _LAUNCH = (
     "from launch.actions import ExecuteProcess\n\n"
     "RECORDER = ExecuteProcess(cmd=['ros2', 'bag', 'record', '-a', {}])\n"
 )
 _XML = "<launch>\n  <executable cmd='ros2 bag record -a {}'/>\n</launch>\n"
+_CREATE = (
+    "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n"
+    "        Node(package='ros_gz_sim', executable='create',\n"
+    "             arguments=['-topic', 'robot_description', '{}', 'rover']),\n    ])\n"
+)
+_OF_SPAWN_ENTITY = {
+    "-b": "leave it out",
+    "-entity": "use -name",
+    "-robot_namespace": "set the namespace in the description",
+    "-spawn_service_timeout": "leave it out",
+    "-timeout": "leave it out",
+    "-unpause": "leave it out",
+}
+"""What gazebo_ros had, and what to write instead."""
 
 
 class OptionRemoved(Rule):
-    """A launch file starts a program with an option that was removed in the distribution.
+    """A launch file starts a program with an option that the distribution no longer has.
 
-    **Why.** The program ends at once, with ``ambiguous option`` or ``unrecognized arguments``.
+    **Why.** The program ends at once, with ``ambiguous option`` or ``unrecognized arguments``, or
+    ignores the option: a robot gets another name in the simulation.
 
     **Fix.** Use its replacement.
 
-    **Source.** rosbag2, ``ros2bag/verb/record.py``.
+    **Source.** rosbag2, ``ros2bag/verb/record.py``; ros_gz_sim, ``create.cpp``.
     """
 
     code = "LF083"
@@ -30,6 +47,13 @@ class OptionRemoved(Rule):
     is_fixed_for_all = True
     since = "0.2"
     examples = (
+        Example("a robot with a name", {"launch/a.launch.py": _CREATE.format("-name")}),
+        Example(
+            "an option of spawn_entity.py",
+            {"launch/a.launch.py": _CREATE.format("-entity")},
+            "8:56: -entity is an option of spawn_entity.py: ros_gz_sim create ignores it; use "
+            "-name",
+        ),
         Example(
             "still there",
             {"launch/a.launch.py": _LAUNCH.format("'--exclude', '/tf'")},
@@ -73,6 +97,15 @@ class OptionRemoved(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        yield from self._check_removed(package)
+        for line in command_lines(package, "create"):
+            for word in line.words:
+                replacement = _OF_SPAWN_ENTITY.get(word.text)
+                if replacement is not None:
+                    message = f"{word.text} is an option of spawn_entity.py: ros_gz_sim create "
+                    yield self.report(word.location, f"{message}ignores it; {replacement}")
+
+    def _check_removed(self, package: Package) -> Iterator[Diagnostic]:
         removed = {
             name: change
             for change in of_kind("option")

@@ -21,6 +21,16 @@ _NODE = (
     "        for number in range(len(front) {} 2):\n"
     "            self.near = front[number] < 1.0\n"
 )
+_AHEAD = (
+    "from rclpy.node import Node\nfrom sensor_msgs.msg import LaserScan\n\n\n"
+    "class Front(Node):\n"
+    "    def __init__(self):\n"
+    "        super().__init__('front')\n"
+    "        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)\n\n"
+    "    def on_scan(self, scan):\n"
+    "        middle = len(scan.ranges) {0} 2\n"
+    "        self.ahead = scan.ranges[middle] + scan.ranges[len(scan.ranges) {0} 4]\n"
+)
 
 
 class FloatAsIndex(PythonRule):
@@ -38,6 +48,13 @@ class FloatAsIndex(PythonRule):
     name = "float-as-index"
     examples = (
         Example("whole numbers", {"front.py": _NODE.format("//", "//")}),
+        Example("the beam ahead", {"front.py": _AHEAD.format("//")}),
+        Example(
+            "the beam ahead, by a division",
+            {"front.py": _AHEAD.format("/")},
+            "12:34: a float is no index: TypeError; divide with //",
+            "12:56: a float is no index: TypeError; divide with //",
+        ),
         Example(
             "divisions",
             {"front.py": _NODE.format("/", "/")},
@@ -65,6 +82,27 @@ class FloatAsIndex(PythonRule):
 
     def check_in(self, package: Package, module: PythonModule) -> Iterator[Diagnostic]:
         file = rclpy_file(package, module.path)
+        yield from self._check_slices(file)
+        for subscript in module.walk(ast.Subscript):
+            if _is_of_own_length(file, subscript) and not is_handled(
+                module, subscript, "TypeError"
+            ):
+                message = "a float is no index: TypeError; divide with //"
+                yield self.report(module.location(subscript.slice), message)
+        for subscript in module.walk(ast.Subscript):
+            if _is_of_own_length(file, subscript) and not is_handled(
+                module, subscript, "TypeError"
+            ):
+                message = "a float is no index: TypeError; divide with //"
+                yield self.report(module.location(subscript.slice), message)
+        for call in module.calls_of("range"):
+            for given in call.args:
+                if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
+                    message = "range() takes no float: TypeError; divide with //"
+                    yield self.report(module.location(given), message)
+
+    def _check_slices(self, file: RclpyFile) -> Iterator[Diagnostic]:
+        module = file.module
         for node in module.walk(ast.Slice):
             if _is_of_labels(module, node):
                 continue
@@ -73,11 +111,6 @@ class FloatAsIndex(PythonRule):
                     message = "a float cannot bound a slice: TypeError; divide with //"
                     if not is_handled(module, node, "TypeError"):
                         yield self.report(module.location(bound), message)
-        for call in module.calls_of("range"):
-            for given in call.args:
-                if _is_quotient(file, given) and not is_handled(module, call, "TypeError"):
-                    message = "range() takes no float: TypeError; divide with //"
-                    yield self.report(module.location(given), message)
 
 
 def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
@@ -85,6 +118,23 @@ def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
     subscript = module.enclosing(node, ast.Subscript)
     holder = subscript.value if subscript is not None else None
     return isinstance(holder, ast.Attribute) and holder.attr == "loc"
+
+
+def _is_of_own_length(file: RclpyFile, node: ast.Subscript) -> bool:
+    """Tell whether an index is a quotient of the length of what it is an index of."""
+    index = file.evaluator.single_value(node.slice) or node.slice
+    if not isinstance(node.slice, ast.Name | ast.BinOp) or not _is_quotient(file, index):
+        return False
+    holder = ast.dump(node.value)
+    lengths = (
+        call.args[0]
+        for call in ast.walk(index)
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Name)
+        and call.func.id == "len"
+        and len(call.args) == 1
+    )
+    return any(ast.dump(measured) == holder for measured in lengths)
 
 
 def _is_quotient(file: RclpyFile, node: ast.expr) -> bool:

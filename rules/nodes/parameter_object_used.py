@@ -41,6 +41,8 @@ _NODE_FIELD = (
     "        self.declare_parameter('rate', 2.0)\n"
     "        self.rate = self.get_parameter('rate'){}.double_value\n"
 )
+_MISNAMED = ("array_value", "boolean_value", "float_value", "int_value", "str_value")
+"""What people take for fields of ParameterValue."""
 
 
 class ParameterObjectUsed(RclpyRule):
@@ -106,6 +108,17 @@ class ParameterObjectUsed(RclpyRule):
             {"talker.py": _NODE_FIELD.format(".value")},
             "8:21: '.value' is the value itself, without 'double_value': AttributeError",
         ),
+        Example(
+            "a field of the value of a parameter that was set",
+            {
+                "talker.py": _NODE_FIELD.format(".get_parameter_value()")
+                + "        self.add_on_set_parameters_callback(self.change)\n\n"
+                "    def change(self, parameters):\n"
+                "        for parameter in parameters:\n"
+                "            self.rate = parameter.value.int_value\n"
+            },
+            "13:25: '.value' is the value itself, without 'int_value': AttributeError",
+        ),
     )
 
     def check_file(self, file: RclpyFile) -> Iterator[Diagnostic]:
@@ -133,7 +146,7 @@ class ParameterObjectUsed(RclpyRule):
                     yield self.report(file.module.location(call), message)
 
     def _check_field(self, file: RclpyFile) -> Iterator[Diagnostic]:
-        for field in FIELDS:
+        for field in (*FIELDS, *_MISNAMED):
             for attribute in file.module.index.attributes(field):
                 match file.evaluator.single_value(attribute.value):
                     case ast.Attribute(attr="value", value=parameter):
