@@ -63,7 +63,7 @@ class Change(NamedTuple):
 
     @property
     def is_deprecated(self) -> bool:
-        """Whether the target still has it, and says that it will go."""
+        """Whether the target still has it, but deprecates it."""
         return not self.is_removed and _is_past(self.deprecated)
 
     @property

@@ -59,7 +59,7 @@ class Diagnostic(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The message, and the distributions that it holds for where that is worth saying."""
+        """The message, with its distributions if they do not include all targets."""
         names = ", ".join(self.distributions)
         return f"{self.message} ({names})" if names else self.message
 

@@ -255,14 +255,14 @@ def contributing(licence: str) -> str | None:
 
 
 def _known(kind: str) -> tuple[KnownText, ...]:
-    """Return the texts of a kind that the linter of the target knows."""
+    """Return the known texts of a kind for the linter of the target."""
     unknown = distributions.target().fact("copyright.unknown_licenses")
     return tuple(item for item in known_texts()[kind] if item.licence not in unknown)
 
 
 @lru_cache(maxsize=1)
 def known_texts() -> dict[str, list[KnownText]]:
-    """Return the texts that ament_copyright knows, by kind: ``header``, or the name of a file."""
+    """Return the known texts of ament_copyright by kind: ``header``, or the name of a file."""
     result: dict[str, list[KnownText]] = {}
     with open(_DATA, encoding="utf-8") as file:
         for line in file:

@@ -31,7 +31,7 @@ class Linters(NamedTuple):
 
     @property
     def identity(self) -> str:
-        """What verdicts depend on, for what remembers them."""
+        """A key for cached results."""
         return f"{self.python}{sorted(self.versions.items())}"
 
 

@@ -57,7 +57,7 @@ class Settings(NamedTuple):
 
     @property
     def key(self) -> str:
-        """What findings depend on, for what remembers them; empty for ament's configuration."""
+        """A key for cached findings; empty for ament's configuration."""
         if self[1:] == Settings()[1:]:
             return ""
         options = self.flake8._replace(exclude=(), extend_exclude=(), filename=())

@@ -71,7 +71,7 @@ def diagnostics(package: Package, code: str) -> Iterator[Diagnostic]:
 
 
 def _is_unused_file(package: Package, unreadable: Diagnostic) -> bool:
-    """Tell whether a file is not written yet, so that nobody loads it, and no linter does."""
+    """Tell whether a file is empty, so that no program and no linter loads it."""
     return unreadable.message == "the file is empty" and not linter_use(package, "xmllint").runs
 
 

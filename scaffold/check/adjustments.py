@@ -116,7 +116,7 @@ class Adjustments(NamedTuple):
 
 
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether an error is in code that nobody runs, and no test of the package looks at."""
+    """Tell whether an error is in code that nothing runs and no test of the package checks."""
     path, code = diagnostic.location.path, diagnostic.code
     is_copy = code not in _OF_TESTS and _is_of_copy(package, diagnostic)
     if not path.endswith(".py") or is_copy:
@@ -137,7 +137,7 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
 
 
 def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether a test of the package fails, whoever runs the code.
+    """Tell whether a test of the package fails, even if nothing runs the code.
 
     An undefined name in code that is not run is a matter of style, as an unused one is.
     """

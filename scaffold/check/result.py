@@ -84,7 +84,7 @@ class Result(NamedTuple):
 
 
 class Ruled(NamedTuple):
-    """What the rules found in a package."""
+    """The findings of the rules in a package."""
 
     files: int
     diagnostics: list[Diagnostic]

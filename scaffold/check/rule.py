@@ -53,7 +53,7 @@ class Report:
 
     @classmethod
     def parse(cls, text: str) -> Report:
-        """Return the report that a short form stands for."""
+        """Parse the short form of a report."""
         at, _, message = text.partition(": ")
         return cls(at, message)
 

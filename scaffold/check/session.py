@@ -203,7 +203,7 @@ class Session:
         earlier: Mapping[str, Earlier] | None = None,
         paths: Collection[str] | None = None,
     ) -> StyleCheck | None:
-        """Start the style backend, unless nobody asks for style.
+        """Start the style backend, unless no style code is selected.
 
         Args:
             packages: What is to be checked.
@@ -233,7 +233,7 @@ class Session:
     def _start_types(
         self, targets: Sequence[Target], earlier: Mapping[str, Earlier]
     ) -> TypeFindings | None:
-        """Start the type checker, unless nobody asks for types."""
+        """Start the type checker, unless no code of types is selected."""
         if not self._has_types or not self._type_rules:
             return None
         from scaffold.check.type_findings import TypeFindings

@@ -88,7 +88,7 @@ def merged(
 
 
 def without_distribution(message: str) -> str:
-    """Return a message without what it says of the distributions that it is about."""
+    """Return a message without the names of distributions."""
     return _JOINED.sub("", message)
 
 

@@ -1,4 +1,4 @@
-"""What ``add`` prints: the files that are written and edited, the next commands, defects."""
+"""The output of ``add``: written and edited files, next commands, defects."""
 
 from __future__ import annotations
 

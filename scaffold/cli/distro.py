@@ -64,7 +64,7 @@ def chosen(flag: Sequence[str] | None, settings: Config) -> list[Distribution]:
 def recorded(
     directory: str, disk: Disk | None = None, *, is_needed: bool = False
 ) -> list[Distribution] | None:
-    """Return what the record in a package says that it is for; ``None`` without a record.
+    """Return the distributions recorded in a package; ``None`` without a record.
 
     Args:
         directory: Of the package.
@@ -166,6 +166,6 @@ def note_of_smoke(observed: str) -> tuple[str, ...]:
 
 
 def _of_shell(name: str) -> str:
-    """Return what the shell says, and why nothing can be done for that if so."""
+    """Describe the value of ROS_DISTRO, and why it is not supported, if so."""
     is_known = name in distributions.NAMES
     return f"{VARIABLE} is {name!r}" + ("" if is_known else f", which {distributions.ending(name)}")

@@ -98,7 +98,7 @@ def fix_count(count: int) -> str:
 
 
 def note_unexamined(diagnostics: Sequence[tuple[Package, Diagnostic]]) -> bool:
-    """Note the files that could not be examined, so that a patch says nothing about them.
+    """Note the files that could not be examined and are missing from the patch.
 
     Args:
         diagnostics: What is left, with the packages.

@@ -1,4 +1,4 @@
-"""What ``new`` prints: the files of a package, the next commands, defects of templates."""
+"""The output of ``new``: the files of a package, next commands, defects of templates."""
 
 from __future__ import annotations
 

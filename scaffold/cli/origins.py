@@ -99,7 +99,7 @@ def _ended(directory: str) -> list[str]:
 
 
 def _recorded(directory: str, ended: Sequence[str]) -> list[Distribution] | None:
-    """Return what the record of a package says, but for what is supported no more."""
+    """Return the recorded distributions of a package that are still supported."""
     if not ended:
         return distro.recorded(directory)
     left = [name for name in distro.recorded_names(directory) or () if name not in ended]
@@ -118,7 +118,7 @@ def notes(origins: Origins, target: Distribution) -> Iterator[str]:
 
 
 def _unknown(directories: Sequence[str]) -> str:
-    """Return the sentence about packages of which nothing says what they come from."""
+    """Return the sentence about packages whose current distribution is unknown."""
     number = len(directories)
     names = ", ".join(map(os.path.normpath, directories[:_SHOWN]))
     if number > _SHOWN:
@@ -128,7 +128,7 @@ def _unknown(directories: Sequence[str]) -> str:
 
 
 def _assumption(origins: Origins, target: Distribution) -> str:
-    """Return the sentence about packages that stay, as nothing says that they are for another."""
+    """Return the sentence about packages that are assumed to be for the target already."""
     where, _, why = _unknown(origins.assumed).partition(": ")
     return f"{where}: not moved: {why}, and the default is {target.title} itself; --from names it"
 

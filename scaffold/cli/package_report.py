@@ -1,4 +1,4 @@
-"""What ``new`` and ``add`` print alike: conflicts, edits left to the user, the next commands."""
+"""Common output of ``new`` and ``add``: conflicts, edits left to the user, next commands."""
 
 from __future__ import annotations
 

@@ -89,17 +89,17 @@ def write_report(text: str) -> None:
 
 
 def note(text: str) -> None:
-    """Write a line to standard error that says what the user should know besides."""
+    """Write a note to standard error."""
     say(f"note: {text}")
 
 
 def warn(text: str) -> None:
-    """Write a line to standard error that says what is not as the user may expect."""
+    """Write a warning to standard error."""
     say(f"ros2-scaffold: warning: {text}")
 
 
 def error(text: str) -> None:
-    """Write the line to standard error that says why the run ends."""
+    """Write the error that ends the run to standard error."""
     say(f"ros2-scaffold: error: {text}")
 
 

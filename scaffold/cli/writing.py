@@ -46,7 +46,7 @@ class Held(NamedTuple):
 
 
 def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
-    """Hold packages until a stack is closed, as `held` does; those that are not to be had are said.
+    """Lock packages until a stack is closed, as `held` does; report those that are locked already.
 
     Args:
         stack: Lets them go.

@@ -64,7 +64,7 @@ class Cluster:
     def map(
         self, function: Callable[..., Result], tasks: Mapping[str, Task], *shared: object
     ) -> Iterator[Done[Result]]:
-        """Hand out tasks; yield what becomes of each, once, in the order in which they end.
+        """Submit tasks; yield the outcome of each, once, in the order in which they end.
 
         A task whose worker dies is run again on another one; Dask gives up when that happens to
         it again and again.

@@ -18,7 +18,7 @@ Findings = Sequence[tuple[str, Finding]]
 
 
 def as_data(environments: Sequence[Environment], findings: Findings) -> dict[str, Any]:
-    """Return everything as JSON knows it."""
+    """Return the report as JSON data."""
     return {
         "schema_version": SCHEMA_VERSION,
         "environments": [

@@ -175,7 +175,7 @@ class RuleProcess:
         self._answers: BinaryIO = os.fdopen(answers, "rb")
 
     def send(self, message: object) -> None:
-        """Send the package, and then its style; whoever has died is noticed by `findings`."""
+        """Send the package, and then its style; `findings` detects a dead process."""
         import pickle
 
         with suppress(BrokenPipeError):

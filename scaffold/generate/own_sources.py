@@ -69,7 +69,7 @@ def _is_own(path: str) -> bool:
 
 
 def _foreign_directories(package: Package) -> set[str]:
-    """Return the directories with a license file of their own: somebody else's work."""
+    """Return the directories with their own license file, which are vendored."""
     result: set[str] = set()
     for path in package.files:
         directory, _, name = path.rpartition("/")

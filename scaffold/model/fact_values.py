@@ -1,4 +1,4 @@
-"""How the values of facts are stored: as something that marshal can write."""
+"""Converts values of facts to and from types that marshal can write."""
 
 from __future__ import annotations
 

@@ -170,7 +170,7 @@ class Package(PackageFiles):
         return self._view(("module", path), parse)
 
     def parsed_module(self, path: str) -> PythonModule | None:
-        """Return a Python file if somebody has asked for it before."""
+        """Return a Python file if it has been parsed already."""
         view = self._views.get(("module", path))
         return None if isinstance(view, ViewError) else cast("PythonModule | None", view)
 
@@ -244,7 +244,7 @@ class Package(PackageFiles):
 
     @property
     def known_identity(self) -> Identity | None:
-        """The identity, if somebody asked for it before."""
+        """The identity, if it has been computed already."""
         return self._identity
 
     def identify(self, identity: Identity) -> None:

@@ -1,4 +1,4 @@
-"""The files of a package, and whatever is made of them, each once."""
+"""The files of a package, and parsed views of them, each created once."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from scaffold.programs import installation
 
 
 def of(prefix: str) -> str:
-    """Return the name of the distribution; the default, if no wheel says which.
+    """Return the name of the distribution; the default, if no wheel has one.
 
     Args:
         prefix: The Python environment.

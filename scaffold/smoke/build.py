@@ -112,7 +112,7 @@ def _resolved(path: Path) -> str:
 async def _run(
     command: list[str], variables: Mapping[str, str], out: Path, origin: Origin, deadline: float
 ) -> tuple[str, int | None, list[str]]:
-    """Return what colcon says, its exit code, and the processes that it has left running.
+    """Return the output of colcon, its exit code, and the processes that it left running.
 
     The exit code is ``None`` if time was up before.
     """

@@ -84,7 +84,7 @@ class Expectation:
 def compare(
     expectation: Expectation, observation: Observation, seconds: float, *, finished: bool = False
 ) -> tuple[list[Problem], list[str]]:
-    """Return the problems, and what is worth a note.
+    """Return the problems and the notes.
 
     Args:
         expectation: What the source says.

@@ -59,7 +59,7 @@ def run_task(task: Task) -> Outcome:
 
 
 def _relative(executable: Executable, package: Package) -> Executable:
-    """Name the source of an executable as its package knows it."""
+    """Return the source path of an executable relative to its package."""
     if not executable.source:
         return executable
     path = os.path.relpath(os.path.abspath(executable.source), package.directory)
@@ -133,7 +133,7 @@ def _verdict(item: Done[Outcome]) -> str:
 
 
 def _of_package(package: Package, done: Done[Outcome] | None) -> PackageResult:
-    """Return the result of a package as this machine knows its files."""
+    """Return the result of a package with paths of this machine."""
     manifest = in_repository(package, MANIFEST)
     if done is None:
         build = Build(ok=False, interrupted=True)

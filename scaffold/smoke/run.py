@@ -337,7 +337,7 @@ class _Run:
 
 
 def _since(running: process.Running, observation: Observation, meter: Meter) -> Observation:
-    """Return an observation with what only the starter of the executable knows."""
+    """Return an observation with times relative to the start of the executable."""
     started = time.time() - (time.monotonic() - running.started)
     topics = (
         topic if topic.first is None else replace(topic, first_after=topic.first - started)

@@ -189,7 +189,7 @@ class _Session:
         self._left_out: set[str] = set()
 
     async def run(self, sources: Sequence[Source]) -> None:
-        """Do all that is asked for; ``results`` says how far it came."""
+        """Run the session; ``results`` holds the progress."""
         try:
             await self._provide_interfaces(sources)
             sources = self._without_hopeless(sources)
@@ -206,7 +206,7 @@ class _Session:
             await self._stations.close()
 
     def _without_hopeless(self, sources: Sequence[Source]) -> list[Source]:
-        """Name what the environment lacks; return the packages without those not worth a build.
+        """Report missing dependencies; return the packages that can be built.
 
         What others need when they run does not keep them from being built and run.
         """

@@ -224,7 +224,7 @@ def _mismatch(publisher: Endpoint, subscription: Endpoint) -> str:
 
 
 def _misspelled(topics: Sequence[Topic]) -> Iterator[Problem]:
-    """Yield subscriptions that nothing serves, next to a publisher that nobody hears."""
+    """Yield subscriptions without publishers, if there is a publisher with a similar name."""
     unheard = {topic.name: topic for topic in topics if topic.publishers and not topic.subscribers}
     for topic in topics:
         if topic.publishers or not topic.subscribers:

@@ -320,7 +320,7 @@ class TypeFinding:
         return not names.isdisjoint(others)
 
     def _asks_element(self, conditions: Sequence[Condition]) -> bool:
-        """Tell whether another element of the same sequence says what an element is.
+        """Tell whether another element of the same sequence determines the kind of an element.
 
         ``if step[0] == 'turn':`` in front of ``step[1]``: the first one is the kind of a step.
         """

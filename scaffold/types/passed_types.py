@@ -1,4 +1,4 @@
-"""The types of what modules pass to functions of others, as the type checker names them.
+"""The types of arguments passed between modules, as the type checker names them.
 
 A module about which nothing was reported need not be checked again when another one that calls its
 functions is edited, as long as that passes values of the same types. Types are compared by their

@@ -1,4 +1,4 @@
-"""The files that the type checker reads: those to check, and what they import, as it sees them."""
+"""The files for the type checker: those to check and their imports, as rewritten for it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Code for ROS 1 in a file for both: it runs under the condition that rospy is imported under."""
+"""Code for ROS 1 in files for ROS 1 and 2: guarded by the condition that guards rospy."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ class Source:
 
     @property
     def dotted(self) -> str:
-        """What others import it as; empty if nobody can."""
+        """The name to import it by; empty if it cannot be imported."""
         parts = self.place.removesuffix(".py").split("/")
         return ".".join(parts[1:]) if parts[0] == LIBRARY else ""
 
@@ -104,7 +104,7 @@ def _called(part: bytes) -> tuple[str, str]:
 
 
 def _absolute(base: str, module: str) -> str | None:
-    """Return a module as an absolute name; ``None`` for a relative one that nobody can import."""
+    """Return a module as an absolute name; ``None`` for a relative one that cannot be imported."""
     name = base.lstrip(".")
     level = len(base) - len(name)
     if not level:

@@ -82,7 +82,7 @@ def _without_arguments(type_: str) -> str:
 
 
 def is_function(type_: str) -> bool:
-    """Tell whether a type is that of a function or a method, whoever wrote it."""
+    """Tell whether a type is that of a function or a method."""
     return re.match(r"(?:bound method|def) ", type_) is not None or type_.startswith("(")
 
 

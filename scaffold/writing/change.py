@@ -85,7 +85,7 @@ def shown(root: str, path: str) -> str:
 
 
 def refusal(root: str, changed: Sequence[str], left: Sequence[str]) -> str:
-    """Return the message for files that somebody else has changed."""
+    """Return the message for files that another process has changed."""
     message = f"{_names(root, changed)} changed after it was read"
     if left:
         return f"{message}; everything was undone except {_names(root, left)}, which changed too"

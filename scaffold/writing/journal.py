@@ -121,7 +121,7 @@ class Transaction:
         return state(slot) == change.before
 
     def _is_edited(self, change: Change) -> bool:
-        """Tell whether somebody else has changed the file."""
+        """Tell whether another process has changed the file."""
         return self._now(change) not in {change.before, change.after}
 
     # -- forward and back

@@ -45,7 +45,7 @@ def locked(directory: str, notify: Callable[[str], None]) -> Iterator[None]:
 
 
 def try_lock(directory: str) -> int | None:
-    """Return a descriptor that holds the lock of a directory, ``None`` if somebody else has it.
+    """Return a descriptor that holds the lock of a directory, ``None`` if it is locked already.
 
     Raises:
         OSError: there is no such directory, or it cannot be locked.

@@ -146,7 +146,7 @@ def _between(before: Token, token: Token, text: str, lines: Sequence[str]) -> st
 
 
 def gap(last: str, following: str) -> str:
-    """Return what stands for a line break between a character and a token."""
+    """Return the replacement for a line break between a character and a token."""
     return " " if last == "," or (last not in "{[(" and following not in "}])") else ""
 
 

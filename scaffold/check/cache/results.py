@@ -216,7 +216,7 @@ def _is_unaffected(
 
 
 def _configures(package: Package, verdict: tuple[Any, ...], edited: frozenset[str]) -> bool:
-    """Tell whether an edited file said, or says now, by what the style of others is judged."""
+    """Tell whether an edited file configures, or configured, the style of others."""
     paths, *_, configuring = verdict
     if any(paths[at] in edited for at in configuring):
         return True

@@ -46,7 +46,7 @@ class WorkerReads(NamedTuple):
         return bool(looked or self.uses_all or self.uses_interfaces or not self.is_repeatable)
 
     def add_to(self, packages: Sequence[Package]) -> None:
-        """Tell the package of this process what that of the worker knows."""
+        """Add what the worker read to the package of this process."""
         package = packages[self.at]
         disk_of(package).note(self.inside.seen, is_settled=self.inside.is_settled)
         package.outside.note(self.outside.seen, is_settled=self.outside.is_settled)

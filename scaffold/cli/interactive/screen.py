@@ -44,7 +44,7 @@ def terminal() -> Iterator[None]:
 
 
 def _size() -> Size:
-    """Return the size of the terminal, whatever the environment says; some have none."""
+    """Return the size of the terminal itself, ignoring the environment; some have none."""
     width, height = os.get_terminal_size(sys.stdout.fileno())
     return Size(rows=height or 24, columns=width or 80)
 

@@ -201,7 +201,7 @@ def _asked(templates: Mapping[str, Template]) -> list[Question]:
 def _given(
     options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
 ) -> dict[str, Given]:
-    """Return the user's answers; what the configuration says of packages, these know better."""
+    """Return the user's answers, without settings that an existing package determines itself."""
     from scaffold.generate.add.regenerate import OF_PACKAGES
     from scaffold.generate.questions import defaults, questions
 

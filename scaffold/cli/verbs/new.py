@@ -174,7 +174,7 @@ def _ask(
 def _dependencies(
     options: argparse.Namespace, given: Mapping[str, Given]
 ) -> tuple[Sequence[str], Sequence[str]]:
-    """Return the dependencies that the user wants, and notes on them.
+    """Return the dependencies that the user requests, and notes on them.
 
     Raises:
         InputError: one is certainly wrong.

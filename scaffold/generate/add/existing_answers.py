@@ -109,7 +109,7 @@ def own_header(package: Package) -> str:
 
 
 def _comment(lines: Sequence[str], number: int) -> str:
-    """Return the comment lines around a line, without the author: that is whoever adds code.
+    """Return the comment lines around a line, without the author.
 
     Paragraphs of a license that empty lines keep apart are one comment.
     """

@@ -207,7 +207,7 @@ def _export_runtime(editor: Editor) -> None:
 
 
 def _enable(editor: Editor, *languages: str) -> None:
-    """Have CMake look for compilers: ``project(name NONE)`` says that it need not."""
+    """Enable compilers, which ``project(name NONE)`` disables."""
     project = editor.lists.project
     if project is None:
         return

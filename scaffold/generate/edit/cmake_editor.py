@@ -130,7 +130,7 @@ class Editor:
             self.lists = changed
 
     def refused(self, line: str, *, is_test: bool = False) -> bool:
-        """Tell whether no edit of the file is safe; the user is told to add the line then."""
+        """Tell whether no edit of the file is safe, so that the user has to add the line."""
         lists = self.lists
         ends = [call for call in lists.find(*LAST_CALLS) if call.depth == 0]
         if lists.project_name != self.package:
@@ -183,7 +183,7 @@ def _globs(lists: CMakeLists, argument: Argument, path: str) -> bool:
 
 
 def _installs_directory(lists: CMakeLists, path: str) -> bool:
-    """Tell whether a directory is installed already, wherever the author wants it."""
+    """Tell whether a directory is installed already, with any destination."""
     return any(
         item.path is not None and (path == item.path or path.startswith(f"{item.path}/"))
         for install in lists.installs

@@ -52,7 +52,7 @@ def _is_failure(section: Section, field: Field) -> bool:
 
 
 def reported(types: Types, section: Section) -> SectionPayload:
-    """Return what a server says at each step: a feedback."""
+    """Return the code that publishes feedback at each step."""
     values = {field.name: _progress(field) for field in section.fields}
     return _filled(types, section, values, counter="step")
 

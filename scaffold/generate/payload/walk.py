@@ -376,7 +376,7 @@ def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field
 
 
 def comment_of(field: Field, unit: str) -> str:
-    """Return the comment for a field: what its definition says in a few words, or the unit."""
+    """Return the comment for a field: a short one of its definition, or the unit."""
     own = " ".join(field.comment.split())
     if own and len(own) <= _SHORT and own.isascii() and own.isprintable() and "noqa" not in own:
         return own

@@ -130,7 +130,7 @@ def _check_form(text: str, kind: str, *, at_least: int = 1) -> None:
 
 
 def _repaired(text: str) -> str:
-    """Return the name that somebody probably meant."""
+    """Return the valid name that the user probably meant."""
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", text)
     return re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_").lstrip("0123456789_")
 

@@ -221,7 +221,7 @@ class _TemplateErrors:
 
 
 def _line_of(error: Exception) -> str:
-    """Return where in a template's file something went wrong, if Jinja knows."""
+    """Return the line of an error in a template's file, if Jinja provides it."""
     import traceback
 
     if isinstance(error, TemplateSyntaxError):

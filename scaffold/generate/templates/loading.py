@@ -240,7 +240,7 @@ def _manifest(path: str) -> dict[str, Any]:
 
 
 def _refuse_others(path: str, key: str, value: object) -> None:
-    """Raise if a list or a mapping holds something of another type than its key says."""
+    """Raise if a list or a mapping has an item of the wrong type for its key."""
     inside: Iterable[object] = value if isinstance(value, list) else ()
     if isinstance(value, dict):
         inside = value.values()

@@ -231,7 +231,7 @@ def _matched(text: Known, pattern: Known) -> Decision:
 
 
 def _version(left: str, operator: str, words: Sequence[Word], scope: Scope) -> Decision:
-    """Return what a comparison with the version of a package says that is released for ROS 2."""
+    """Return the result of a comparison with the version of a package released for ROS 2."""
     wanted = scope.expand(words[2].text).value
     name = left.removeprefix("${").removesuffix("}")
     package = name.removesuffix("_VERSION")

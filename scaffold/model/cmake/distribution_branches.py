@@ -167,7 +167,7 @@ class _Walk:
 
     @property
     def _is_sure(self) -> bool:
-        """Whether a command is in a branch of its function that runs, as the distribution says."""
+        """Tell whether a command is in a branch of its function that runs on the target."""
         around: list[_Block] = []
         for block in reversed(self._blocks):
             if block.name == "function":

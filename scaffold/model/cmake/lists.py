@@ -268,7 +268,7 @@ class CMakeLists:
 
     @cached_property
     def _options_off(self) -> frozenset[str]:
-        """The options that are off unless somebody asks for them."""
+        """The options that are off by default."""
         options = [command.values for command in self.find("option")]
         given = {command.values[0] for command in self.find("set") if command.values}
         return frozenset(

@@ -88,7 +88,7 @@ def sources_around(disk: Disk, directory: str) -> str | None:
 
 
 def sources_at(disk: Disk, directory: str) -> str | None:
-    """Return the sources of the workspace that somebody in a directory works on.
+    """Return the sources of the workspace around a directory.
 
     Those below it, else those around it.
 
@@ -101,7 +101,7 @@ def sources_at(disk: Disk, directory: str) -> str | None:
 
 
 def packages_around(disk: Disk, directory: str, *, most: int) -> list[str]:
-    """Return the packages of the workspace that somebody in a directory works on.
+    """Return the packages of the workspace around a directory.
 
     Without a directory ``src``, these are the packages side by side there, and all in the git
     repository around it.

@@ -1,4 +1,4 @@
-"""Names of packages in ``*.repos`` files, which ``vcs import`` fetches the sources of."""
+"""The packages that ``*.repos`` files list for ``vcs import``."""
 
 from __future__ import annotations
 

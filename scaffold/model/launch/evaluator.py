@@ -1,4 +1,4 @@
-"""What expressions of a launch file are worth: paths in share directories, substitutions."""
+"""Static evaluation of expressions in launch files: share paths, substitutions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class LaunchEvaluator(Evaluator):
         self._package_name = package_name
 
     def call(self, node: ast.Call) -> object:
-        """Return what a call of launch is worth: a substitution is the text that it gives."""
+        """Return the value of a call of launch; that of a substitution is its text."""
         launch = launch_call(self.module, node)
         if launch is None:
             return self._found_package(node)

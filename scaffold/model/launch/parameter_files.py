@@ -59,7 +59,7 @@ def values_in_files(package: Package) -> Iterator[FileValue]:
 
 
 def use_of(package: Package, path: str) -> FileUse:
-    """Return who reads a parameter file, as far as the package itself says."""
+    """Return the nodes that read a parameter file, according to the package itself."""
     return package.remember(("file_use", path), lambda: _use_of(package, path))
 
 

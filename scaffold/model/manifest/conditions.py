@@ -65,7 +65,7 @@ def names_unknown(condition: str) -> bool:
 
 
 def misspelled(condition: str) -> Iterator[tuple[str, str]]:
-    """Yield the variables and distributions that nobody knows, with the known ones that are near.
+    """Yield unknown variables and distributions, with the closest known ones.
 
     Args:
         condition: A condition that follows the grammar.

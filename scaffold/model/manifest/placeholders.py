@@ -12,7 +12,7 @@ _ADDRESSES = (
 
 
 def is_placeholder(text: str) -> bool:
-    """Tell whether a text is only a placeholder for one that somebody has to write.
+    """Tell whether a text is only a placeholder.
 
     ``TODO: Package description`` is what ``ros2 pkg create`` writes.
     """

@@ -1,4 +1,4 @@
-"""Which kind of Python value an expression certainly has."""
+"""Infers the Python type of an expression, if it is certain."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ def open_parts(module: SyntaxTree, test: ast.expr, depth: int = 0) -> Iterator[a
 
 
 def asks(module: SyntaxTree, value: ast.expr) -> bool:
-    """Tell whether the distribution decides what an expression is worth."""
+    """Tell whether the value of an expression depends on the distribution."""
     if not module.mentions(*ASKED):
         return False
     evaluator = _DistributionEvaluator(module)
@@ -106,7 +106,7 @@ def text_on_target(module: SyntaxTree, value: ast.expr) -> str | None:
 
 
 def worth(module: SyntaxTree, value: ast.expr) -> tuple[object, bool]:
-    """Return what an expression is worth on the target, and whether the distribution decides it."""
+    """Return an expression's value on the target, and whether it depends on the distribution."""
     result, notes = _DistributionEvaluator(module).trace(value)
     return result, bool(notes)
 
@@ -124,7 +124,7 @@ class _DistributionEvaluator(Evaluator):
     """An evaluator that knows ROS_DISTRO, ROS_VERSION and the Python version."""
 
     def call(self, node: ast.Call) -> object:
-        """Return the value of the variable, or what a method says of a text."""
+        """Return the value of the variable, or the result of a string method."""
         match node:
             case ast.Call(func=func, args=[ast.Constant(value=key), *_]) if (
                 key in _OF_ENVIRONMENT and self.module.qualified_name(func) == _GETTER
@@ -246,7 +246,7 @@ class _DistributionEvaluator(Evaluator):
         return all(results) if all(map(is_known, results)) else UNKNOWN
 
     def _pair(self, left: ast.expr, compare: ast.cmpop, right: ast.expr) -> object:
-        """Return what a comparison of two expressions is worth."""
+        """Return the result of comparing two expressions."""
         if isinstance(compare, ast.In | ast.NotIn):
             if self._is_environment(right):
                 return self._is_set(left, compare)

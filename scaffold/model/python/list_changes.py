@@ -1,4 +1,4 @@
-"""Where the code of a module changes a list after it was made, such as with ``append``."""
+"""Changes of lists after their creation, such as with ``append``."""
 
 from __future__ import annotations
 

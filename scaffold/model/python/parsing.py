@@ -91,7 +91,7 @@ class Positions:
 
 
 def decode(path: str, data: bytes) -> Source:
-    """Decode a Python file as its coding cookie says, UTF-8 without one.
+    """Decode a Python file by its coding cookie, or as UTF-8 without one.
 
     Raises:
         ParseError: the encoding is not known, or the bytes are not of this encoding.

@@ -94,7 +94,7 @@ def _passes_one(statement: ast.stmt) -> bool:
 
 
 def _holds_until_shutdown(test: ast.expr) -> bool:
-    """Tell whether a condition is always true, or ``rclpy.ok()``: then nobody waits for a value."""
+    """Tell whether a condition is always true, or ``rclpy.ok()``: then the value is not used."""
     match test:
         case ast.Constant(value=value):
             return bool(value)

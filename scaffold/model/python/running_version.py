@@ -23,7 +23,7 @@ class RunningVersion(tuple[int, ...]):
     __slots__ = ()
 
     def compare(self, operator: type[ast.cmpop], other: object) -> bool | None:
-        """Return what a comparison is worth; ``None`` where numbers that are not known decide.
+        """Return the result of a comparison; ``None`` if it depends on unknown numbers.
 
         Args:
             operator: The type of the operator.

@@ -1,4 +1,4 @@
-"""The syntax tree of a Python file, with places and full names."""
+"""The syntax tree of a Python file, with locations and qualified names."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class SyntaxTree:
 
     @classmethod
     def parse_bytes(cls, path: str, data: bytes) -> Self:
-        """Decode a file as its coding cookie says and parse it; raises like ``parse``."""
+        """Decode a file by its coding cookie and parse it; raises like ``parse``."""
         return cls.parse(decode(path, data))
 
     def _refuse_later_syntax(self) -> None:

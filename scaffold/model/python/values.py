@@ -141,7 +141,7 @@ def same(first: object, second: object) -> bool:
 
 
 def held_small(value: object) -> object:
-    """Return a value unless it is too large to be worth keeping."""
+    """Return a value unless it is too large to keep."""
     if isinstance(value, str | bytes | list | tuple | dict) and len(value) > MAX_LENGTH:
         return UNKNOWN
     if type(value) is int and abs(value) > MAX_NUMBER:

@@ -232,7 +232,7 @@ class _Search:
         matched: tuple[Change, str],
         place: tuple[int, int],
     ) -> Iterator[ChangedUse]:
-        """Yield a use, unless the code knows about it."""
+        """Yield a use, unless the code handles it."""
         change, written = matched
         # `except Exception` around much code is not there for the name: the rest is skipped.
         is_broad = error in _OF_IMPORT
@@ -297,7 +297,7 @@ def is_asked_for(module: PythonModule, node: ast.AST, name: str, replacement: st
 
 
 def is_tried(module: PythonModule, call: ast.Call, keyword: str) -> bool:
-    """Tell whether code knows that a function may not take what a call gives it.
+    """Tell whether code handles the case that a function rejects the arguments of a call.
 
     It catches ``TypeError``, has a fallback, or asks for the argument or a version first.
 
@@ -378,7 +378,7 @@ class _Asked(NamedTuple):
         return roots == {self.name.partition(".")[0]}
 
     def _is_of_import(self, flag: str) -> bool:
-        """Tell whether a flag says that something of the package was imported."""
+        """Tell whether a flag records that something of the package was imported."""
         setting = [node for node in self.module.walk(ast.Try) if flag in _assigned(node)]
         return not setting or any(
             item.root == self.name.partition(".")[0]

@@ -45,7 +45,7 @@ class NodeEvaluator(AttributeEvaluator):
         self._call_sites = CallSites(self)
 
     def imported(self, name: str) -> object:
-        """Return what a constant of another module of the package is worth."""
+        """Return the value of a constant of another module of the package."""
         last = name.rpartition(".")[2]
         return UNKNOWN if self.stores(last) else self._constant(name)
 

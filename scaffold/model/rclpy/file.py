@@ -75,7 +75,7 @@ class Modules(Protocol):
 
 
 def rclpy_file(modules: Modules, path: str) -> RclpyFile:
-    """Return what the rclpy code of a Python file says; raises ViewError."""
+    """Return the rclpy view of a Python file; raises ViewError."""
     return modules.remember(("nodes", path), lambda: RclpyFile.of(modules.module(path), modules))
 
 
@@ -233,7 +233,7 @@ class RclpyFile:
         return None
 
     def definition_of(self, node: ast.expr) -> tuple[RclpyFile, ast.FunctionDef | ast.expr] | None:
-        """Return the function, or the value of the constant, that a name of the package stands for.
+        """Return the function, or the value of the constant, that a name of the package refers to.
 
         With the file that it is in. A name that is bound more than once has none.
         """
@@ -257,7 +257,7 @@ class RclpyFile:
         return (facts, bindings[0].value) if bindings[0].value is not None else None
 
     def _constant(self, name: str) -> object:
-        """Return what a dotted name is worth if it is a constant of another module."""
+        """Return the value of a dotted name if it is a constant of another module."""
         package = self.modules
         module, _, names = name.rpartition(".")
         while module.strip(".") and isinstance(package, Package):

@@ -1,4 +1,4 @@
-"""Functions and methods that nothing calls, as far as their names tell."""
+"""Functions and methods that are never called, judging by their names."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def is_known(value: object) -> bool:
 
 
 def unknown(text: str) -> str:
-    """Return a text of which a run alone knows what it is."""
+    """Return a placeholder for a text that is only known at run time."""
     return f"{UNKNOWN_MARK}{text.replace(UNKNOWN_MARK, '')}{UNKNOWN_MARK}"
 
 

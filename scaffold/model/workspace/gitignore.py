@@ -32,7 +32,7 @@ def is_untracked(package: Package, path: str) -> bool:
 
 
 def _ignore_files(package: Package, path: str) -> Iterator[tuple[str, str, str]]:
-    """Yield a path in the package, from the directory of a ``.gitignore``, and what that says."""
+    """Yield a path in the package, relative to a ``.gitignore``, and the patterns of that file."""
     for prefix, text in _texts(package, _FILE):
         yield path, f"{prefix}{path}", text
     directory, *rest = path.split("/")

@@ -27,7 +27,7 @@ class Workspace:
     ) -> None:
         self._packages = list(packages)
         self.policy = policy or Policy()
-        """What the configuration says that rules have to know."""
+        """The settings of the configuration that rules use."""
         self.disk = disk or Disk()
         """What is accessed outside of the packages."""
         self.around: UncheckedPackages | None = None
@@ -105,13 +105,13 @@ class WorkspaceView:
 
     @property
     def names(self) -> list[str]:
-        """The sorted names of the packages; these, a memory of verdicts knows for all."""
+        """The sorted names of the packages, which are part of the cache key of every package."""
         around = self._workspace.around
         return sorted({*self._workspace.by_name, *(around.directories if around else ())})
 
     @property
     def policy(self) -> Policy:
-        """What the configuration says that rules have to know."""
+        """The settings of the configuration that rules use."""
         return self._workspace.policy
 
     @property

@@ -66,7 +66,7 @@ def opened(mark: str, scratch: Path | None) -> Iterator[Path | None]:
 
 
 def read(path: Path) -> Entries:
-    """Return what a ledger says.
+    """Return the entries of a ledger.
 
     Raises:
         OSError: it cannot be read.

@@ -56,7 +56,7 @@ def _take(lock: socket.socket) -> int:
 
 
 def domains_in_use() -> set[int]:
-    """Return the domains in whose range of ports somebody listens."""
+    """Return the domains with a port in use."""
     return {(port - _FIRST_PORT) // _PORTS for port, _ in _udp_sockets()}
 
 

@@ -67,7 +67,7 @@ def remove_unused(names: Iterable[str]) -> list[str]:
 
 
 def _remove(name: str) -> list[str]:
-    """Remove a segment with the files that belong to it, unless somebody has locked it."""
+    """Remove a segment with its files, unless it is locked."""
     base = os.path.join(DIRECTORY, name)
     semaphore = os.path.join(DIRECTORY, f"sem.{name}_mutex")
     locks = [base + suffix for suffix in _LOCKS]

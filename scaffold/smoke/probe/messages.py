@@ -21,13 +21,13 @@ def find_type(name: str) -> Ros:
 
 
 def as_data(message: Ros) -> dict[str, object]:
-    """Return a message as JSON knows it; long sequences and texts end in an ellipsis."""
+    """Return a message as JSON data; long sequences and texts end in an ellipsis."""
     fields = message.get_fields_and_field_types()
     return {field: _field(getattr(message, field), kind) for field, kind in fields.items()}
 
 
 def plain(value: Ros) -> object:
-    """Return the value of a field as JSON knows it."""
+    """Return the value of a field as JSON data."""
     return None if value is None else _field(value, "")
 
 

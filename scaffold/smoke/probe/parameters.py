@@ -92,7 +92,7 @@ class _Inquiry:
 
 
 def value_of(value: Ros) -> object:
-    """Return the value of a parameter as JSON knows it; long ones end in an ellipsis."""
+    """Return the value of a parameter as JSON data; long ones end in an ellipsis."""
     number = value.type
     plain = getattr(value, _FIELDS[number]) if 0 < number < len(_FIELDS) else None
     if isinstance(plain, str) and len(plain) > SHOWN_CHARACTERS:

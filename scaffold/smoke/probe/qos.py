@@ -15,7 +15,7 @@ _DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
 
 
 def as_data(profile: Ros) -> dict[str, object]:
-    """Return a profile as JSON knows it: names in lower case, and seconds or ``None`` for no limit.
+    """Return a profile as JSON data: names in lower case, and seconds or ``None`` for no limit.
 
     What the middleware does not tell about others is ``unknown``, and a depth of 0.
     """

@@ -47,7 +47,7 @@ class Topic:
         self._is_late = False
 
     def take(self, data: bytes, info: dict[str, int], message_type: Ros) -> None:
-        """Take in a serialized message and what the middleware knows about it."""
+        """Record a serialized message and its metadata from the middleware."""
         now = _sending(info)
         self.count += 1
         if self.count == 1:
@@ -120,7 +120,7 @@ def _number(info: dict[str, int]) -> int:
 
 
 def _sending(info: dict[str, int]) -> float:
-    """Return when a message was sent, as the middleware knows it.
+    """Return the source timestamp of a message from the middleware.
 
     This process may be late, and what is kept for late subscribers comes all at once.
     """

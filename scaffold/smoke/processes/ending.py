@@ -1,4 +1,4 @@
-"""Ending a process with signals, and what it took."""
+"""Ends a process with signals, and reports which were needed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The processes of a run, known by a mark in their environment, whatever became of their parent."""
+"""Finds the processes of a run by a mark in their environment."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ def traceback(text: str) -> str | None:
 
 
 def exception(trace: str) -> str:
-    """Return the line of a traceback that says what happened."""
+    """Return the line of a traceback with the exception."""
     return trace.rpartition("\n")[2].strip()
 
 
@@ -149,7 +149,7 @@ def warnings(text: str) -> list[str]:
 
 
 def complaints(text: str, directory: str) -> list[str]:
-    """Return what colcon itself says about the package in a directory."""
+    """Return the errors of colcon itself about the package in a directory."""
     result = [match["text"] for match in _COMPLAINT.finditer(text) if directory in match["text"]]
     return _limited([line for item in result for line in item.splitlines()])
 
@@ -161,7 +161,7 @@ def named_error(text: str) -> str | None:
 
 
 def missing_arguments(text: str) -> str | None:
-    """Return how a program that has failed says that it was started without its arguments.
+    """Return the line in which a failed program reports missing arguments.
 
     Returns:
         ``None`` if that is not why.

@@ -32,7 +32,7 @@ class Meter:
         self._peak = 0
 
     def begin(self) -> None:
-        """Begin the time for which the load is told."""
+        """Start measuring the load."""
         self.measure()
         self._begin = (self._now, sum(self._cpu_of.values()))
 

@@ -45,7 +45,7 @@ def size(number: float) -> str:
 
 
 def milliseconds(spread: Spread) -> str:
-    """Return times as `ros2 topic hz` knows them."""
+    """Format times like `ros2 topic hz`."""
     return (
         f"{spread.mean * _MILLI:.2f} ms, deviation {spread.deviation * _MILLI:.2f} ms, "
         f"{spread.least * _MILLI:.2f} to {spread.greatest * _MILLI:.2f} ms"

@@ -33,7 +33,7 @@ _PERCENT = 100
 
 
 def scenarios(package: Package, executables: Collection[str]) -> dict[str, Scenario]:
-    """Return what the file of a package says about its executables; nothing without a file.
+    """Return the scenarios of a package by executable; empty without a file.
 
     Args:
         package: The package.
@@ -253,7 +253,7 @@ class _Reader:
         return result
 
     def _value(self, node: YamlNode) -> Any:  # noqa: ANN401  what the file holds
-        """Return a value as YAML knows it; nothing is multiplied or built."""
+        """Return a value of YAML; aliases are not expanded, and no objects are built."""
         if isinstance(node, Alias):
             self.refuse(node.location.line, f"the alias *{node.name}: write its value instead")
         if isinstance(node, Scalar):

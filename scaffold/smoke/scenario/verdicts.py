@@ -20,7 +20,7 @@ from scaffold.smoke.scenario.model import (
 
 
 def overridden(derived: Expectation, scenario: Scenario) -> Expectation:
-    """Return what is expected in all: what the author says goes before what the source says."""
+    """Return the expectations of the source, overridden by those of the author."""
     topics = {topic.name: topic for topic in scenario.topics}
     publications = [
         _publication(publication, topics.pop(publication.topic))

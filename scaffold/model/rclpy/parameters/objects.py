@@ -179,7 +179,7 @@ def parameters_set(file: RclpyFile) -> Iterator[tuple[NodeDefinition, ParameterM
 
 
 def _parameter_made(file: RclpyFile, setting: ast.Call, node: ast.expr) -> ParameterMade | None:
-    """Return what ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)`` says."""
+    """Parse ``Parameter('rate', Parameter.Type.DOUBLE, 1.0)``."""
     call = file.evaluator.single_value(node)
     if not isinstance(call, ast.Call):
         return None
@@ -226,7 +226,7 @@ def names_used(file: RclpyFile) -> Iterator[NameUsed]:
 
 
 def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]:
-    """Return what `names_used` says of one node; a file is checked once for all of its nodes."""
+    """Return the result of `names_used` for one node; a file is analyzed once for all nodes."""
 
     def by_owner() -> dict[NodeDefinition, list[NameUsed]]:
         result: dict[NodeDefinition, list[NameUsed]] = {}

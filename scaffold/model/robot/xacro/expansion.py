@@ -78,7 +78,7 @@ class Expansion:
         return self
 
     def read_macro(self, macro: Element) -> Expansion:
-        """Expand the body of a macro that nobody calls."""
+        """Expand the body of a macro that is never called."""
         scope = Scope()
         for name in parameters(macro.get("params") or ""):
             scope.values[name] = unknown(name)
