@@ -20,13 +20,13 @@ _CLASS = (
 
 
 class InstanceAnnotations(PythonRule):
-    """Code asks an object for the annotations of its class.
+    """Code reads the annotations of a class from an instance.
 
     **Why.** From Python 3.14 on, which Lyrical uses, an object does not have them:
     ``self.__annotations__`` raises ``AttributeError``, and ``getattr`` returns its default, as if
     nothing were annotated.
 
-    **Fix.** Ask the class, ``type(self).__annotations__``, or use ``dataclasses.fields(self)``.
+    **Fix.** Read ``type(self).__annotations__``, or use ``dataclasses.fields(self)``.
 
     **Source.** PEP 649 and 749; launch_pal, commit ce86cbe.
     """

@@ -39,7 +39,7 @@ class ColorOrderSwapped(MessageRule):
     **Why.** Red and blue are swapped, and nothing complains: thresholds in HSV find nothing, or
     the wrong object. cv_bridge refuses a gray image that is sent as one with colors.
 
-    **Fix.** Ask cv_bridge for ``bgr8``, which OpenCV works with, or use ``COLOR_RGB2...``.
+    **Fix.** Request ``bgr8`` from cv_bridge, which OpenCV works with, or use ``COLOR_RGB2...``.
 
     **Source.** OpenCV, ``cvtColor``; cv_bridge tutorial: "bgr8" is what OpenCV expects.
     """

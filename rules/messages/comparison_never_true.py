@@ -38,7 +38,7 @@ class ComparisonNeverTrue(MessageRule):
     of an action is not its status, and NaN equals nothing, itself included.
 
     **Fix.** Compare with a value of the type, best with a constant of the message:
-    ``DiagnosticStatus.OK``; ask ``math.isnan(distance)``.
+    ``DiagnosticStatus.OK``; use ``math.isnan(distance)``.
 
     **Source.** ``ros2 interface show``; https://github.com/ros2/rcl_interfaces/issues/158.
     """

@@ -21,9 +21,9 @@ _NODE = (
 
 
 class CallbackWithoutSignature(PythonRule):
-    """A subscription calls a method of a deque or a set, whose signature Python does not know.
+    """A subscription calls a method of a deque or a set, which has no Python signature.
 
-    **Why.** From Jazzy on, rclpy asks Python for the signature, to see whether the callback takes
+    **Why.** From Jazzy on, rclpy inspects the signature to see whether the callback takes
     the message alone; before Python 3.13 there is none for ``deque.append``: ``ValueError: no
     signature found for builtin``.
 

@@ -30,8 +30,8 @@ _NODE = (
 class SentBeforeKnown(RclpyRule):
     """The constructor of a node sends something with a client or publisher that it has just made.
 
-    **Why.** The client does not know the server yet, so the message is lost: the future is never
-    done, without any error.
+    **Why.** The client has not discovered the server yet, so the message is lost: the future is
+    never done, without any error.
 
     **Fix.** ``self.client.wait_for_server(timeout_sec=5.0)``, or send it from a timer when
     ``server_is_ready()``.

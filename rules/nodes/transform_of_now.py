@@ -32,7 +32,7 @@ class TransformOfNow(RclpyRule):
     transforms between the frames are static. A timeout does not help in the only thread: while a
     callback waits, no transform is received.
 
-    **Fix.** Ask for the latest transform: ``Time()``. Or wait, with ``timeout=Duration(...)`` and
+    **Fix.** Request the latest transform: ``Time()``. Or wait, with ``timeout=Duration(...)`` and
     ``TransformListener(buffer, node, spin_thread=True)``.
 
     **Source.** ROS 2 documentation, "Using time (Python)"; ``tf2_ros/buffer.py``.

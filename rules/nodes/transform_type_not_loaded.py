@@ -24,7 +24,7 @@ _NODE = (
 
 
 class TransformTypeNotLoaded(MessageRule):
-    """``buffer.transform()`` is called, but no module that knows how to transform is imported.
+    """``buffer.transform()`` is called, but the module that converts its type is not imported.
 
     **Why.** ``TypeException: Type <class 'geometry_msgs.msg._point_stamped.PointStamped'> is not
     loaded or supported``: conversions register themselves when their module is imported.

@@ -256,14 +256,18 @@ def _names_tool(disk: Disk, path: str) -> bool:
 
 
 _TABLE_IN_PYPROJECT = (
-    rb"""(?m)^[ \t]*(?:\[[^\n]*|["']?tool["']?[ \t]*\.[ \t]*)?["']?ros2-scaffold["']?[ \t]*[].=]"""
+    rb"""(?m)^[ \t]*(?:\[[^\n]*|["']?tool["']?[ \t]*\.[ \t]*)?"""
+    rb"""["']?ros2[-_]scaffold["']?[ \t]*[].=]"""
 )
 
 
 def _tool_table(disk: Disk, path: str) -> Mapping[str, Any] | None:
     if not _names_tool(disk, path):
         return None
-    table = _read(disk, path, MAX_BYTES_OF_PYPROJECT).get("tool", {}).get(TOOL)
+    tables = _read(disk, path, MAX_BYTES_OF_PYPROJECT).get("tool", {})
+    table, misspelled = tables.get(TOOL), TOOL.replace("-", "_")
+    if table is None and misspelled in tables:
+        raise ConfigError(f"{path}: unknown table [tool.{misspelled}]; did you mean [tool.{TOOL}]?")
     if table is not None and not isinstance(table, dict):
         raise ConfigError(f"{path}: tool.{TOOL} must be a table")
     return table

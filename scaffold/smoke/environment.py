@@ -120,7 +120,8 @@ def select(
             reasons.append(str(reason))
     why = f" ({'; '.join(reasons)})" if reasons else ""
     if wanted:
-        raise EnvironmentMissingError(_ways(wanted, why, paths))
+        has_wheels = _has_package(own_prefix, "rclpy")
+        raise EnvironmentMissingError(_ways(wanted, why, paths, has_wheels=has_wheels))
     raise EnvironmentMissingError(
         f"no ROS 2 environment found{why}: source the setup file of a ROS 2 installation, "
         f"install ROS 2 Jazzy, or run: {installation.command('ros')}"
@@ -134,13 +135,28 @@ def _named(environment: Environment) -> str:
     return f"{'the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
 
 
-def _ways(wanted: Sequence[Distribution], why: str, paths: Sequence[str]) -> str:
-    """Return that there is none of the distributions, and how to get one."""
+def _ways(
+    wanted: Sequence[Distribution], why: str, paths: Sequence[str], *, has_wheels: bool
+) -> str:
+    """Return that there is none of the distributions, and how to get one.
+
+    Args:
+        wanted: The distributions, each of which would do.
+        why: Why none of the environments can be used.
+        paths: What is run.
+        has_wheels: Whether the environment of this tool has wheels already, of another one.
+    """
     ways = ["source the setup file of an installation"]
     for distribution in wanted:
-        command = wheels.command_apart(distribution)
-        if command:
-            ways.append(f"run the tool with the wheels of {distribution.title}: {command}")
+        if has_wheels and wheels.command_apart(distribution):
+            command = wheels.command_apart(distribution)
+            ways.append(
+                f"install the wheels of {distribution.title} in a separate environment, and run "
+                f"the tool there: {command}"
+            )
+        elif wheels.command(distribution):
+            command = wheels.command(distribution)
+            ways.append(f"install the wheels of {distribution.title}: {command}")
     container = wheels.container(wanted[-1], [*paths])
     return (
         f"no ROS 2 {' or '.join(item.title for item in wanted)} found{why}: {'; '.join(ways)}; or "

@@ -334,6 +334,14 @@ def test_wrong_values_are_explained(
     assert message in refused(capsys)
 
 
+def test_an_underscore_in_the_name_of_the_table_is_explained(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (workspace / "pyproject.toml").write_text('[tool.ros2_scaffold.check]\nselect = ["PX"]\n')
+    message = "unknown table [tool.ros2_scaffold]; did you mean [tool.ros2-scaffold]?"
+    assert message in refused(capsys)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
