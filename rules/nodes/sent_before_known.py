@@ -25,6 +25,14 @@ _NODE = (
     "{}"
     "        self.future = self.client.call_async(Trigger.Request())\n"
 )
+_PROGRAM = (
+    "import rclpy\nfrom geometry_msgs.msg import Twist\n\n\n"
+    "def main():\n"
+    "    rclpy.init()\n"
+    "    node = rclpy.create_node('stop')\n"
+    "    publisher = node.create_publisher(Twist, 'cmd_vel', 10)\n{}"
+    "    node.destroy_node()\n"
+)
 
 
 class SentBeforeKnown(RclpyRule):
@@ -84,6 +92,22 @@ class SentBeforeKnown(RclpyRule):
             ),
         ),
         Example(
+            "a program that publishes once, at once and after spin",
+            {
+                "stop.py": _PROGRAM.format("    publisher.publish(Twist())\n"),
+                "spun.py": _PROGRAM.format(
+                    "    rclpy.spin(node)\n    publisher.publish(Twist())\n"
+                ),
+            },
+            Report(
+                "stop.py:9:5",
+                "no subscription has discovered the publisher yet: this message is "
+                "lost; publish it from a timer, or with "
+                "DurabilityPolicy.TRANSIENT_LOCAL",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a message at the end of a loop for a keyboard",
             {
                 "keys.py": "from geometry_msgs.msg import Twist\nfrom rclpy.node import Node\n\n\n"
@@ -130,16 +154,29 @@ class SentBeforeKnown(RclpyRule):
             if publisher.qos is not None and publisher.qos.durability == "VOLATILE"
         }
         again = {x.function for x in in_callbacks(file) if isinstance(x.entity, Timer)}
-        for executed in in_constructors(file):
-            is_long = any(file.module.below(executed.function, ast.While, ast.Await))
-            if is_long or executed.function in again:
+        functions = [executed.function for executed in in_constructors(file)]
+        makers = {file.function_of(made): None for made in lost}
+        functions += [
+            maker
+            for maker in makers
+            if isinstance(maker, ast.FunctionDef)
+            and file.module.enclosing_class(maker) is None
+            and not file.module.in_tests
+        ]
+        for function in functions:
+            is_long = any(file.module.below(function, ast.While, ast.Await))
+            if is_long or function in again:
                 continue
-            for call in file.calls_in(executed.function):
+            spun = [spin.call.lineno for spin in file.spin_calls if spin.function is function]
+            for call in file.calls_in(function):
                 func = call.func
                 if not isinstance(func, ast.Attribute) or func.attr != "publish":
                     continue
+                if any(line < call.lineno for line in spun):
+                    continue
                 made = file.evaluator.single_value(func.value)
-                if made in lost and not _is_repeated(file, call) and _is_made_here(file, made):
+                is_lost = made in lost and not _is_repeated(file, call)
+                if is_lost and _is_made_here(file, made, function):
                     message = (
                         "no subscription has discovered the publisher yet: this message is lost; "
                         "publish it from a timer, or with DurabilityPolicy.TRANSIENT_LOCAL"
@@ -148,10 +185,11 @@ class SentBeforeKnown(RclpyRule):
                     yield self.report(at, message, severity=Severity.WARNING)
 
 
-def _is_made_here(file: RclpyFile, made: ast.AST) -> bool:
-    """Tell whether a constructor makes a publisher, no matter what is so."""
+def _is_made_here(file: RclpyFile, made: ast.AST, where: ast.AST) -> bool:
+    """Tell whether a constructor or the same function makes a publisher, no matter what is so."""
     function = file.function_of(made)
-    return getattr(function, "name", "") == "__init__" and not conditions_on(file.module, made)
+    is_here = getattr(function, "name", "") == "__init__" or function is where
+    return is_here and not conditions_on(file.module, made)
 
 
 def _is_repeated(file: RclpyFile, call: ast.Call) -> bool:
