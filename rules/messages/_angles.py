@@ -12,6 +12,8 @@ Flaw = tuple[ast.expr, str]
 """The place, and what is wrong there."""
 _WORDS = frozenset({"yaw", "theta", "heading", "psi"})
 """Parts of the names of such angles."""
+_DEGREES = frozenset({30, 45, 60, 90, 120, 135, 180, 270, 360})
+"""Angles in degrees that are no sensible velocities in radians per second."""
 
 
 def flaws(types: MessageTypes) -> Iterator[Flaw]:
@@ -21,6 +23,11 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
             problem = _written_problem(types, item.holder, item.value)
             if problem:
                 yield item.value, problem
+        elif item.owner.name == "geometry_msgs/msg/Vector3" and _is_in_degrees(
+            types, item.holder, item.value
+        ):
+            text = types.module.text(item.value)
+            yield item.value, f"angular velocities are in radians: {text} is far too fast"
     for assigned in types.module.walk(ast.Assign):
         match assigned:
             case ast.Assign(targets=[ast.Name() | ast.Attribute() as name], value=value) if (
@@ -29,6 +36,13 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
                 problem = _read_problem(types, value)
                 if problem:
                     yield value, problem
+
+
+def _is_in_degrees(types: MessageTypes, holder: ast.expr, given: ast.expr) -> bool:
+    """Tell whether a whole angle in degrees is written into an angular velocity."""
+    value = types.facts.evaluator.evaluate(given)
+    is_velocity = isinstance(holder, ast.Attribute) and holder.attr == "angular"
+    return is_velocity and isinstance(value, int | float) and abs(value) in _DEGREES
 
 
 def _written_problem(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:

@@ -263,6 +263,17 @@ class ValueImplausible(MessageRule):
             "no pair; copy it",
         ),
         Example(
+            "a quarter of a turn in each second, and ninety radians",
+            {
+                "turn.py": "from geometry_msgs.msg import Twist\n\nDEGREES = 90.0\n\n\n"
+                "def turns():\n"
+                "    slow, fast = Twist(), Twist()\n"
+                "    slow.angular.z = 1.57\n    slow.linear.x = 90.0\n"
+                "    fast.angular.z = -DEGREES\n    return slow, fast\n"
+            },
+            "10:22: angular velocities are in radians: -DEGREES is far too fast",
+        ),
+        Example(
             "fractions of a second",
             {
                 "stamp.py": "from builtin_interfaces.msg import Time\n\n\n"
