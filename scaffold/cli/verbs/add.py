@@ -6,7 +6,8 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import add_report, package_report, terminal
+from scaffold.cli import terminal
+from scaffold.cli.generating import add_report, package_report
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the parts' questions."""
-    from scaffold.cli import flags, question_groups, settings
+    from scaffold.cli import flags, settings
+    from scaffold.cli.generating import question_groups
     from scaffold.configuration import content
     from scaffold.generate import parts
     from scaffold.generate.templates import loading

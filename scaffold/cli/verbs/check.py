@@ -7,8 +7,9 @@ import os
 from typing import TYPE_CHECKING, TypeVar
 
 from scaffold import distributions
-from scaffold.cli import baselines, distro, outcome, since, terminal
-from scaffold.cli.check_flags import add_arguments
+from scaffold.cli import distro, terminal
+from scaffold.cli.checking import baselines, outcome, since
+from scaffold.cli.checking.check_flags import add_arguments
 from scaffold.cli.packages import (
     common_directory,
     find_targets,
@@ -37,7 +38,8 @@ __all__ = ["add_arguments", "run"]
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
     from scaffold.check import registry
-    from scaffold.cli import reports, standard_input, stated_distro
+    from scaffold.cli import reports, stated_distro
+    from scaffold.cli.checking import standard_input
     from scaffold.cli.choices import Choices
     from scaffold.cli.settings import validate_answers, warn
     from scaffold.configuration import config, content
@@ -73,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
     options.notes = (*noted, *left_out)
     if len(options.distributions) > 1:
         from scaffold.check.several import AgreedSession
-        from scaffold.cli.several_targets import SeveralTargets
+        from scaffold.cli.checking.several_targets import SeveralTargets
 
         agreeing = (
             session
@@ -244,7 +246,8 @@ def _give_settings(
 
 def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:
     """Check or fix standard input; a fixed text is all that standard output gets."""
-    from scaffold.cli import reports, standard_input
+    from scaffold.cli import reports
+    from scaffold.cli.checking import standard_input
 
     path = options.stdin_filename
     text = standard_input.read(path, disk)
@@ -263,7 +266,7 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
     """Fix, or show what would be fixed; report what remains."""
     from scaffold.check.result import Result
-    from scaffold.cli import fixing
+    from scaffold.cli.checking import fixing
     from scaffold.cli.exit_codes import USAGE_ERROR
     from scaffold.model.discovery.targets import Target
 
@@ -287,7 +290,8 @@ def _report_fixes(
     results: list[Result],
     fixed: Sequence[Fixed],
 ) -> int:
-    from scaffold.cli import fixing, reports
+    from scaffold.cli import reports
+    from scaffold.cli.checking import fixing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
 
     count = sum(item.applied for item in fixed)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.cli.choices import Choices
-    from scaffold.cli.moves import Moved, Mover
+    from scaffold.cli.migrating.moves import Moved, Mover
     from scaffold.configuration.config import Config
     from scaffold.distributions import Distribution
 
@@ -67,10 +67,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Report what a move changes, and fix what is safe; return the exit code."""
     from scaffold.check import registry
-    from scaffold.cli import move_report, origins
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
-    from scaffold.cli.moves import Move, Mover
+    from scaffold.cli.migrating import move_report, origins
+    from scaffold.cli.migrating.moves import Move, Mover
     from scaffold.cli.packages import common_directory
     from scaffold.cli.settings import warn
     from scaffold.configuration import config, content
@@ -165,8 +165,9 @@ def _put(
     Returns:
         Whether a package was refused, and whether anything changes.
     """
-    from scaffold.cli import fixing, records
-    from scaffold.cli.records import Recorded
+    from scaffold.cli.checking import fixing
+    from scaffold.cli.migrating import records
+    from scaffold.cli.migrating.records import Recorded
     from scaffold.reporters.summary import count
 
     fixed = {path: item for move in moves for path, item in move.fixed.items()}
@@ -196,7 +197,7 @@ def _with_records(
     fixed: Mapping[str, Fixed], arrived: Sequence[str], targets: Sequence[Distribution]
 ) -> dict[str, Fixed]:
     """Return what is written to packages whose records are changed as well, by directory."""
-    from scaffold.cli import records
+    from scaffold.cli.migrating import records
     from scaffold.writing.transaction import RECORD
 
     result: dict[str, Fixed] = {}
@@ -211,7 +212,7 @@ def _with_records(
 
 def _note_unexamined(moves: Sequence[Moved]) -> bool:
     """Note the files that could not be read; return whether there are any."""
-    from scaffold.cli import fixing
+    from scaffold.cli.checking import fixing
 
     every = [item for move in moves for item in move.consequences]
     return fixing.note_unexamined(
@@ -223,7 +224,7 @@ def _note_held(
     moves: Sequence[Moved], arrived: Sequence[str], targets: Sequence[Distribution]
 ) -> None:
     """Say which packages are not recorded yet."""
-    from scaffold.cli import records
+    from scaffold.cli.migrating import records
 
     every = [item for move in moves for item in move.consequences]
     left = [item for item in every if item.result.package.directory not in arrived]

@@ -7,7 +7,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from scaffold.cli import new_report, package_report, terminal
+from scaffold.cli import terminal
+from scaffold.cli.generating import new_report, package_report
 from scaffold.errors import InputError
 
 if TYPE_CHECKING:
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Define the flags of the verb and those of the templates' questions."""
-    from scaffold.cli import flags, question_groups, settings
+    from scaffold.cli import flags, settings
+    from scaffold.cli.generating import question_groups
     from scaffold.configuration import content
     from scaffold.generate import parts
     from scaffold.generate.templates import loading

@@ -288,7 +288,7 @@ def _selected(
         wanted = named(packages, options.packages_up_to, "--packages-up-to")
         names = with_dependencies(packages, wanted)
     elif options.since is not None:
-        from scaffold.cli.since import Since
+        from scaffold.cli.checking.since import Since
 
         changed = Since(found_targets[0].package.directory, options.since, found_targets).targets()
         names = {target.package.name for target in changed}

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from scaffold.cli import package_report, terminal
+from scaffold.cli import terminal
+from scaffold.cli.generating import package_report
 
 if TYPE_CHECKING:
     import argparse

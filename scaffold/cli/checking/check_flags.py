@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from scaffold.cli import baselines, distro, flags
+from scaffold.cli import distro, flags
+from scaffold.cli.checking import baselines
 
 OF_REPORT = (
     *("all", "exit_zero", "format", "output_file", "quiet", "severity", "show_source"),

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.cli import baselines, fixing, outcome, terminal
+from scaffold.cli import terminal
+from scaffold.cli.checking import baselines, fixing, outcome
+from scaffold.cli.checking.since import Since
 from scaffold.cli.packages import (
     common_directory,
     find_targets,
     foreign_note,
     note_unfinished,
 )
-from scaffold.cli.since import Since
 
 if TYPE_CHECKING:
     import argparse
@@ -86,7 +87,8 @@ class SeveralTargets:
     def _run_unsaved(self) -> int:
         """Check or fix standard input; a fixed text is all that standard output gets."""
         from scaffold.check.several import agreed, merged
-        from scaffold.cli import reports, standard_input
+        from scaffold.cli import reports
+        from scaffold.cli.checking import standard_input
 
         options, session = self._options, self._session
         path = options.stdin_filename
@@ -110,7 +112,7 @@ class SeveralTargets:
         return outcome.final_code(options, session, results)
 
     def _checked_unsaved(self, text: bytes) -> ByDistribution:
-        from scaffold.cli import standard_input
+        from scaffold.cli.checking import standard_input
 
         options = self._options
         by_distribution: ByDistribution = {}

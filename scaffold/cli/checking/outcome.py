@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from scaffold.cli import terminal
-from scaffold.cli.check_flags import OF_REPORT
+from scaffold.cli.checking.check_flags import OF_REPORT
 
 if TYPE_CHECKING:
     import argparse

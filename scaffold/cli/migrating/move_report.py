@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from scaffold.check.migration import Consequences
-    from scaffold.cli.origins import Origins
+    from scaffold.cli.migrating.origins import Origins
     from scaffold.diagnostic import Diagnostic
     from scaffold.distributions import Distribution
     from scaffold.model.package import Package
@@ -28,7 +28,7 @@ def lines(
         target: Where they move to.
         is_unsafe: Whether unsafe fixes are wanted.
     """
-    from scaffold.cli.origins import sentence, shares
+    from scaffold.cli.migrating.origins import sentence, shares
     from scaffold.reporters.summary import count, fixable
 
     if not found.directories:

@@ -1,0 +1,1 @@
+"""The parts of `check`: flags, fixes, baselines, distributions, standard input."""

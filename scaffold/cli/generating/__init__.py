@@ -1,0 +1,1 @@
+"""The parts of `new` and `add`: flags for questions, and what they print."""

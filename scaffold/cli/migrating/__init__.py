@@ -1,0 +1,1 @@
+"""The parts of `migrate`: origins of packages, their consequences, the report."""
