@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
@@ -43,6 +44,24 @@ def assert_no_circle(imported: Mapping[str, set[str]]) -> None:
         TopologicalSorter(imported).prepare()
     except CycleError as error:
         raise AssertionError(" -> ".join(error.args[1])) from None
+
+
+INSTALLED = {
+    *("argcomplete", "jinja2", "lxml", "prompt_toolkit", "pyflakes", "rich", "tqdm", "yaml"),
+    "tomli",  # before Python 3.11
+}
+"""The packages among `dependencies` in pyproject.toml that the engine imports."""
+
+
+def test_modules_import_what_the_installation_has() -> None:
+    graph = grimp.build_graph(
+        "scaffold",
+        include_external_packages=True,
+        exclude_type_checking_imports=True,
+        cache_dir=None,
+    )
+    external = {name for name in graph.modules if name.partition(".")[0] != "scaffold"}
+    assert external - sys.stdlib_module_names <= INSTALLED
 
 
 def test_no_modules_import_each_other_in_a_circle() -> None:

@@ -6,15 +6,16 @@ import ast
 import builtins
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TypeVar
-
-from typing_extensions import Self
+from typing import TYPE_CHECKING, TypeVar
 
 from scaffold import distributions
 from scaffold.model.python.bounds import why_unchecked
 from scaffold.model.python.parsing import BOM, Positions, decode, parse_tree, past_target
 from scaffold.model.python.scopes import FunctionNode, Node, ScopeIndex
 from scaffold.source import Location, ParseError, Source, TooLargeError
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 Parsed = TypeVar("Parsed", bound="SyntaxTree")
 
