@@ -360,4 +360,6 @@ def test_a_file_that_is_too_large_to_read_may_name_a_script(
     write(package / "talker" / "talk_old.py", UNDEFINED)
     assert severities(capsys, "F821") == {"talker/talk_old.py": "warning"}
     write(package / "maps" / "map.yaml", "- 0\n" * 400_000)
+    assert severities(capsys, "F821") == {"talker/talk_old.py": "warning"}
+    write(package / "all.sh", "ls\n" * 400_000)
     assert severities(capsys, "F821") == {"talker/talk_old.py": "error"}

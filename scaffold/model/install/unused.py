@@ -127,11 +127,14 @@ def is_named(package: Package, path: str, stem: str) -> bool:
 
 
 def _is_in_code(package: Package, path: str, name: str) -> bool:
-    """Tell whether a file may have a name outside of comments; one too large to read may."""
+    """Tell whether a file may have a name outside of comments; code too large to read may.
+
+    Large XML and YAML is data, such as the weights of a classifier.
+    """
     try:
         data = package.data(path)
     except ViewError:
-        return True
+        return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
     return _mentions(data, name) and _mentions(without_comments(data), name)
 
 
