@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 from scaffold.check import runner, suppression, type_rules
@@ -54,6 +55,7 @@ class TypeFindings:
             packages,
             lambda package, path: path not in self._kept and is_wanted(package, path),
             self._recalling,
+            partial(type_rules.is_any_wrong, rules),
         )
 
     @contextmanager

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar
 
+from scaffold import time_limit
 from scaffold.check.file_rules import FileRule
 from scaffold.diagnostic import Diagnostic
 from scaffold.source import ViewError
@@ -31,11 +32,17 @@ class TypeRule(FileRule):
         return [*_reported(package)]
 
     def check_path(self, package: Package, path: str) -> Iterator[Diagnostic]:
+        """Yield what is wrong in a file."""
+        yield from self.judge_all(package, path, _reported(package).get(path, ()))
+
+    def judge_all(
+        self, package: Package, path: str, reported: Sequence[TyDiagnostic]
+    ) -> Iterator[Diagnostic]:
         """Yield what is wrong in a file; nothing in one for ROS 1, whose messages are others."""
         roots = package.imports(path)
         if "rospy" in roots and "rclpy" not in roots:
             return
-        for item in _reported(package).get(path, ()):
+        for item in reported:
             if item.kind in self.kinds:
                 with suppress(ViewError):
                     yield from self._judged(package, path, item)
@@ -53,6 +60,19 @@ class TypeRule(FileRule):
     def judge(self, finding: TypeFinding) -> Diagnostic | None:
         """Return what is wrong, ``None`` where that is not certain; may raise ViewError."""
         raise NotImplementedError
+
+
+def is_any_wrong(
+    rules: Sequence[TypeRule], package: Package, path: str, reported: Sequence[TyDiagnostic]
+) -> bool:
+    """Tell whether any of some reports about a file leads to a finding, as far as is known."""
+    try:
+        with time_limit.limited():
+            return any(any(rule.judge_all(package, path, reported)) for rule in rules)
+    except ViewError:
+        return False
+    except Exception:  # noqa: BLE001  the rule fails again when it is run, and that is reported
+        return True
 
 
 def _reported(package: Package) -> Reported:

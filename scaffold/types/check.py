@@ -7,7 +7,7 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 
@@ -15,16 +15,15 @@ from scaffold import distributions
 from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
-from scaffold.types.findings_cache import Cache
+from scaffold.types.findings_cache import Cache, Reported
 from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own, own_name
 from scaffold.types.passed import callers
 from scaffold.types.passed_types import Types, signature
-from scaffold.types.project import Checked, Project
+from scaffold.types.project import Checked, Project, annotated, unannotated
 from scaffold.types.sources import Source, Sources
 from scaffold.types.stubs import INCOMPLETE, partial_libraries
 from scaffold.types.ty import TyDiagnostic, UnavailableError
-from scaffold.types.unannotated import without_annotations
 
 _CHANGED = frozenset({"collections", "random"})
 """Modules of Python of which people use what is no longer there."""
@@ -60,16 +59,16 @@ class _File:
         checked: The file.
         key: What it has in the cache.
         own_key: The same without what its callers are.
-        diagnostics: What the cache has.
+        known: What the cache has.
     """
 
-    def __init__(
-        self, checked: Checked, key: str, own_key: str, diagnostics: list[TyDiagnostic] | None
-    ) -> None:
+    def __init__(self, checked: Checked, key: str, own_key: str, known: Reported | None) -> None:
         self.checked = checked
         self.key = key
         self.own_key = own_key
-        self.diagnostics = diagnostics
+        self.diagnostics = None if known is None else known.diagnostics
+        self.is_confirmed = known is None or known.is_confirmed
+        """Whether nothing is reported that may be the consequence of an annotation."""
         self.silent_for = ""
         """The types from its callers with which nothing was reported; empty if that is unknown."""
         self.is_silent = False
@@ -83,6 +82,7 @@ class TypeCheck:
         packages: The packages.
         is_wanted: Tells by package and path whether a file is to be checked.
         recalling: Returns what is entered before a package is looked at, and left after it.
+        is_any_wrong: Tells by package and path whether any of some reports leads to a finding.
     """
 
     def __init__(
@@ -90,6 +90,7 @@ class TypeCheck:
         packages: Sequence[Package],
         is_wanted: Callable[[Package, str], bool] = lambda _package, _path: True,
         recalling: Callable[[Package], AbstractContextManager[None]] = lambda _: nullcontext(),
+        is_any_wrong: Callable[[Package, str, Sequence[TyDiagnostic]], bool] = lambda *_: True,
     ) -> None:
         self.failure = ""
         """Why types are not checked; empty if they are."""
@@ -104,11 +105,12 @@ class TypeCheck:
         """Those about which nothing is reported, unless they get something else."""
         self._files: dict[int, list[_File]] = {}
         """Until what is reported about them is collected; by the number of the package."""
-        self._diagnostics: dict[int, dict[str, list[TyDiagnostic]]] = {}
+        self._diagnostics: dict[int, dict[str, Sequence[TyDiagnostic]]] = {}
         self._reached: dict[int, dict[str, Reads]] = {}
         self._suppressing: set[int] = set()
         self._packages = list(packages)  # so that no other gets its number
         self._sources = Sources()
+        self._is_any_wrong = is_any_wrong
         try:
             for package in self._packages:
                 with recalling(package):
@@ -116,7 +118,7 @@ class TypeCheck:
                         if is_wanted(package, path):
                             self._add(package, path)
             if self._asked or self._passing:
-                self._project = self._started("project", self._asked, _annotated, self._passing)
+                self._project = self._started("project", self._asked, annotated, self._passing)
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
             self.close()
@@ -229,7 +231,7 @@ class TypeCheck:
         """Tell whether a comment in a package names a code of types."""
         return id(package) in self._suppressing
 
-    def by_file(self, package: Package) -> dict[str, list[TyDiagnostic]]:
+    def by_file(self, package: Package) -> Mapping[str, Sequence[TyDiagnostic]]:
         """Return what the type checker reported about the files of a package, by path."""
         if self._files:
             self._collect()
@@ -245,25 +247,25 @@ class TypeCheck:
         return self._diagnostics.get(id(package), {})
 
     def _collect(self) -> None:
-        if self._project is None:
+        if self.failure:
             return
+        asked: list[_File] = []
         try:
-            self._read(self._asked)
-            self._learn()
-            late = [file for file in self._waiting if self._signature(file) != file.silent_for]
-            if late:
-                self._project = self._started("late", late, _annotated)
-                self._read(late)
-            asked = [*self._asked, *late]
-            self._confirm(
-                [file for file in asked if any(map(_may_be_annotated, file.diagnostics or ()))]
-            )
+            if self._project is not None:
+                self._read(self._asked)
+                self._learn()
+                late = [file for file in self._waiting if self._signature(file) != file.silent_for]
+                if late:
+                    self._project = self._started("late", late, annotated)
+                    self._read(late)
+                asked += (*self._asked, *self._waiting)
+            asked += self._confirm()
         except (UnavailableError, OSError) as error:
             self.failure = str(error)
             return
         finally:
             self.close()
-        self._store()
+        self._store(dict.fromkeys(asked))
 
     def _read(self, files: Sequence[_File]) -> None:
         """Read what is reported about files, and keep what is of interest."""
@@ -278,6 +280,7 @@ class TypeCheck:
                 for item in reported
                 if _concerns(item, stubbed) or is_about_own(item, reached.values())
             ]
+            file.is_confirmed = not any(map(_may_be_annotated, file.diagnostics))
             file.is_silent = not (file.diagnostics or any(map(own_name, reported)))
 
     def _learn(self) -> None:
@@ -287,19 +290,32 @@ class TypeCheck:
             types = self._types[place] = self._project.passed_types(place, reached)
             self._cache.put_plain(self._cache.key(reached[place], reached, "passed"), types)
 
-    def _store(self) -> None:
-        """Remember what is reported about the files that the type checker was asked about."""
-        for file in (*self._asked, *self._waiting):
-            self._cache.put(file.key, file.diagnostics or ())
+    def _store(self, files: Collection[_File]) -> None:
+        """Remember what is reported about files that the type checker was asked about."""
+        for file in files:
+            self._cache.put(file.key, Reported(file.diagnostics or (), file.is_confirmed))
             if file.is_silent and file.checked.callers:
                 self._cache.put_plain(file.own_key, self._signature(file))
-        self._cache.trim()
+        if files:
+            self._cache.trim()
 
-    def _confirm(self, files: Sequence[_File]) -> None:
-        """Keep what is reported without the annotations of the user's code as well."""
+    def _confirm(self) -> list[_File]:
+        """Keep what is reported without the annotations of the user's code as well.
+
+        Where nothing comes of it anyway, nobody asks.
+
+        Returns:
+            The files that it was done for.
+        """
+        files = [
+            file
+            for files in self._files.values()
+            for file in files
+            if not file.is_confirmed and self._is_wrong(file)
+        ]
         if not files:
-            return
-        self._project = self._started("unannotated", files, _unannotated)
+            return []
+        self._project = self._started("unannotated", files, unannotated)
         for file in files:
             again = {item[:3] for item in self._project.reports(file.checked)}
             file.diagnostics = [
@@ -307,6 +323,12 @@ class TypeCheck:
                 for item in file.diagnostics or ()
                 if item[:3] in again or not _may_be_annotated(item)
             ]
+            file.is_confirmed = True
+        return files
+
+    def _is_wrong(self, file: _File) -> bool:
+        source = file.checked.source
+        return self._is_any_wrong(source.package, source.path, file.diagnostics or ())
 
     def close(self) -> None:
         """End the type checker and remove what was written for it."""
@@ -369,15 +391,3 @@ def _concerns(item: TyDiagnostic, stubbed: frozenset[str]) -> bool:
 def _may_be_annotated(item: TyDiagnostic) -> bool:
     """Tell whether a report may be the consequence of an annotation."""
     return item.kind not in _OF_MODULES
-
-
-def _annotated(source: Source) -> bytes:
-    """Return a file with the types of its callbacks."""
-    return source.with_callback_types if source.path else source.data
-
-
-def _unannotated(source: Source) -> bytes:
-    """Return a file with no other annotations; nothing of one that does not parse."""
-    if not source.path:
-        return source.data
-    return without_annotations(source.with_callback_types) or b""

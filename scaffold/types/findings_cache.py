@@ -9,13 +9,22 @@ from typing import Any
 
 from scaffold.files import cache
 from scaffold.files.disk import digest
+from scaffold.record import NamedTuple
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
 
 KIND = "types"
 MOST = 20_000
-_MAGIC = b"scaffold-types-8\n"
+_MAGIC = b"scaffold-types-9\n"
 """Changes with what is kept of the reports; see ``types.check``."""
+
+
+class Reported(NamedTuple):
+    """What was reported about a file."""
+
+    diagnostics: Sequence[TyDiagnostic]
+    is_confirmed: bool
+    """Whether it is reported without the annotations of the user's code as well."""
 
 
 class Cache:
@@ -41,14 +50,14 @@ class Cache:
         head = f"{self._salt} {about}"
         return digest("\n".join([head, source.place, *parts]).encode("utf-8", "replace"))
 
-    def get(self, key: str) -> list[TyDiagnostic] | None:
+    def get(self, key: str) -> Reported | None:
         """Return what was reported under a key."""
-        reported = self.get_plain(key)
-        return None if reported is None else [TyDiagnostic(*item) for item in reported]
+        stored = self.get_plain(key)
+        return stored and Reported([TyDiagnostic(*item) for item in stored[0]], stored[1])
 
-    def put(self, key: str, diagnostics: Sequence[TyDiagnostic]) -> None:
+    def put(self, key: str, reported: Reported) -> None:
         """Store what was reported."""
-        self.put_plain(key, [*map(tuple, diagnostics)])
+        self.put_plain(key, ([*map(tuple, reported.diagnostics)], reported.is_confirmed))
 
     def get_plain(self, key: str) -> Any:  # noqa: ANN401  what was put
         """Return anything else that was stored under a key; ``None`` if nothing was."""

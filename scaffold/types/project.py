@@ -10,6 +10,7 @@ from scaffold.types.added_lines import Extended
 from scaffold.types.arguments import with_arguments
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
+from scaffold.types.unannotated import without_annotations
 
 _INVALID = "invalid-syntax"
 _LATE_GLOBAL = "prior to global declaration"
@@ -187,3 +188,15 @@ def _write(project: str, files: Iterable[tuple[str, bytes]]) -> None:
             os.makedirs(os.path.join(project, folder), exist_ok=True)
         with open(os.path.join(project, place), "wb") as file:
             file.write(data)
+
+
+def annotated(source: Source) -> bytes:
+    """Return a file with the types of its callbacks."""
+    return source.with_callback_types if source.path else source.data
+
+
+def unannotated(source: Source) -> bytes:
+    """Return a file with no other annotations; nothing of one that does not parse."""
+    if not source.path:
+        return source.data
+    return without_annotations(source.with_callback_types) or b""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -89,6 +89,27 @@ def test_what_does_not_fit_the_api_is_reported(check: Check, source: Path) -> No
     make_package(source, "talker", {"talker/talk.py": NODE})
     assert check("talker", code=1) == [f"talker/{FOUND}"]
     assert check("talker", "--no-types", code=0) == []
+
+
+def test_only_findings_are_held_against_the_code_without_annotations(
+    check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs: list[str] = []
+    start = ty.Run.__init__
+
+    def spied(self: ty.Run, project: str, environment: str, files: Sequence[str]) -> None:
+        runs.append(os.path.basename(project))
+        start(self, project, environment, files)
+
+    monkeypatch.setattr(ty.Run, "__init__", spied)
+    call = "self.create_guard_condition(callback=3, wait=True)"
+    tried = f"try:\n            {call}\n        except TypeError:\n            pass"
+    package = make_package(source, "talker", {"talker/talk.py": NODE.replace(call, tried)})
+    assert check("talker") == []
+    assert runs == ["project"]
+    (package / "talker/talk.py").write_text(NODE)
+    assert check("talker") == [f"talker/{FOUND}"]
+    assert runs == ["project", "project", "unannotated"]
 
 
 def test_types_reach_across_files_and_packages(check: Check, source: Path) -> None:
