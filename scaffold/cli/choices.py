@@ -51,7 +51,7 @@ class Choices:
             chosen[name] = self._prefixes(words, origin)
         key = "check.per-path-ignores"
         per_path = {
-            pattern: self._prefixes(words, f"{self._settings.origin(key)}: {pattern!r}")
+            pattern: self._prefixes(words, f"{self._origin(key)}: {pattern!r}")
             for pattern, words in self._settings.value(key).items()
         }
         origin = self._settings.origin(key) if per_path else ""
@@ -106,7 +106,7 @@ class Choices:
         return frozenset(rule.code for rule in all_rules(self.rules) if rule.release_refused)
 
     def _origin(self, key: str) -> str:
-        return f"{self._settings.origin(key)}: {key.partition('.')[2]}"
+        return f"{self._settings.origin(key)}: {key}"
 
     def _prefixes(self, words: Sequence[str], origin: str) -> tuple[str, ...]:
         from scaffold.check import selection

@@ -316,10 +316,10 @@ def test_per_path_ignores(flawed: Path) -> None:
         ("[tool.ros2-scaffold]\n", "unknown table [tool]: write [check] instead of [tool.ros2-"),
         ("[lint]\nselect = []\n", "unknown table [lint]; choose from check, new"),
         ("select = []\n", "'select' must be in the table [check]"),
-        ("[check]\nselect = ['XX']\n", "ros2-scaffold.toml: select: no rule has the name 'XX'"),
+        ("[check]\nselect = ['XX']\n", "toml: check.select: no rule has the name 'XX'"),
         (
             "[check.per-path-ignores]\n'a.py' = ['CM9999']\n",
-            "ros2-scaffold.toml: 'a.py': no rule has the code 'CM9999'; did you mean",
+            "check.per-path-ignores: 'a.py': no rule has the code 'CM9999'; did you mean",
         ),
         ("[check]\nselect = 'PX'\n", "check.select must be a list of strings"),
         ("[check\n", "invalid TOML"),
