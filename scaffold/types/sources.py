@@ -160,6 +160,8 @@ class Sources:
             names = (root, f"{root}{_OF_PYTHON}")
             candidates = [user if user.name == name else user.workspace.get(name) for name in names]
             packages = [item for item in candidates if item is not None]
+            if user not in packages and _has_module(user, root):
+                packages = []  # it is its own, whatever it has in common with the other one
             importable = [item for item in packages if self._of(item).provides(root)]
             self._looked_up[key] = next(iter(importable or packages), None)
         return self._looked_up[key]
@@ -168,6 +170,11 @@ class Sources:
         if id(package) not in self._packages:
             self._packages[id(package)] = _PackageSources(package)
         return self._packages[id(package)]
+
+
+def _has_module(package: Package, root: str) -> bool:
+    """Tell whether a package has an importable package of a name, with code in it."""
+    return any(package.has(f"{above}{root}/__init__.py") for above in ("", "src/"))
 
 
 class _PackageSources:

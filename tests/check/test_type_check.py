@@ -123,6 +123,19 @@ def test_types_reach_across_files_and_packages(check: Check, source: Path) -> No
     assert check(".") == ["talker/talker/more.py:3:TY004", f"talker/{FOUND}"]
 
 
+def test_a_module_of_a_package_is_not_that_of_another_one(check: Check, source: Path) -> None:
+    make_package(
+        source, "voice", {"voice/word.py": "class Word:\n    def __init__(self):\n        pass\n"}
+    )
+    use = "import rclpy\nfrom voice.word import Word\n\nrclpy.init()\nWord(3)\n"
+    make_package(source, "robot", {"robot/use.py": use})
+    assert check(".") == ["robot/robot/use.py:5:TY004"]
+    own = "class Word:\n    def __init__(self, size):\n        self.size = size\n"
+    files = {"voice/__init__.py": "", "voice/word.py": own}
+    make_package(source, "robot", {"robot/use.py": use, **files})
+    assert check(".") == []
+
+
 def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> None:
     lists = "project(my_msgs)\nrosidl_generate_interfaces(my_msgs msg/Beat.msg)\n"
     package = make_package(
