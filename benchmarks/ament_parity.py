@@ -27,8 +27,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scaffold.ament import lint_cmake
 from scaffold.ament.copyright import headers
-from scaffold.check import registry, runner
-from scaffold.check.rule import Rule
+from scaffold.check import runner
+from scaffold.check.rules import registry
+from scaffold.check.rules.rule import Rule
 from scaffold.check.session import all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from scaffold import changes, distributions
 from scaffold.changes import Change
-from scaffold.check import docs, registry
+from scaffold.check.rules import docs, registry
 from scaffold.configuration import content
 from scaffold.distributions import ALIASES, DEFAULT, ORDER, Distribution, named
 from scaffold.model.rclpy.api import names_of

@@ -11,9 +11,9 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from scaffold.check import registry
-from scaffold.check.examples import reports
-from scaffold.check.rule import Example, Report, Rule
+from scaffold.check.rules import registry
+from scaffold.check.rules.examples import reports
+from scaffold.check.rules.rule import Example, Report, Rule
 from scaffold.configuration import content
 from scaffold.errors import ScaffoldError
 

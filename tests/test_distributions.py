@@ -23,7 +23,7 @@ from scaffold.model.manifest import conditions
 from scaffold.model.package import Package
 from scaffold.model.rclpy.api import names_of
 from scaffold.source import Location
-from scaffold.types.stubs import library_stubs
+from scaffold.types.stubs.libraries import library_stubs
 from scripts import bundle_distribution
 
 ROOT = Path(__file__).parent.parent

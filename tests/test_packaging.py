@@ -18,7 +18,7 @@ from packaging.requirements import Requirement
 from packaging.version import Version
 
 from scaffold import __version__
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.check.session import all_rules
 from scaffold.cli.verbs import VERBS
 from scaffold.configuration import content

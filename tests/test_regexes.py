@@ -121,7 +121,8 @@ def test_comparisons(line: str, codes: list[str]) -> None:
 
 
 def test_numbers_of_thousands_of_digits_are_no_defect() -> None:
-    from scaffold.check import registry, runner
+    from scaffold.check import runner
+    from scaffold.check.rules import registry
     from scaffold.check.session import all_rules
     from scaffold.configuration import content
 

@@ -19,8 +19,13 @@ from scaffold.distributions import JAZZY
 from scaffold.model.discovery import targets as discovery
 from scaffold.model.interfaces.definitions import Definitions
 from scaffold.model.workspace.workspace import Workspace
-from scaffold.types.interface_stubs import package_stubs
-from scaffold.types.stubs import interface_stub_files, library_stubs, stub_files, write_stubs
+from scaffold.types.stubs.interface_stubs import package_stubs
+from scaffold.types.stubs.libraries import (
+    interface_stub_files,
+    library_stubs,
+    stub_files,
+    write_stubs,
+)
 
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">

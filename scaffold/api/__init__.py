@@ -5,9 +5,9 @@ docs/api.md lists all names, with examples.
 
 from __future__ import annotations
 
-from scaffold.check.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
-from scaffold.check.rule import Example, Report, Rule
-from scaffold.check.type_rules import TypeRule
+from scaffold.check.rules.file_rules import LaunchRule, MessageRule, PythonRule, RclpyRule, TestRule
+from scaffold.check.rules.rule import Example, Report, Rule
+from scaffold.check.rules.type_rules import TypeRule
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.edits import CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.model.facts import fact

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from scaffold.types.finding import TypeFinding
-from scaffold.types.marks import MARKED, full_name, short_name
-from scaffold.types.members import (
+from scaffold.types.python_modules import later_modules
+from scaffold.types.stubs.marks import MARKED, full_name, short_name
+from scaffold.types.stubs.members import (
     has_call,
     is_kind_of,
     keywords,
@@ -15,7 +16,6 @@ from scaffold.types.members import (
     own_members,
     parameters,
 )
-from scaffold.types.python_modules import later_modules
 from scaffold.types.wording import (
     class_in,
     class_itself,

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from scaffold.ament.codes import STYLE
 from scaffold.ament.settings import settings_of
-from scaffold.check.engine_rules import RuleCrashed
+from scaffold.check.rules.engine_rules import RuleCrashed
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign

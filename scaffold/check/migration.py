@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from scaffold import distributions
 from scaffold.check import conflicts
-from scaffold.check.engine_rules import (
+from scaffold.check.rules.engine_rules import (
     FileTooLarge,
     PackageOfRos1,
     RuleCrashed,
@@ -27,7 +27,7 @@ from scaffold.source import ViewError
 
 if TYPE_CHECKING:
     from scaffold.check.result import Result
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
     from scaffold.distributions import Distribution
     from scaffold.model.discovery.targets import Target
     from scaffold.model.package import Package

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from scaffold import time_limit
 from scaffold.check.cache.facts import EarlierFacts, to_store
-from scaffold.check.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
-from scaffold.check.file_rules import FileRule
 from scaffold.check.result import Earlier, Part, Verdict
-from scaffold.check.rule import Rule
+from scaffold.check.rules.engine_rules import FileTooLarge, RuleCrashed, UnparsableFile
+from scaffold.check.rules.file_rules import FileRule
+from scaffold.check.rules.rule import Rule
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity, crash_message
 from scaffold.errors import EXHAUSTED, EXHAUSTION, OutOfTimeError, exhausted
 from scaffold.files.tree import MANIFEST

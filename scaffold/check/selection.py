@@ -8,12 +8,12 @@ from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
-from scaffold.check.renamed_codes import new_codes
+from scaffold.check.rules.renamed_codes import new_codes
 from scaffold.errors import ConfigError
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
 
 ALL = "ALL"
 """What means every code."""

@@ -10,8 +10,9 @@ from scaffold import distributions
 from scaffold.ament.settings import files_of_settings
 from scaffold.check import conflicts, runner, suppression
 from scaffold.check.adjustments import Adjustments
-from scaffold.check.ament_rules import AMENT_RULES
-from scaffold.check.engine_rules import (
+from scaffold.check.result import Earlier, Result, Ruled
+from scaffold.check.rules.ament_rules import AMENT_RULES
+from scaffold.check.rules.engine_rules import (
     INTERNAL_RULES,
     FileTooLarge,
     LicenseNotAllowed,
@@ -20,10 +21,9 @@ from scaffold.check.engine_rules import (
     TooManyFindings,
     UnparsableFile,
 )
-from scaffold.check.result import Earlier, Result, Ruled
-from scaffold.check.rule import Rule
+from scaffold.check.rules.rule import Rule
+from scaffold.check.rules.type_rules import TypeRule
 from scaffold.check.selection import Selection
-from scaffold.check.type_rules import TypeRule
 from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import MAX_FINDINGS, Diagnostic, Severity
 from scaffold.files.tree import CMAKE_LISTS

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.check.engine_rules import UnusedSuppression
+from scaffold.check.rules.engine_rules import UnusedSuppression
 from scaffold.check.session import Session
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 
 from scaffold.check.distribution_branches import run_on_target
-from scaffold.check.engine_rules import UnusedSuppression
-from scaffold.check.renamed_codes import renamed_codes
+from scaffold.check.rules.engine_rules import UnusedSuppression
+from scaffold.check.rules.renamed_codes import renamed_codes
 from scaffold.diagnostic import Diagnostic
 from scaffold.model.facts import fact
 from scaffold.model.package import Package

@@ -7,14 +7,15 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
-from scaffold.check import runner, suppression, type_rules
+from scaffold.check import runner, suppression
 from scaffold.check.cache.facts import to_store
 from scaffold.check.result import Earlier, Part
+from scaffold.check.rules import type_rules
 from scaffold.record import NamedTuple
 from scaffold.types.check import TypeCheck
 
 if TYPE_CHECKING:
-    from scaffold.check.type_rules import TypeRule
+    from scaffold.check.rules.type_rules import TypeRule
     from scaffold.diagnostic import Diagnostic
     from scaffold.model.package import Package
     from scaffold.model.reads import Fact, FactId, StoredFact

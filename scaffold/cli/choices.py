@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from scaffold.check.adjustments import Adjustments
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
     from scaffold.check.selection import Selection
     from scaffold.configuration.config import Config
     from scaffold.model.workspace.policy import Policy

@@ -61,7 +61,8 @@ def offer_directories(prefix: str, **_: object) -> list[str]:
 def offer_rules(prefix: str, **_: object) -> list[str]:
     """Offer the codes and names of rules to who presses tab, also after a comma."""
     from scaffold.ament.codes import CODES
-    from scaffold.check import registry, selection
+    from scaffold.check import selection
+    from scaffold.check.rules import registry
     from scaffold.check.session import all_rules
     from scaffold.configuration import content
 

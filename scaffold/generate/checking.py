@@ -21,7 +21,7 @@ from scaffold.model.package import Package
 from scaffold.record import NamedTuple
 
 if TYPE_CHECKING:
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
     from scaffold.check.session import Session
     from scaffold.diagnostic import Diagnostic
     from scaffold.generate.draft import Draft
@@ -103,7 +103,7 @@ def defects(draft: Draft, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
 
 
 def _built_in() -> Sequence[type[Rule]]:
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.configuration import content
 
     return registry.load(content.roots("rules"))

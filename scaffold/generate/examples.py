@@ -15,7 +15,7 @@ from scaffold.generate.questions.questions import Given
 from scaffold.generate.templates.template import PARTS, Role, Template, of_role
 
 if TYPE_CHECKING:
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
     from scaffold.diagnostic import Diagnostic
 
 PACKAGE = "example_package"

@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterator, Sequence
 
-from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Result
+from scaffold.check.rules.engine_rules import RuleCrashed
 from scaffold.check.session import Session
 from scaffold.errors import InputError
 from scaffold.files.disk import Disk

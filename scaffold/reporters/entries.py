@@ -7,9 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 
 from scaffold.ament.codes import STYLE
-from scaffold.check import registry
 from scaffold.check.result import Result
-from scaffold.check.rule import Rule
+from scaffold.check.rules import registry
+from scaffold.check.rules.rule import Rule
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TextIO
 from xml.etree import ElementTree as ET
 
-from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Result
+from scaffold.check.rules.engine_rules import RuleCrashed
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import printable
 from scaffold.reporters import ReportOptions

@@ -39,7 +39,7 @@ def of(codes: Iterable[str]) -> dict[str, RulePage]:
     A rule has a URL if it comes with this tool and the metadata of the tool name a repository.
     """
     from scaffold.ament.codes import CODES, STYLE
-    from scaffold.check import docs, registry
+    from scaffold.check.rules import docs, registry
 
     rules = registry.loaded()
     pages: dict[str, RulePage] = {}
@@ -86,7 +86,7 @@ def links(codes: Iterable[str]) -> dict[str, str]:
 
 def _full_page(code: str) -> str:
     from scaffold.ament.codes import STYLE
-    from scaffold.check import docs, registry
+    from scaffold.check.rules import docs, registry
 
     rule = registry.loaded().get(code)
     return docs.style_page(STYLE[code]) if rule is None else docs.page(rule)

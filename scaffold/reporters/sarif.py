@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from urllib.parse import quote
 
 from scaffold import __version__
-from scaffold.check.engine_rules import RuleCrashed
+from scaffold.check.rules.engine_rules import RuleCrashed
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.printable import json_text, printable
 from scaffold.reporters import ReportOptions, rule_pages

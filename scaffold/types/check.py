@@ -16,13 +16,13 @@ from scaffold.model.package import Package
 from scaffold.model.reads import Reads, recorded
 from scaffold.types import environment, python_modules, ty
 from scaffold.types.findings_cache import Cache, Reported
-from scaffold.types.marks import MARK
 from scaffold.types.own_code import is_about_own, own_name
-from scaffold.types.passed import callers
 from scaffold.types.passed_types import Types, signature
 from scaffold.types.project import Checked, Project, annotated, unannotated
+from scaffold.types.rewriting.passed import callers
 from scaffold.types.sources import Source, Sources
-from scaffold.types.stubs import INCOMPLETE, partial_libraries
+from scaffold.types.stubs.libraries import INCOMPLETE, partial_libraries
+from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic, UnavailableError
 
 _CHANGED = frozenset({"collections", "random"})

@@ -16,8 +16,8 @@ from functools import lru_cache
 from scaffold.distributions import NAMES, Distribution
 from scaffold.files import cache, temporary
 from scaffold.files.disk import digest
-from scaffold.types import stubs
-from scaffold.types.marks import mark
+from scaffold.types.stubs import libraries as stubs
+from scaffold.types.stubs.marks import mark
 
 KIND = "stubs"
 KEPT = 6

@@ -16,9 +16,9 @@ from scaffold.model.python.handlers import last_names
 from scaffold.model.python.module import PythonModule
 from scaffold.source import Location
 from scaffold.types import origins
-from scaffold.types.marks import MARKED, full_name
-from scaffold.types.passed import first_call
+from scaffold.types.rewriting.passed import first_call
 from scaffold.types.ros1 import is_for_ros1
+from scaffold.types.stubs.marks import MARKED, full_name
 from scaffold.types.ty import TyDiagnostic
 
 Node = TypeVar("Node", bound=ast.AST)

@@ -11,9 +11,9 @@ import builtins
 import re
 from collections.abc import Iterable, Mapping, Sequence
 
-from scaffold.types.marks import MARK
-from scaffold.types.passed import GIVEN, Passed
+from scaffold.types.rewriting.passed import GIVEN, Passed
 from scaffold.types.sources import Source
+from scaffold.types.stubs.marks import MARK
 from scaffold.types.ty import TyDiagnostic
 
 Types = Sequence[tuple[str, str]]

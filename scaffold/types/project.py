@@ -6,11 +6,11 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from scaffold.types import passed_types, ty
-from scaffold.types.added_lines import Extended
-from scaffold.types.arguments import with_arguments
+from scaffold.types.rewriting.added_lines import Extended
+from scaffold.types.rewriting.arguments import with_arguments
+from scaffold.types.rewriting.unannotated import without_annotations
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
-from scaffold.types.unannotated import without_annotations
 
 _INVALID = "invalid-syntax"
 _LATE_GLOBAL = "prior to global declaration"

@@ -15,9 +15,9 @@ from scaffold.files.disk import digest
 from scaffold.files.limits import most_bytes, why_unread
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
-from scaffold.types.callbacks import with_callback_types
 from scaffold.types.environment import marked
-from scaffold.types.stubs import interface_stub_files
+from scaffold.types.rewriting.callbacks import with_callback_types
+from scaffold.types.stubs.libraries import interface_stub_files
 from scaffold.types.ty import LIBRARY
 
 # linear: an open bracket is followed for 4 kB at most, and spaces for a line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from scaffold.types.marks import MARK, MARKED, full_name, short_name
+from scaffold.types.stubs.marks import MARK, MARKED, full_name, short_name
 
 # linear: a type in a message is cut off by the type checker
 _TEXT = re.compile(r"""b?"(?:[^"\\]|\\.)*\"""")

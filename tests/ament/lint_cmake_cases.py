@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from scaffold.check.rule import Example, Report
+from scaffold.check.rules.rule import Example, Report
 
 LONG = "set(WORDS " + "word " * 26 + "word)\n"
 

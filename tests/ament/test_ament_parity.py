@@ -19,9 +19,10 @@ from scaffold.ament import copyright as notices
 from scaffold.ament import lint_cmake
 from scaffold.ament.xmllint import check as check_xml
 from scaffold.ament.xmllint import violations
-from scaffold.check import registry, runner
+from scaffold.check import runner
 from scaffold.check.fixes import fixer
-from scaffold.check.rule import Rule
+from scaffold.check.rules import registry
+from scaffold.check.rules.rule import Rule
 from scaffold.check.session import all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Severity

@@ -8,8 +8,8 @@ from inspect import cleandoc
 import pytest
 
 from scaffold.ament.codes import CODES, STYLE
-from scaffold.check.ament_rules import AMENT_RULES
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rules.ament_rules import AMENT_RULES
+from scaffold.check.rules.rule import Example, Rule
 from tests.ament import copyright_cases, lint_cmake_cases, xmllint_cases
 from tests.check.examples import assert_reported, assert_suppressible
 

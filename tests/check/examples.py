@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from scaffold.check import runner, suppression
-from scaffold.check.examples import package_of, reports
 from scaffold.check.fixes import fixer
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rules.examples import package_of, reports
+from scaffold.check.rules.rule import Example, Rule
 
 
 def assert_reported(rule: type[Rule], example: Example) -> None:

@@ -6,7 +6,7 @@ import ast
 
 import pytest
 
-from scaffold.types.arguments import with_arguments
+from scaffold.types.rewriting.arguments import with_arguments
 
 CLASS = """\
 class Talker:

@@ -6,8 +6,8 @@ import ast
 
 import pytest
 
-from scaffold.types.arguments import with_arguments
-from scaffold.types.callbacks import with_callback_types
+from scaffold.types.rewriting.arguments import with_arguments
+from scaffold.types.rewriting.callbacks import with_callback_types
 
 KEEPER = """\
 class Keeper:

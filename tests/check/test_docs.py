@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from scaffold.ament.codes import STYLE
-from scaffold.check import docs, registry
+from scaffold.check.rules import docs, registry
 from scaffold.check.session import all_rules
 from scaffold.configuration import content
 

@@ -9,10 +9,11 @@ from typing import ClassVar
 import pytest
 
 from scaffold.ament.codes import CODES
-from scaffold.check import registry, runner, selection, suppression
+from scaffold.check import runner, selection, suppression
 from scaffold.check.fixes.fixer import splice
-from scaffold.check.renamed_codes import renamed_codes
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rules import registry
+from scaffold.check.rules.renamed_codes import renamed_codes
+from scaffold.check.rules.rule import Example, Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session, all_rules
 from scaffold.configuration import content

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from scaffold.api import Diagnostic, Example, Package, Rule
-from scaffold.check.examples import reports
+from scaffold.check.rules.examples import reports
 from scaffold.errors import ContentError
 
 

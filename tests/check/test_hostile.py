@@ -19,7 +19,7 @@ import pytest
 from scaffold.ament import verdict as style
 from scaffold.ament.finding import FLAKE8
 from scaffold.ament.settings import Settings
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.configuration import content

@@ -242,7 +242,7 @@ MODEL = f'<?xml-model href="a.rng" schematypens="{RNG}"?>\n<a>{{}}</a>\n'
 
 
 def _schema_findings(package: Package) -> Sequence[tuple[str, str]]:
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.configuration import content
 
     rules = registry.load(content.roots("rules", ()))

@@ -7,7 +7,7 @@ import ast
 import numpy as np
 import pytest
 
-from scaffold.types.stubs import partial_libraries, partial_stubs
+from scaffold.types.stubs.libraries import partial_libraries, partial_stubs
 
 
 @pytest.mark.parametrize("path", sorted(partial_stubs()))

@@ -12,8 +12,8 @@ import pytest
 from scaffold.files.tree import MemoryTree
 from scaffold.model.package import Package
 from scaffold.types import passed_types, ty
-from scaffold.types.arguments import with_arguments
-from scaffold.types.passed import Passed, own_names, places
+from scaffold.types.rewriting.arguments import with_arguments
+from scaffold.types.rewriting.passed import Passed, own_names, places
 from scaffold.types.sources import Source
 from scaffold.types.ty import TyDiagnostic
 from tests.check.test_type_check import Check, check, make_package, source

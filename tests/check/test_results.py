@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from scaffold.types.results import plain_result
+from scaffold.types.rewriting.results import plain_result
 
 
 @pytest.mark.parametrize(

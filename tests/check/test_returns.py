@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import pytest
 
-from scaffold.types.returns import results
+from scaffold.types.rewriting.returns import results
 
 
 def types(text: str, taken: Collection[str] = ()) -> list[str]:

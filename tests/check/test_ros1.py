@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.configuration import content

@@ -14,9 +14,10 @@ from typing import Any
 
 import pytest
 
-from scaffold.check import docs, registry, runner
-from scaffold.check.examples import package_of
-from scaffold.check.rule import Example, Rule
+from scaffold.check import runner
+from scaffold.check.rules import docs, registry
+from scaffold.check.rules.examples import package_of
+from scaffold.check.rules.rule import Example, Rule
 from scaffold.configuration import content
 from tests.check.examples import assert_reported, assert_suppressible
 

@@ -16,8 +16,8 @@ from scaffold.files import cache
 from scaffold.model.package import Package
 from scaffold.programs import bundled
 from scaffold.types import environment, ty
-from scaffold.types.added_lines import Extended, with_lines
 from scaffold.types.finding import TypeFinding
+from scaffold.types.rewriting.added_lines import Extended, with_lines
 from scaffold.types.ty import TyDiagnostic
 
 MANIFEST = """<?xml version="1.0"?>

@@ -281,7 +281,7 @@ IMPORTED = (
     "scaffold.cli.terminal",
     "scaffold.cli.parser",
     "scaffold.cli.verbs.check",
-    "scaffold.check.registry",
+    "scaffold.check.rules.registry",
 )
 """Modules of a run of `check`, from the first one on."""
 

@@ -29,7 +29,7 @@ WRITERS = {
     "scaffold/cli/verbs/smoke.py": "its reporters write as they go",
     "scaffold/generate/templates/foreign_worker.py": "its output is for the parent",
     "scaffold/ament/xml_validate.py": "a process of its own; its output is JSON for the parent",
-    "scaffold/check/batch_process.py": "a process of its own; its output is for the parent",
+    "scaffold/check/cluster/batch_process.py": "a process of its own; its output is for the parent",
     "scaffold/smoke/probe/main.py": "a process of its own; its output is JSON for the parent",
 }
 """The modules that mention standard output or error, and why they may."""

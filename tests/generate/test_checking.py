@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.generate import checking, draft
 from scaffold.generate.checking import Check, RuleProcess

@@ -13,7 +13,7 @@ import pytest
 import yaml
 from lxml import etree
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cli.main import main

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import pytest
 from lxml import etree
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.configuration import content

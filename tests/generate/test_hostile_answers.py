@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.cli.main import main
 from scaffold.configuration import content
 from scaffold.errors import InputError

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import checking, draft

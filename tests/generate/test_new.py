@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from scaffold.check.rule import Rule
+from scaffold.check.rules.rule import Rule
 from scaffold.cli.main import main
 from scaffold.configuration import content, trust
 from scaffold.errors import ContentError, InputError
@@ -337,7 +337,7 @@ def test_the_longest_names_pass_every_rule(build_type: str) -> None:
 
 
 def rules() -> list[type[Rule]]:
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
 
     return registry.load(content.roots("rules"))
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.errors import InputError
 from scaffold.generate import checking, draft

@@ -20,9 +20,9 @@ from typing import Any
 
 import pytest
 
-from scaffold.check import registry
 from scaffold.check.fixes import workspace_fixer
-from scaffold.check.rule import Rule
+from scaffold.check.rules import registry
+from scaffold.check.rules.rule import Rule
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cli.main import main

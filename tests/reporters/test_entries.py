@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
 from scaffold.check.result import Result
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.package import Package

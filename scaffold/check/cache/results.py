@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from scaffold.check.cache.runs import CachedRun, RunEntry
 from scaffold.check.cache.worker_reads import disk_of, uses
-from scaffold.check.engine_rules import RuleCrashed
 from scaffold.check.result import Earlier, Part, Result, Verdict
+from scaffold.check.rules.engine_rules import RuleCrashed
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.edits import Change, CreateFile, Edit, Fix, MakeExecutable, Remove, Safety
 from scaffold.errors import EnvironmentMissingError

@@ -61,7 +61,7 @@ def write(options: argparse.Namespace, results: Sequence[Result]) -> int:
     Raises:
         InputError: the file cannot be written.
     """
-    from scaffold.check.engine_rules import RuleCrashed
+    from scaffold.check.rules.engine_rules import RuleCrashed
     from scaffold.cli import reports
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.reporters import baseline

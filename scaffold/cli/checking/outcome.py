@@ -93,7 +93,7 @@ def _exit_code(results: list[Result], *, is_zero: bool = False) -> int:
         results: Of all packages.
         is_zero: Whether findings do not count.
     """
-    from scaffold.check.engine_rules import RuleCrashed
+    from scaffold.check.rules.engine_rules import RuleCrashed
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR
     from scaffold.diagnostic import Severity
 

@@ -114,7 +114,7 @@ def _run(
     targets: Sequence[Distribution],
 ) -> int:
     """Add something to a package for some distributions."""
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.check.selection import Selection
     from scaffold.check.session import Session
     from scaffold.cli import writing
@@ -238,7 +238,7 @@ def _directory(given: str | None) -> str:
 
 def _refuse_broken(package: Package, before: list[Diagnostic], *, force: bool) -> None:
     """Raise if a file of the package cannot be parsed; ``--force`` needs only those it edits."""
-    from scaffold.check.engine_rules import UnparsableFile
+    from scaffold.check.rules.engine_rules import UnparsableFile
     from scaffold.errors import InputError
 
     for diagnostic in before:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from scaffold.check.fixes.fixer import Fixed
     from scaffold.check.result import Result
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
     from scaffold.check.session import Session
     from scaffold.cli.choices import Choices
     from scaffold.configuration.config import Config
@@ -37,7 +37,7 @@ __all__ = ["add_arguments", "run"]
 
 def run(options: argparse.Namespace) -> int:
     """Check packages; return the exit code."""
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.cli import reports, stated_distro
     from scaffold.cli.checking import standard_input
     from scaffold.cli.choices import Choices
@@ -179,7 +179,7 @@ def _kind_of_session(options: argparse.Namespace) -> type[Session]:
 
         return SuppressingSession
     if options.cluster is not None:
-        from scaffold.check.on_cluster import ClusterSession
+        from scaffold.check.cluster.on_cluster import ClusterSession
 
         return ClusterSession
     return Session
@@ -220,8 +220,8 @@ def _give_settings(
     session: Session, options: argparse.Namespace, choices: Choices, config: Config
 ) -> None:
     """Tell a session what the workers of the cluster make theirs of."""
-    from scaffold.check.batch import Settings
-    from scaffold.check.on_cluster import ClusterSession
+    from scaffold.check.cluster.batch import Settings
+    from scaffold.check.cluster.on_cluster import ClusterSession
     from scaffold.errors import InputError
 
     if config.content:

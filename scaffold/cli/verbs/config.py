@@ -29,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show every value."""
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN
     from scaffold.cli.settings import validate_answers, warn

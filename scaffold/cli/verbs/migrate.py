@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Report what a move changes, and fix what is safe; return the exit code."""
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.cli.choices import Choices
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
     from scaffold.cli.migrating import move_report, origins

@@ -10,7 +10,7 @@ from scaffold.cli import flags, terminal
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from scaffold.check.rule import Rule
+    from scaffold.check.rules.rule import Rule
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the rules, or explain some."""
-    from scaffold.check import docs, registry, selection
+    from scaffold.check import selection
+    from scaffold.check.rules import docs, registry
     from scaffold.check.session import all_rules
     from scaffold.cli import settings
     from scaffold.configuration import content
@@ -65,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
 def _explained(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> str:
     """Return what is known about the rules that a word means."""
     from scaffold.ament.codes import STYLE
-    from scaffold.check import docs
+    from scaffold.check.rules import docs
 
     codes = _codes(word, rules, areas)
     if len(codes) > 1:
@@ -99,7 +100,7 @@ def _codes(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> list
 def _listed(rules: list[type[Rule]], style: Sequence[str]) -> str:
     """Return a line for each rule, and for each code of flake8 and pydocstyle."""
     from scaffold.ament.codes import STYLE
-    from scaffold.check import docs
+    from scaffold.check.rules import docs
 
     rows = [
         (

@@ -51,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
     """Write the stubs; return the exit code."""
     from scaffold.cli.exit_codes import CLEAN
     from scaffold.model.interfaces.definitions import Definitions
-    from scaffold.types import typings
-    from scaffold.types.stubs import stub_files
+    from scaffold.types.stubs import typings
+    from scaffold.types.stubs.libraries import stub_files
 
     workspace = _workspace(options.paths or ["."])
     if options.distro is not None:

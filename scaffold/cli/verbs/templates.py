@@ -137,7 +137,7 @@ def _test(
     names: Sequence[str],
 ) -> int:
     """Print the outcome of each example; return 1 if one fails or there is none."""
-    from scaffold.check import registry
+    from scaffold.check.rules import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
     from scaffold.generate import examples

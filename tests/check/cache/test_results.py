@@ -12,9 +12,10 @@ from types import ModuleType
 
 import pytest
 
-from scaffold.check import registry, runner
+from scaffold.check import runner
 from scaffold.check.cache import runs as memory
 from scaffold.check.result import Earlier
+from scaffold.check.rules import registry
 from scaffold.check.session import Session
 from scaffold.cli.main import main
 from scaffold.diagnostic import Diagnostic

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
 from scaffold.check.cache import rule_bytecode
+from scaffold.check.rules import registry
 from scaffold.errors import ContentError
 from scaffold.files import cache
 

@@ -73,7 +73,8 @@ Check = Callable[[Package], list[Diagnostic]]
 
 
 def test_all_dependencies_are_inserted_in_one_round_and_in_order() -> None:
-    from scaffold.check import registry, runner
+    from scaffold.check import runner
+    from scaffold.check.rules import registry
     from scaffold.configuration import content
 
     rules = [rule() for rule in registry.load(content.roots("rules")) if rule.code == "PX020"]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry
+from scaffold.check.rules import registry
 from scaffold.cli.main import main
 from scaffold.configuration import content
 from scaffold.errors import ContentError

@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from scaffold.check import runner
-from scaffold.check.ament_rules import AMENT_RULES
+from scaffold.check.rules.ament_rules import AMENT_RULES
 from scaffold.edits import Edit
 from scaffold.model.cmake import edit as cmake_edit
 from scaffold.model.cmake.lists import CMakeLists, Command, Install

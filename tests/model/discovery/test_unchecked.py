@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry, runner
+from scaffold.check import runner
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic
 from scaffold.files.disk import holds

@@ -12,7 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scaffold.check import registry, runner
+from scaffold.check import runner
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.files.tree import MemoryTree
 from scaffold.formats import yaml as yaml_tree

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from scaffold.check import registry, runner
+from scaffold.check import runner
+from scaffold.check.rules import registry
 from scaffold.configuration.content import roots
 from scaffold.model.package import Package
 from scaffold.model.programs.entry_points import files_of, run_of, starts_of

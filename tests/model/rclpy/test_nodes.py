@@ -24,7 +24,7 @@ from scaffold.model.rclpy.entities import Publisher, Qos, parameter_type
 from scaffold.model.rclpy.file import RclpyFile, rclpy_file
 from scaffold.model.rclpy.qos import PROFILES
 from scaffold.source import Location, NewerSyntaxError, ParseError, Source
-from scaffold.types.stubs import library_stubs
+from scaffold.types.stubs.libraries import library_stubs
 from tests import PATIENCE
 
 TALKER = '''\

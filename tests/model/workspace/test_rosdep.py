@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from scaffold.check import registry, runner
+from scaffold.check import runner
+from scaffold.check.rules import registry
 from scaffold.configuration import content
 from scaffold.files.disk import Disk, holds
 from scaffold.model.discovery import targets

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from scaffold import distributions
-from scaffold.types.interface_stubs import package_stubs
+from scaffold.types.stubs.interface_stubs import package_stubs
 
 if TYPE_CHECKING:
     from scaffold.distributions import Distribution

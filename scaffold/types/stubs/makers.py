@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Mapping
 
-from scaffold.types import results
+from scaffold.types.rewriting import results
 
 _MADE = "_Ros2Made"
 _CALLABLE = "_Ros2Callable"

@@ -6,8 +6,8 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from scaffold import distributions
-from scaffold.check import batch_process
-from scaffold.check.batch import Batch, Checked, Key, Settings, key_of
+from scaffold.check.cluster import batch_process
+from scaffold.check.cluster.batch import Batch, Checked, Key, Settings, key_of
 from scaffold.check.result import Earlier, Result
 from scaffold.check.several import AgreedSession
 from scaffold.cluster.client import connected

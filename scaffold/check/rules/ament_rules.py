@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 from scaffold.ament.codes import CODES, STYLE, AmentCode
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rules.rule import Example, Rule
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Safety
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import accumulate
 
-from scaffold.types.registrations import registrations, targets
+from scaffold.types.rewriting.registrations import registrations, targets
 
 _WORDS = (
     b"create_subscription(",

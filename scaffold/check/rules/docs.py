@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from inspect import cleandoc
 from typing import TYPE_CHECKING
 
-from scaffold.check.rule import Example, Report, Rule
+from scaffold.check.rules.rule import Example, Report, Rule
 from scaffold.check.selection import area_prefixes
 from scaffold.diagnostic import Severity
 from scaffold.distributions import DEFAULT

@@ -12,11 +12,12 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
-from scaffold.types import containers, makers, returns
-from scaffold.types.added_lines import Extended, with_lines
-from scaffold.types.callbacks import arguments_of, function_body
-from scaffold.types.passed import GIVEN, Passed, own_names, places
-from scaffold.types.statements import class_starts, definitions, statement_around
+from scaffold.types.rewriting import containers, returns
+from scaffold.types.rewriting.added_lines import Extended, with_lines
+from scaffold.types.rewriting.callbacks import arguments_of, function_body
+from scaffold.types.rewriting.passed import GIVEN, Passed, own_names, places
+from scaffold.types.rewriting.statements import class_starts, definitions, statement_around
+from scaffold.types.stubs import makers
 
 _EITHER = "_ros2_either"
 """A condition that nothing is known about."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from scaffold.check.rule import Rule
+from scaffold.check.rules.rule import Rule
 from scaffold.diagnostic import Diagnostic
 from scaffold.source import ViewError
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from scaffold import distributions
-from scaffold.check import registry
 from scaffold.check.adjustments import Adjustments
+from scaffold.check.rules import registry
 from scaffold.check.selection import Selection
 from scaffold.check.session import Session
 from scaffold.cluster import mirror

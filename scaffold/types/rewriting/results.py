@@ -10,8 +10,8 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from scaffold.types.callbacks import function_body
-from scaffold.types.statements import definitions
+from scaffold.types.rewriting.callbacks import function_body
+from scaffold.types.rewriting.statements import definitions
 
 _ANY = "_Ros2Any"
 _FUNCTION = re.compile(

@@ -10,8 +10,8 @@ from functools import lru_cache
 from scaffold import distributions
 from scaffold.distributions import Distribution
 from scaffold.model.package import Package
-from scaffold.types import stubs
-from scaffold.types.marks import MARK
+from scaffold.types.stubs import libraries as stubs
+from scaffold.types.stubs.marks import MARK
 
 _KINDS = frozenset({"msg", "srv", "action"})
 _DEEPEST = 12

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 
 from scaffold.check import runner
-from scaffold.check.rule import Example, Report, Rule
+from scaffold.check.rules.rule import Example, Report, Rule
 from scaffold.diagnostic import Diagnostic
 from scaffold.edits import Safety
 from scaffold.errors import ContentError

@@ -11,7 +11,7 @@ import pickle
 import subprocess
 import sys
 
-from scaffold.check import batch
+from scaffold.check.cluster import batch
 from scaffold.cluster.mirror import Mirror
 
 

@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 
 from scaffold.record import NamedTuple
-from scaffold.types.passed import Passed
+from scaffold.types.rewriting.passed import Passed
 
 
 class Extended(NamedTuple):

@@ -13,9 +13,9 @@ from scaffold.model.facts import fact
 from scaffold.model.interfaces.syntax import SECTIONS
 from scaffold.model.package import Package
 from scaffold.record import NamedTuple
-from scaffold.types.callbacks import function_body
+from scaffold.types.rewriting.callbacks import function_body
+from scaffold.types.rewriting.statements import mentions
 from scaffold.types.sources import imported_names
-from scaffold.types.statements import mentions
 
 GIVEN = "_ros2_given"
 """What the global names of values that are passed begin with."""

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from types import CodeType, ModuleType
 
-from scaffold.check.ament_rules import AMENT_RULES
 from scaffold.check.cache import rule_bytecode
-from scaffold.check.rule import Rule
+from scaffold.check.rules.ament_rules import AMENT_RULES
+from scaffold.check.rules.rule import Rule
 from scaffold.configuration import content
 from scaffold.errors import ContentError
 from scaffold.files.disk import digest

@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 from functools import cache
 
-_FILE = os.path.join(os.path.dirname(os.path.dirname(__file__)), "data", "renamed_codes.txt")
+_FILE = os.path.join(
+    os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "renamed_codes.txt"
+)
 
 
 @cache

@@ -11,9 +11,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from scaffold.record import NamedTuple
-from scaffold.types.callbacks import arguments_of, function_body
-from scaffold.types.results import expression_at
-from scaffold.types.statements import class_starts, mentions, statement_around
+from scaffold.types.rewriting.callbacks import arguments_of, function_body
+from scaffold.types.rewriting.results import expression_at
+from scaffold.types.rewriting.statements import class_starts, mentions, statement_around
 
 _MADE = re.compile(
     r"\n(?P<indent>[ ]+)(?P<name>(?:self\.)?[^\W\d]\w*)[ ]*=[ ]*(?P<value>"

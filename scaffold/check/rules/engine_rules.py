@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
-from scaffold.check.rule import Example, Rule
+from scaffold.check.rules.rule import Example, Rule
 from scaffold.diagnostic import Diagnostic, Effect, Severity
 
 if TYPE_CHECKING:

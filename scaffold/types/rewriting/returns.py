@@ -12,9 +12,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 
 from scaffold.record import NamedTuple
-from scaffold.types.callbacks import function_body
-from scaffold.types.results import expression_at, imports, plain_result
-from scaffold.types.statements import definitions
+from scaffold.types.rewriting.callbacks import function_body
+from scaffold.types.rewriting.results import expression_at, imports, plain_result
+from scaffold.types.rewriting.statements import definitions
 
 _KEPT = "_ros2_returned"
 _TYPE_OF = "_Ros2TypeOf"

@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, ClassVar
 
 from scaffold import time_limit
-from scaffold.check.file_rules import FileRule
+from scaffold.check.rules.file_rules import FileRule
 from scaffold.diagnostic import Diagnostic
 from scaffold.source import ViewError
 

@@ -1,0 +1,1 @@
+"""What a rule is: base classes, loading, examples, documentation."""

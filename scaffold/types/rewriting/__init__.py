@@ -1,0 +1,1 @@
+"""Rewrites code for the type checker, so that it infers more."""

@@ -1,0 +1,1 @@
+"""Stubs of libraries and interfaces: their content, names and members."""
