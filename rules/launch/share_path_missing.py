@@ -71,6 +71,13 @@ class SharePathMissing(Rule):
             ),
         ),
         Example(
+            "a world, with options for Gazebo",
+            {
+                **_FILES,
+                "launch/a.launch.py": _LAUNCH.format("'config', 'talker.yaml -r'"),
+            },
+        ),
+        Example(
             "next to a launch file that is started from its source",
             {
                 **_FILES,

@@ -6,13 +6,15 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from scaffold.api import Diagnostic, Example, MessageRule, Package
+from scaffold.api import Diagnostic, Example, MessageRule, Package, Report, Severity
 from scaffold.api.distributions import target
 from scaffold.api.messages import MessageTypes
 from scaffold.api.python import FunctionNode, is_generator, may_end, returned, value_set_before
 from scaffold.api.rclpy import ActionServer, Service, is_overridden
 
 _ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
+_REJECTED = "it counts as a rejection"
+"""What happens to a missing answer, which may be meant on some paths."""
 _NODE = (
     "from example_interfaces.action import Fibonacci\n"
     "from rclpy.action import ActionServer, CancelResponse, GoalResponse\n"
@@ -73,6 +75,7 @@ class CallbackResultWrong(MessageRule):
 
     code = "ND048"
     name = "callback-result-wrong"
+    other_severities = {Severity.WARNING: "an answer that is missing on some paths is a rejection"}
     examples = (
         Example(
             "a result and an answer returned",
@@ -97,6 +100,21 @@ class CallbackResultWrong(MessageRule):
             "it counts as a rejection",
             "17:9: returns example_interfaces/action/Fibonacci.Feedback, not the result for the "
             "action server of line 9: AttributeError when the result is sent",
+        ),
+        Example(
+            "an answer on one path only",
+            {
+                "server.py": _NODE.format(
+                    "if goal.order > 1:\n            return GoalResponse.ACCEPT",
+                    "return Fibonacci.Result()",
+                )
+            },
+            Report(
+                "12:9",
+                "judge() does not return a GoalResponse on every path for the action "
+                "server of line 9: it counts as a rejection",
+                severity=Severity.WARNING,
+            ),
         ),
         Example(
             "on every path but the shutdown",
@@ -251,7 +269,13 @@ class CallbackResultWrong(MessageRule):
             message = (
                 f"{function.name}() does not return {expected.what}{never} {expected.otherwise}"
             )
-            yield self.report(types.module.name_location(function), message, cause=expected.cause)
+            is_rejection = bool(never) and expected.otherwise.endswith(_REJECTED)
+            yield self.report(
+                types.module.name_location(function),
+                message,
+                severity=Severity.WARNING if is_rejection else None,
+                cause=expected.cause,
+            )
         for statement in returned(function):
             wrong = expected.wrong(statement)
             if wrong:
@@ -277,7 +301,7 @@ class CallbackResultWrong(MessageRule):
 def _expected_by_action(
     types: MessageTypes, server: ActionServer, function: FunctionNode, answer: str
 ) -> _Expected:
-    happens = "it counts as a rejection" if answer else _when_sent()
+    happens = _REJECTED if answer else _when_sent()
     return _Expected(
         f"a {answer}" if answer else "the result",
         f"for the action server of line {server.location.line}: {happens}",

@@ -117,6 +117,18 @@ class ArgumentsUnfit(TypeRule):
             },
         ),
         Example(
+            "a method that the constructor replaces",
+            {
+                "microphone.py": "from rclpy.node import Node\n\n\n"
+                "class Microphone(Node):\n"
+                "    def __init__(self, callback=None):\n"
+                "        super().__init__('microphone')\n"
+                "        self.callback = callback\n\n"
+                "    def callback(self, data, count):\n"
+                "        self.callback(data)\n"
+            },
+        ),
+        Example(
             "a function that is defined again",
             {
                 "spawn.py": "import rclpy\n\n\n"

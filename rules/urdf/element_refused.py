@@ -97,6 +97,14 @@ class ElementRefused(Rule):
     code = "UR010"
     name = "element-refused"
     examples = (
+        Example(
+            "a macro for MoveIt, whose joints are no joints of URDF",
+            {
+                "srdf/arm.xacro": '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+                '  <xacro:macro name="arm">\n    <disable_collisions link1="a" link2="b"/>\n'
+                '    <joint name="elbow" value="0"/>\n  </xacro:macro>\n</robot>\n'
+            },
+        ),
         Example("complete", {"robot.urdf": _ROBOT.format("value")}),
         Example(
             "of a program for browsers, which npm builds",

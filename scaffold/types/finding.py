@@ -225,16 +225,32 @@ class TypeFinding:
     def _is_defined_again(self, node: ast.AST) -> bool:
         """Tell whether a function or class that is called in a function is defined more than once.
 
-        The type checker holds such a call against all definitions; the last one is called.
+        The type checker holds such a call against all definitions; the last one is called. So is
+        what an attribute holds that is set to something else than the method of its name.
         """
         module = self.module
         call = node if isinstance(node, ast.Call) else module.enclosing(node, ast.Call)
+        if call is not None and isinstance(call.func, ast.Attribute):
+            return self._is_replaced(call.func)
         if call is None or not isinstance(call.func, ast.Name):
             return False
         lookup = module.index.lookup(call.func.id, call.func)
         kinds = [binding.kind for binding in lookup[1]] if lookup else []
         is_inside = module.enclosing_function(node) is not None
         return is_inside and len(kinds) > 1 and not {"function", "class"}.isdisjoint(kinds)
+
+    def _is_replaced(self, method: ast.Attribute) -> bool:
+        """Tell whether a class has a method, and sets the attribute of that name as well."""
+        module, name = self.module, method.attr
+        class_ = module.enclosing_class(method)
+        if class_ is None or module.text(method.value) != "self":
+            return False
+        if all(
+            binding.kind != "function" for binding in module.index.bindings(class_).get(name, ())
+        ):
+            return False
+        uses = module.index.attributes(name)
+        return any(isinstance(it.ctx, ast.Store) and module.text(it.value) == "self" for it in uses)
 
     def _imports_of(self, name: ast.Name) -> list[str]:
         """Return from which packages a name is imported, one after the other, and nothing else."""

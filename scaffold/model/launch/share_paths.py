@@ -42,6 +42,10 @@ _PLACEHOLDER = re.compile(r"(?i:readme[^/]*|\.(?:git)?(?:keep|ignore)|\.placehol
 """Matches files that keep a directory in git."""
 
 
+_OPTIONS = re.compile(r"\s-")
+"""Matches where options follow a file."""
+
+
 class NamedPath(NamedTuple):
     """A path below the share directory of a package, named in a launch file."""
 
@@ -74,6 +78,11 @@ def _paths_of_launch_file(package: Package, path: str) -> tuple[NamedPath, ...]:
         and not _is_written(launch, share_path.node)
         for named in _as_installed(package, launch, share_path)
     )
+
+
+def _without_options(path: str) -> str:
+    """Return the file of ``worlds/empty.sdf -r``, which Gazebo takes apart."""
+    return _OPTIONS.split(path, 1)[0].rstrip()
 
 
 def _paths_of_nodes(package: Package) -> Iterator[NamedPath]:
@@ -130,7 +139,7 @@ def _as_installed(package: Package, launch: LaunchFile, path: SharePath) -> Iter
 
     Nothing for a file next to a launch file that is not installed, but started from its source.
     """
-    named = NamedPath(path.package, path.path.rstrip(), path.location)
+    named = NamedPath(path.package, _without_options(path.path), path.location)
     directory = posixpath.dirname(launch.path)
     is_next_to = named.path.startswith(f"{directory}/") and package.has(named.path)
     if not is_next_to or not launch.module.mentions("ThisLaunchFileDir"):

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 ENDINGS = (".urdf", ".xacro")
+_OF_SRDF = frozenset({"disable_collisions", "end_effector", "group", "group_state"})
+"""Elements that only MoveIt reads."""
 _OF_OTHERS = frozenset({"test", "tests", "template", "templates"})
 """Directories with files that are no robots of the package."""
 
@@ -35,7 +37,9 @@ class RobotFile(NamedTuple):
     @property
     def is_robot(self) -> bool:
         """Whether it is URDF, and neither SDF nor SRDF."""
-        return self.root.tag == "robot" and ".srdf" not in self.path
+        if self.root.tag != "robot" or ".srdf" in self.path:
+            return False
+        return all(element.tag not in _OF_SRDF for element in self.root.descendants())
 
 
 def robot_paths(package: Package) -> list[str]:
