@@ -44,7 +44,7 @@ EXHAUSTION = (
     "takes too long to check",
     "nested too deeply, or too large for the available memory",
 )
-"""What `exhausted` says."""
+"""The message of `exhausted`."""
 
 
 def exhausted(error: BaseException) -> str:

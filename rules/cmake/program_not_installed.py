@@ -10,7 +10,7 @@ from scaffold.api.install import is_started, paths_imported_by
 from scaffold.api.launch import package_uses
 
 _TRIALS = ("test", "example")
-"""How the names of programs begin that nobody but their author starts."""
+"""Prefixes of the names of programs for their author only."""
 _NODE = (
     "#!/usr/bin/env python3\nimport rclpy\n\n\ndef main():\n    rclpy.init()\n\n\n"
     "if __name__ == '__main__':\n    main()\n"

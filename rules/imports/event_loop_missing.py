@@ -11,7 +11,7 @@ from scaffold.api.python import PythonModule, conditions_on, is_handled
 from scaffold.api.rclpy import is_asked_for
 
 _FIRST = (3, 14)
-"""The Python that makes no event loop for whoever asks for the current one."""
+"""The Python from which on getting the current event loop does not create one."""
 _NAME = "asyncio.get_event_loop"
 _SETTER = "set_event_loop"
 _MAKERS = ("nest_asyncio", "qasync", "uvloop")

@@ -13,7 +13,7 @@ _LAUNCH = (
 )
 
 _INCLUDED = frozenset({"include", "includes"})
-"""Directories of files that others include; nobody launches them."""
+"""Directories of files that are included, not launched."""
 
 
 class LaunchFileEnding(LaunchRule):

@@ -17,7 +17,7 @@ from scaffold.api.rclpy import (
 )
 
 _PUBLISHED_ONCE = frozenset({"robot_description", "tf_static"})
-"""Topics that nobody publishes again and again, as some do a map."""
+"""Topics that are published once, unlike a map, which some publish periodically."""
 _NODE = (
     "from nav_msgs.msg import OccupancyGrid\nfrom rclpy.node import Node\n"
     "from rclpy.qos import DurabilityPolicy, QoSProfile\n"

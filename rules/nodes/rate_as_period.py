@@ -14,7 +14,7 @@ _CLEAR = _RATES - {"rate"}
 _PERIODS = frozenset({"period", "interval"})
 _MILLISECONDS = frozenset({"ms", "msec", "msecs", "millis", "milliseconds", "millisec"})
 _LONG = 100
-"""Whole seconds that nobody waits between two calls of a timer; they are milliseconds."""
+"""Periods in whole seconds from here on are implausible: they are milliseconds."""
 _SECONDS: Mapping[str, tuple[int, str]] = {
     "create_timer": (0, "timer_period_sec"),
     "Duration": (9, "seconds"),

@@ -26,7 +26,7 @@ _REGISTER = "        self.sync.registerCallback(self.view)\n\n"
 
 
 _LONG = 5
-"""Seconds between messages that nobody calls simultaneous; milliseconds may be meant."""
+"""A slop in seconds from here on is implausible: it may be in milliseconds."""
 
 
 class SynchronizerMisused(MessageRule):

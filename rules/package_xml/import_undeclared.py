@@ -20,9 +20,9 @@ from scaffold.api.python import rospack_lookups
 from ._debian import key_of_debian
 
 _LAUNCH = frozenset({"launch", "launch_ros"})
-"""Whoever can start a launch file has them."""
+"""Installed wherever launch files can be started."""
 _BUILD = "python3-setuptools"
-"""Whoever has colcon has it."""
+"""Installed with colcon."""
 _MANIFEST = '<package format="3">\n  <name>talker</name>\n{}</package>\n'
 _INDEX = frozenset({"torch", "torchvision"})
 """Many install them with pip, for their graphics card."""

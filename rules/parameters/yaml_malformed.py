@@ -13,7 +13,7 @@ from scaffold.api.parameters import mistake, parameter_paths
 _LAUNCH = "launch:\n- node: {{pkg: talker, exec: talker{}\n- node: {{pkg: talker, exec: ear}}\n"
 _OTHER_FORMATS = rb"\A%YAML:|\{%|\{\{"
 _LONGEST = 64_000
-"""Bytes of a file that somebody writes."""
+"""The maximum size of a hand-written file in bytes."""
 _POINTS = "points:\n- [1.0, 2.0\n- [3.0, 4.0]\n"
 _LOADING = (
     "import yaml\n\n\ndef points(share):\n"

@@ -18,7 +18,7 @@ from scaffold.api.types import (
 )
 
 _CONVERTED = ("rclpy.time.Time", "rclpy.duration.Duration")
-"""What tf2 takes as well as a message: nobody may publish this one."""
+"""What tf2 accepts as well as a message: such a message may not be published at all."""
 _NODE = (
     "from geometry_msgs.msg import Vector3\nfrom visualization_msgs.msg import Marker\n\n\n"
     "def dot() -> Marker:\n"

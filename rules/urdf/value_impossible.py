@@ -24,7 +24,7 @@ _ROBOT_ANGLES = (
 _SMALLEST = 15
 """Degrees; a whole number of radians from here on is no angle that anybody writes."""
 _LARGEST = 3600
-"""Degrees; a larger number, such as 100000, stands for no limit at all."""
+"""Degrees; a larger number, such as 100000, means no limit."""
 _STEP = 5
 _RADIAN = 3.14159265 / 180
 

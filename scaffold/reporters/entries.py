@@ -23,7 +23,7 @@ _SET_ASIDE = re.compile(
     r"|trash|unused)|[(\[](?:old|unused|deprecated)[)\]].*",
     re.IGNORECASE,
 )
-"""Matches the name of a directory with code that nobody works on anymore."""
+"""Matches the name of a directory with abandoned code."""
 _TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "

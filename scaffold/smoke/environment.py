@@ -69,7 +69,7 @@ class Environment:
     variables: Mapping[str, str]
     """The whole environment of a child process."""
     distribution: str = ""
-    """Its name, such as ``jazzy``; empty if nothing says which it is."""
+    """Its name, such as ``jazzy``; empty if unknown."""
     notes: tuple[str, ...] = ()
     """Why an environment that the user may have expected was not taken."""
 

@@ -45,11 +45,11 @@ class Publication:
     timer_hz: float | None = None
     """How often timers publish it, unless their callbacks return or raise before."""
     tolerance: float | None = None
-    """Of the rate, if the author says so."""
+    """Of the rate, if the author specifies it."""
     is_managed: bool = False
     """A managed node publishes it, once it is active."""
     stated_by: str = ""
-    """The file in which the author says what is expected; empty for the source."""
+    """The file with the expectations of the author; empty for the source."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Expectation:
     runs_nothing: bool = False
     """It is a script that defines nodes and makes none."""
     source: str | None = None
-    """The file that says so."""
+    """The file with the expectation."""
     exit_code: int | None = None
     """What the author expects; ``None``: 0."""
     scenario: Scenario = NOTHING

@@ -221,7 +221,7 @@ class Executable:
     problems: tuple[Problem, ...] = ()
     notes: tuple[str, ...] = ()
     source: str = ""
-    """Its file, as the repository knows it; empty if it is unknown."""
+    """Its file, relative to the repository; empty if unknown."""
     seconds: float = field(default=0.0, compare=False)
     interrupted: bool = False
     """The run ended before it was done with this one."""
@@ -287,7 +287,7 @@ class PackageResult:
     build: Build
     executables: tuple[Executable, ...] = ()
     manifest: str = ""
-    """Its package.xml, as the repository knows it."""
+    """Its package.xml, relative to the repository."""
     is_dependency: bool = False
     """It was built for others, and not run."""
     tests: Tests | None = None

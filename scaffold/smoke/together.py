@@ -28,14 +28,14 @@ _KEPT = ("transient_local", "transient", "persistent")
 _DIED = re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)"
 )
-"""What launch says of a node that has ended."""
+"""The message of launch about a node that has ended."""
 _ASKED = "user interrupted with ctrl-c (SIGINT)"
-"""What it says when it gets the signal that it passes on."""
+"""Its message when it receives the signal that it forwards."""
 _IGNORED = re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process\[[^\]]+\] failed to terminate '(?P<seconds>[\d.]+)' "
     r"seconds after receiving '(?P<signal>SIGINT)'"
 )
-"""What launch says of a node that it has asked to end."""
+"""The message of launch about a node that it has signaled to end."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ class State(Enum):
     DIFFERING = "differing"
     """There is one with other content, or without its executable bits."""
     SAME = "same"
-    """There is one that says the same."""
+    """The file exists with the same content."""
     REMOVED = "removed"
     """The file is to go."""
 

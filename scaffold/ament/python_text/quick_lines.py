@@ -27,7 +27,7 @@ _FIELD = re.compile(
 _STRING = re.compile(r"\"([^\"]*)\"|'([^']*)'")
 _LONE_BACKSLASH = re.compile(r"^[ \t]*\\\n", re.MULTILINE)
 _BREAK = "\0"
-"""Stands for a line break inside of a string; Python parses no file with this character."""
+"""Replaces a line break in a string; Python parses no file with this character."""
 _OPAQUE = "\1"
 """Stands in an f-string whose fields are not read here."""
 

@@ -26,7 +26,7 @@ class Usual(NamedTuple):
     summaries: Mapping[str, str] = MappingProxyType({})
     """Of its choices."""
     completions: Sequence[str] = ()
-    """Words that are offered while somebody types."""
+    """Suggestions while the user types."""
     refused: Collection[str] = ()
     """What other parts of the package are called."""
     before: Any = None

@@ -25,9 +25,9 @@ class Origins(NamedTuple):
     arrived: Mapping[str, Distribution]
     """What the other packages are for, by directory: the target, or the same under another name."""
     assumed: Sequence[str]
-    """Those of the other packages of which nothing says what they are for."""
+    """Those of the other packages whose distribution is unknown."""
     guessed: Sequence[str]
-    """Those of the packages that move of which nothing says what they are for."""
+    """Those of the migrated packages whose distribution is unknown."""
     ended: Mapping[str, Distribution]
     """The names in records that are supported no more, with what the packages move from instead."""
 

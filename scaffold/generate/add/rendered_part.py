@@ -52,7 +52,7 @@ class Target(NamedTuple):
     templates: Mapping[str, Template]
     """The templates in them."""
     user: User
-    """Knows what neither the package nor the answers say."""
+    """Provides what is neither in the package nor in the answers."""
 
     @property
     def place(self) -> Place:

@@ -23,7 +23,7 @@ WHERE = {
     VENDORED: "of vendored code",
     COPIES: "left by editors or synchronization",
 }
-"""What the report says of each kind."""
+"""The description of each kind in the report."""
 ENVIRONMENTS = "environments"
 """Virtual environments, which are never checked."""
 
@@ -34,7 +34,7 @@ _VENDORED = frozenset(
     {"3rdparty", "3rd_party", "third_party", "third-party", "thirdparty", "vendor", "vendored"}
 )
 _LICENCES = ("LICENSE", "LICENCE", "COPYING")
-"""How the names of files begin that somebody else's code brings along."""
+"""Prefixes of license files, which vendored code includes."""
 _MOST_BYTES = 200_000
 """Of a file of git with patterns or paths."""
 

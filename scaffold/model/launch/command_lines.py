@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "static_transform_publisher"
 UNSAID = "$"
-"""Stands for a value that is not known; an option is always written as it is."""
+"""Placeholder for an unknown value; options are always literal."""
 _PROCESSES = ("ExecuteProcess", "ExecuteLocal")
 _RUN = ["ros2", "run"]
 _WORD = re.compile(r"(?:\$\([^()]*(?:\([^()]*\)[^()]*)*\)|[^\s$]|\$)+")

@@ -79,7 +79,7 @@ class StartedNode(NamedTuple):
     remappings: tuple[tuple[str, str | None, Location], ...]
     """The names that are remapped, as far as they are known, with what to and their places."""
     default_namespace: str
-    """The namespace that its group puts it into, unless an argument says otherwise."""
+    """The namespace of its group, unless an argument sets another one."""
 
     def owner(self, package: Package) -> KnownNode | None:
         """Return its code, when it is Python of the package or of one of the workspace."""

@@ -40,7 +40,7 @@ class DeclaredParameter(NamedTuple):
     """``UNKNOWN`` also when none is given, or when it is no value of a parameter."""
     has_descriptor: bool
     descriptor: Descriptor | None
-    """``None`` when it is not known what it says."""
+    """``None`` if its value is unknown."""
     divides: bool
     """Whether the node divides by its value, without looking at it."""
 

@@ -56,7 +56,7 @@ class Topic(NamedTuple):
     is_plain: bool
     """Every endpoint of the topic is created for sure, once, by a node without a namespace."""
     is_plain_by_default: bool
-    """So it is, unless somebody sets the parameters that hold its name."""
+    """The same, unless the parameters that hold its name are set."""
 
 
 class ServiceName(NamedTuple):

@@ -14,7 +14,7 @@ _LITERAL = (
 )
 _NAME = r"(?a)/?\w[\w./-]*"
 _LINE = 79
-"""Nobody breaks a text that fits in a line of this length."""
+"""A text that fits in a line of this length is not split."""
 
 
 def string_pieces(module: PythonModule, node: ast.expr) -> Iterator[tuple[int, int]]:

@@ -73,7 +73,7 @@ class PathValue:
 
 
 MAX_LENGTH = 20_000
-"""Characters or items; a longer value is nothing that a package says about itself."""
+"""Characters or items; longer values are not evaluated."""
 MAX_NUMBER = 10**18
 
 _SIMPLE_PERCENT = r"(?:[^%]|%[sdifrg%]|%0?\d{0,2}d|%\.\d{1,2}f|%\(\w+\)[sdifr])*"

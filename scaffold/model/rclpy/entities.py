@@ -271,7 +271,7 @@ class Parameter(Entity):
         self.descriptor_node = given.descriptor
         """``None`` when no descriptor is given."""
         self.descriptor = descriptor
-        """``None`` when it is not known what it says."""
+        """``None`` if its value is unknown."""
 
     @property
     def type(self) -> str | None:

@@ -22,7 +22,7 @@ _LIBRARY = re.compile(
 )
 """Frames outside the user's code; the second to last is in the scripts of setuptools."""
 PASSED_ON = "CalledProcessError"
-"""An exception that only says that another program failed, which printed why itself."""
+"""An exception that reports the failure of another program, which printed the reason itself."""
 _CMAKE_ERROR = re.compile(r"CMake Error")
 _CMAKE_WARNING = re.compile(r"CMake (?:Deprecation )?Warning")
 _ERROR_LINE = re.compile(r"^\S.*\b(?:fatal )?error(?: in [\w.-]+ setup command)?: |^error: ")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from scaffold.smoke.result import Observation
 
 MOST_BOXES = 60
-"""Nodes and topics in a picture; with more of them nobody would see anything."""
+"""The maximum number of nodes and topics in a readable picture."""
 _BOX_HEIGHT = 34
 _GAP = 16
 _BETWEEN_LAYERS = 70
