@@ -40,7 +40,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 def _is_in_degrees(types: MessageTypes, holder: ast.expr, given: ast.expr) -> bool:
     """Tell whether a whole angle in degrees is written into an angular velocity."""
-    value = types.facts.evaluator.evaluate(given)
+    value = types.file.evaluator.evaluate(given)
     is_velocity = isinstance(holder, ast.Attribute) and holder.attr == "angular"
     return is_velocity and isinstance(value, int | float) and abs(value) in _DEGREES
 
@@ -73,7 +73,7 @@ def _whole_angle(types: MessageTypes, holder: ast.expr, z: ast.expr) -> str:
     angle = _argument_of(types, z, "sin")
     if angle is None or not _is_angle(angle):
         return ""
-    if isinstance(types.facts.evaluator.single_value(angle), ast.BinOp):
+    if isinstance(types.file.evaluator.single_value(angle), ast.BinOp):
         return ""
     text = types.module.text(angle)
     function = types.module.enclosing_function(holder)
@@ -135,5 +135,5 @@ def _is_quaternion(types: MessageTypes, node: ast.expr) -> bool:
     owner = types.type_of(node)
     if owner is not None:
         return owner.name == "geometry_msgs/msg/Quaternion"
-    value = types.facts.evaluator.single_value(node)
+    value = types.file.evaluator.single_value(node)
     return isinstance(value, ast.Attribute) and value.attr in {"orientation", "rotation"}

@@ -51,13 +51,13 @@ def _arrays_as_numbers(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         is_array = type_ is not None and type_.is_array and type_.array_size is None
         if is_array and is_order and len(node.ops) == 1:
             text = module.text(node.left)
-            if isinstance(types.facts.evaluator.evaluate(node.comparators[0]), int | float):
+            if isinstance(types.file.evaluator.evaluate(node.comparators[0]), int | float):
                 yield node, f"{text} is an array, not a number: TypeError; compare its elements"
 
 
 def _fields_in_arithmetic(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     """Yield sums of text and a number, and arrays that are calculated with as in numpy."""
-    module, evaluate = types.module, types.facts.evaluator.evaluate
+    module, evaluate = types.module, types.file.evaluator.evaluate
     for node in module.walk(ast.BinOp):
         for field, other in ((node.left, node.right), (node.right, node.left)):
             type_ = types.field_type_of(field)
@@ -108,7 +108,7 @@ def _columns_of_clouds(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     for index in types.module.walk(ast.Subscript):
         match index.slice:
             case ast.Tuple(elts=elements) if len(elements) == _COLUMNS:
-                made = types.facts.evaluator.single_value(index.value)
+                made = types.file.evaluator.single_value(index.value)
                 if isinstance(made, ast.Call) and _is_flat_cloud(types, made):
                     message = "read_points() returns an array with one dimension, whose fields have"
                     hint = "write ['x'], or use read_points_numpy()"

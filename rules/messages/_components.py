@@ -94,7 +94,7 @@ def _without_w(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
 
 def _of_zeros(types: MessageTypes, parts: _Parts) -> Iterator[Flaw]:
     """Find ``q.w = 0.0`` where the other parts are zero as well; an IMU may have no orientation."""
-    values = [types.facts.evaluator.evaluate(value) for value in parts.values()]
+    values = [types.file.evaluator.evaluate(value) for value in parts.values()]
     is_zero = all(value == 0 and isinstance(value, int | float) for value in values)
     if "w" in parts and is_zero and not types.module.mentions("orientation_covariance"):
         yield parts["w"], "a quaternion of zeros is not a rotation: write w=1.0 for none"

@@ -22,7 +22,7 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
         match _unwrapped(types, item.value):
             case ast.BinOp(left=left, op=ast.Mult(), right=right):
                 for fraction, factor in ((left, right), (right, left)):
-                    number = types.facts.evaluator.number(factor)
+                    number = types.file.evaluator.number(factor)
                     is_number = isinstance(number, int | float) and number != _IN_A_SECOND
                     if is_number and _is_fraction(types, fraction):
                         text = types.module.text(factor)
@@ -31,16 +31,16 @@ def flaws(types: MessageTypes) -> Iterator[Flaw]:
 
 def _unwrapped(types: MessageTypes, node: ast.expr) -> ast.expr:
     """Return what is made an integer."""
-    value = types.facts.evaluator.single_value(node)
+    value = types.file.evaluator.single_value(node)
     match value:
         case ast.Call(func=ast.Name(id="int" | "round"), args=[inner, *_]):
-            return types.facts.evaluator.single_value(inner)
+            return types.file.evaluator.single_value(inner)
     return value
 
 
 def _is_fraction(types: MessageTypes, node: ast.expr) -> bool:
     """Tell whether an expression is ``x % 1``, or ``x - int(x)``."""
-    evaluator = types.facts.evaluator
+    evaluator = types.file.evaluator
     match evaluator.single_value(node):
         case ast.BinOp(op=ast.Mod(), right=right):
             return evaluator.number(right) == 1

@@ -86,7 +86,7 @@ def _call_flaws(types: MessageTypes, call: ast.Call) -> Iterator[Flaw]:
 
 
 def _encoding_problem(types: MessageTypes, node: ast.expr, what_happens: str) -> str:
-    value = types.facts.evaluator.evaluate(node)
+    value = types.file.evaluator.evaluate(node)
     meant = _meant(value) if isinstance(value, str) else ""
     return f"unknown encoding {value!r}: {what_happens}; write {meant!r}" if meant else ""
 
@@ -101,7 +101,7 @@ def _step_problem(types: MessageTypes, holder: ast.expr, step: ast.expr) -> str:
         for item in types.assigned
         if module.text(item.holder) == name and module.enclosing_function(item.holder) is function
     }
-    encoding = types.facts.evaluator.evaluate(given["encoding"]) if "encoding" in given else ""
+    encoding = types.file.evaluator.evaluate(given["encoding"]) if "encoding" in given else ""
     if not isinstance(encoding, str) or "width" not in given:
         return ""
     encoding = encoding.lower()

@@ -83,7 +83,7 @@ def _first_row(types: MessageTypes, assigned: ast.Assign) -> int:
             match loop:
                 case ast.For(
                     target=ast.Name(id=counter), iter=ast.Call(func=ast.Name("range"), args=[end])
-                ) if counter == name and types.facts.evaluator.evaluate(end) == rows:
+                ) if counter == name and types.file.evaluator.evaluate(end) == rows:
                     return rows
     return 0
 
@@ -95,9 +95,9 @@ def _elements_of(types: MessageTypes, matrix: ast.expr) -> int:
             type_ = types.field_type_of(matrix)
             return (type_.array_size or 0) if type_ is not None else 0
         case ast.Name(id=name) if "cov" in name:
-            match types.facts.evaluator.single_value(matrix):
+            match types.file.evaluator.single_value(matrix):
                 case ast.BinOp(left=ast.List(elts=[_]), op=ast.Mult(), right=count):
-                    number = types.facts.evaluator.evaluate(count)
+                    number = types.file.evaluator.evaluate(count)
                     return number if isinstance(number, int) else 0
     return 0
 
@@ -108,7 +108,7 @@ def _turned_shape(types: MessageTypes, call: ast.Call) -> str:
     if not isinstance(call.func, ast.Attribute) or call.func.attr != "reshape":
         return ""
     shape = call.args[0].elts if call.args and isinstance(call.args[0], ast.Tuple) else call.args
-    match [types.facts.evaluator.single_value(item) for item in shape[:2]]:
+    match [types.file.evaluator.single_value(item) for item in shape[:2]]:
         case [
             ast.Attribute(attr="width", value=first),
             ast.Attribute(attr="height", value=second),
@@ -157,5 +157,5 @@ def _is_transposed(types: MessageTypes, image: ast.expr) -> bool:
             case ast.Subscript(value=whole) | ast.Call(func=ast.Attribute(value=whole)):
                 pending.append(whole)
             case ast.Name() | ast.Attribute() if len(pending) < _MOST_ARRAYS:
-                pending += types.facts.evaluator.values(array)
+                pending += types.file.evaluator.values(array)
     return False

@@ -56,7 +56,7 @@ class AnswerNotUnwrapped(MessageRule):
     )
 
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
-        if not types.facts.action_clients:
+        if not types.file.action_clients:
             return
         for node in types.module.walk(ast.Attribute):
             message = _message(types, node)

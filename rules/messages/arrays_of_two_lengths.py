@@ -115,7 +115,7 @@ def _length(types: MessageTypes, values: list[ast.expr]) -> int | None:
         uses = types.module.index.attributes(given.attr)
         if any(isinstance(types.module.parent(use), ast.Attribute | ast.AugAssign) for use in uses):
             return None  # such as names.append()
-        given = types.facts.evaluator.single_value(given)
-    elements = types.facts.evaluator.elements(given)
+        given = types.file.evaluator.single_value(given)
+    elements = types.file.evaluator.elements(given)
     is_known = elements.complete and not any(item.conditional for item in elements.items)
     return len(elements.items) if is_known else None

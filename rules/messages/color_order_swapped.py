@@ -168,7 +168,7 @@ def _is_gray(types: MessageTypes, image: ast.Name) -> bool:
         made = (
             _thresholded(types, image)
             or _value_before(types, image)
-            or types.facts.evaluator.single_value(image)
+            or types.file.evaluator.single_value(image)
         )
         if not isinstance(made, ast.Call) or not made.args:
             return False
@@ -213,7 +213,7 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
     passed = _passed(types, image)
     if passed is not None:
         return _order(types, passed, depth - 1) if depth else ""
-    made = _value_before(types, image) or types.facts.evaluator.single_value(image)
+    made = _value_before(types, image) or types.file.evaluator.single_value(image)
     if not isinstance(made, ast.Call):
         return ""
     if types.module.qualified_name(made.func) == "cv2.imread":
@@ -226,7 +226,7 @@ def _order(types: MessageTypes, image: ast.Name, depth: int = _DEEPEST) -> str:
 def _passed(types: MessageTypes, image: ast.Name) -> ast.Name | None:
     """Return the image that the only call of a function gives it as this parameter."""
     module = types.module
-    parameter = types.facts.parameter_of(image)
+    parameter = types.file.parameter_of(image)
     function = module.enclosing_function(image)
     if parameter is None or function is None or _value_before(types, image) is not None:
         return None
@@ -236,7 +236,7 @@ def _passed(types: MessageTypes, image: ast.Name) -> ast.Name | None:
         case [ast.Call(func=called, args=given, keywords=[]) as call], [use] if called is use:
             place = names.index(parameter.arg) - int(isinstance(use, ast.Attribute))
             value = given[place] if 0 <= place < len(given) else None
-            is_own = types.facts.callback(call.func).function is function
+            is_own = types.file.callback(call.func).function is function
             return value if is_own and isinstance(value, ast.Name) else None
     return None
 
@@ -287,7 +287,7 @@ def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
             targets=[ast.Tuple(elts=[_, ast.Name(id=name)])],
             value=ast.Call(func=ast.Attribute(attr="read", value=camera), args=[], keywords=[]),
         ) if name == image.id:
-            made = types.facts.evaluator.single_value(camera)
+            made = types.file.evaluator.single_value(camera)
             return (
                 isinstance(made, ast.Call)
                 and types.module.qualified_name(made.func) == "cv2.VideoCapture"
@@ -298,5 +298,5 @@ def _is_frame(types: MessageTypes, image: ast.Name) -> bool:
 
 def _encoding(types: MessageTypes, call: ast.Call, keyword: str) -> str:
     given = [word.value for word in call.keywords if word.arg == keyword] or call.args[1:2]
-    value = types.facts.evaluator.evaluate(given[0]) if given else ""
+    value = types.file.evaluator.evaluate(given[0]) if given else ""
     return value if isinstance(value, str) else ""

@@ -105,7 +105,7 @@ def _nan_problem(types: MessageTypes, node: ast.Compare) -> str:
         return ""
     for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
         is_named = types.module.qualified_name(side) in _NAN
-        match types.facts.evaluator.single_value(side):
+        match types.file.evaluator.single_value(side):
             case ast.Call(func=ast.Name(id="float"), args=[ast.Constant(value=str(text))]):
                 is_named = text.strip().lstrip("+-").lower() == "nan"
         if is_named:
@@ -119,9 +119,9 @@ _NAN = frozenset({"math.nan", "numpy.nan", "numpy.NaN", "numpy.NAN"})
 
 def _problem(types: MessageTypes, field: ast.expr, other: ast.expr) -> str:
     """Return why a field never equals a value; empty if it may."""
-    value = types.facts.evaluator.evaluate(other)
+    value = types.file.evaluator.evaluate(other)
     is_value = isinstance(value, bool | int | float | str) or _is_constant(types, other)
-    source = types.facts.evaluator.single_value(field)
+    source = types.file.evaluator.single_value(field)
     message = types.type_of(source) if is_value and isinstance(source, ast.Attribute) else None
     if message is not None:
         text, other_text = types.module.text(field), types.module.text(other)

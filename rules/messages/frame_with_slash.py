@@ -139,7 +139,7 @@ class FrameWithSlash(MessageRule):
     def check_file(self, types: MessageTypes) -> Iterator[Diagnostic]:
         # Frames that a test makes up as input are never looked up.
         for node, owner in () if types.module.in_tests else _frames(types):
-            value = types.facts.evaluator.evaluate(node)
+            value = types.file.evaluator.evaluate(node)
             if not (isinstance(value, str) and value.startswith("/")):
                 continue
             fix = None
@@ -161,7 +161,7 @@ class FrameWithSlash(MessageRule):
 def _frames(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
     """Yield the expressions that are used as frames, with the message they are in if any."""
     for name in _FIELDS:
-        for store in types.facts.evaluator.stores(name):
+        for store in types.file.evaluator.stores(name):
             # ``self.frame_id`` is an attribute of the node, not of a message.
             if store.value is not None and store.class_ is None:
                 yield store.value, _message(types, store.node.value)

@@ -201,5 +201,5 @@ def _points_without_time(types: MessageTypes) -> Iterator[ast.Call]:
 def _is_ours(package: Package, types: MessageTypes, sent: ast.expr) -> bool:
     """Tell whether no other module uses the attribute that holds a message."""
     return not isinstance(sent, ast.Attribute) or not is_used_elsewhere(
-        package, types.facts, sent.attr
+        package, types.file, sent.attr
     )

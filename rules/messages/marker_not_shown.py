@@ -212,7 +212,7 @@ def _problems(types: MessageTypes, made: ast.Assign, name: ast.Name) -> Iterator
     if loop is None or not actions <= _ADDING or _ends_early(loop):
         return
     ids, spaces = (list(_given(types, uses, words, key)) for key in ("id", "ns"))
-    values = [types.facts.evaluator.evaluate(value) for value in (*ids, *spaces)]
+    values = [types.file.evaluator.evaluate(value) for value in (*ids, *spaces)]
     if len(ids) <= 1 and len(spaces) <= 1 and all(map(is_known, values)):
         shown = f"the id {values[0]}" if ids else "the id 0"
         yield f"all markers of this loop have {shown}: RViz shows the last one; count them"

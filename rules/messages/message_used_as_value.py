@@ -358,7 +358,7 @@ def _compared(types: MessageTypes, node: ast.Compare) -> Iterator[tuple[ast.expr
 
 def _is_plain(types: MessageTypes, node: ast.expr) -> bool:
     """Return whether an expression is a constant, or a field of a plain type."""
-    value = types.facts.evaluator.evaluate(node)
+    value = types.file.evaluator.evaluate(node)
     return type(value) in _arrays.KINDS.values() or bool(_arrays.kind(types.field_type_of(node)))
 
 
@@ -376,7 +376,7 @@ def _truth_tests(types: MessageTypes) -> Iterator[ast.expr]:
 
 def _may_be_none(types: MessageTypes, node: ast.expr) -> bool:
     """Return whether an expression is more than the argument of a callback or a field."""
-    return types.facts.parameter_of(node) is None and types.field_type_of(node) is None
+    return types.file.parameter_of(node) is None and types.field_type_of(node) is None
 
 
 def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str]]:

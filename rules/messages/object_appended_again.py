@@ -200,7 +200,7 @@ def _made_once(
 def _maker(types: MessageTypes, item: ast.Name | ast.Attribute) -> ast.expr | None:
     """Return what a name or an attribute of ``self`` is assigned, if that is so once."""
     if isinstance(item, ast.Name):
-        return types.facts.evaluator.single_value(item)
+        return types.file.evaluator.single_value(item)
     class_ = types.module.enclosing_class(item)
     text = types.module.text(item)
     values = [

@@ -104,8 +104,8 @@ class QuaternionOrderSwapped(MessageRule):
                 order = _order(target.elts) if isinstance(target, ast.Tuple | ast.List) else ""
                 yield from self._compare(types, target, order, _GIVES[name], name)
         for index in _last_parts(types):
-            name = _giver(types, types.facts.evaluator.single_value(index.value))
-            number = types.facts.evaluator.evaluate(index.slice)
+            name = _giver(types, types.file.evaluator.single_value(index.value))
+            number = types.file.evaluator.evaluate(index.slice)
             if name and number in {0, 3}:
                 order = "wxyz" if number == 0 else "xyzw"
                 yield from self._compare(types, index, order, _GIVES[name], name)
@@ -130,7 +130,7 @@ def _giver(types: MessageTypes, value: ast.expr) -> str:
 
 def _given(types: MessageTypes, node: ast.expr) -> str:
     """Return the order of the parts in a list or tuple."""
-    value = types.facts.evaluator.single_value(node)
+    value = types.file.evaluator.single_value(node)
     return _order(value.elts) if isinstance(value, ast.Tuple | ast.List) else ""
 
 
@@ -146,7 +146,7 @@ def _order(items: Sequence[ast.expr]) -> str:
 
 def _last_parts(types: MessageTypes) -> Iterator[ast.Subscript]:
     """Yield what the field ``w`` is set to: ``message.w = q[3]``, ``Quaternion(w=q[3])``."""
-    for store in types.facts.evaluator.stores("w"):
+    for store in types.file.evaluator.stores("w"):
         if isinstance(store.value, ast.Subscript):
             yield store.value
     for call in types.module.walk(ast.Call):

@@ -119,7 +119,7 @@ def _is_of_scan(types: MessageTypes, node: ast.expr) -> bool:
             owner = types.type_of(holder)
             return owner is not None and owner.name == "sensor_msgs/msg/LaserScan"
         case ast.Name():
-            value = types.facts.evaluator.single_value(node)
+            value = types.file.evaluator.single_value(node)
             return value is not None and value is not node and _is_of_scan(types, value)
     return False
 

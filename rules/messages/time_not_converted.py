@@ -100,7 +100,7 @@ def _times(types: MessageTypes) -> Iterator[tuple[ast.expr, str]]:
         headers.add(item.value)
         if item.field.type.package == "builtin_interfaces":
             yield item.value, item.field.name
-    for store in types.facts.evaluator.stores("stamp"):
+    for store in types.file.evaluator.stores("stamp"):
         holder = store.node.value
         in_header = isinstance(holder, ast.Attribute) and holder.attr == "header"
         if in_header and store.value is not None and store.value not in headers:

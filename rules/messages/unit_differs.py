@@ -334,7 +334,7 @@ def _unit_of_name(
 def _values(types: MessageTypes, node: ast.Name | ast.Attribute) -> list[ast.expr]:
     """Return what a name or an attribute of the object is assigned."""
     if isinstance(node, ast.Attribute):
-        return [*(types.facts.evaluator.attribute_values(node) or ())]
+        return [*(types.file.evaluator.attribute_values(node) or ())]
     lookup = types.module.index.lookup(node.id, node)
     values: list[ast.expr] = []
     for binding in lookup[1] if lookup else ():

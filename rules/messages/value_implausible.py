@@ -320,7 +320,7 @@ class ValueImplausible(MessageRule):
 def _problem(types: MessageTypes, owner: str, name: str, node: ast.expr) -> str:
     """Return what the definition of a field says against its value; empty if nothing."""
     key = (owner, name)
-    value = types.facts.evaluator.evaluate(node)
+    value = types.file.evaluator.evaluate(node)
     if key in _RANGES and isinstance(value, int | float) and not isinstance(value, bool):
         low, high, meaning = _RANGES[key]
         return "" if low <= value <= high else f"{name} is {meaning}, not {value:g}"
@@ -333,5 +333,5 @@ def _is_times_hundred(types: MessageTypes, node: ast.expr) -> bool:
     """Tell whether an expression is a product with 100."""
     if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult)):
         return False
-    values = [types.facts.evaluator.evaluate(part) for part in (node.left, node.right)]
+    values = [types.file.evaluator.evaluate(part) for part in (node.left, node.right)]
     return any(value == _PERCENT for value in values)

@@ -32,7 +32,7 @@ def _is_known(file: RclpyFile, node: NodeClass) -> bool:
     """Tell whether all classes between a node and rclpy's Node are in the file."""
     owner: NodeClass | None = node
     while owner is not None:
-        if owner.facts is not file or len(owner.node.bases) != 1:
+        if owner.file is not file or len(owner.node.bases) != 1:
             return False
         owner = owner.base
     return True

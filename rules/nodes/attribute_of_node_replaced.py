@@ -92,12 +92,12 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
     """Yield where the methods of a class assign to a property of Node."""
     own = {
         name
-        for name, binding in node.facts.module.index.bindings(node.node).items()
+        for name, binding in node.file.module.index.bindings(node.node).items()
         if binding and name in PROPERTIES
     }
     names = (PROPERTIES | _PRIVATE) - own
     for method in node.methods.values():
-        for inner in node.facts.module.below(method, ast.Attribute):
+        for inner in node.file.module.below(method, ast.Attribute):
             if (
                 inner.attr in names
                 and isinstance(inner.ctx, ast.Store)
@@ -111,15 +111,15 @@ def _targets(node: NodeClass) -> Iterator[ast.Attribute]:
 def _is_usable(node: NodeClass, target: ast.Attribute) -> bool:
     """Return whether the assigned value works for Node, or is unknown."""
     if target.attr in _PRIVATE:
-        parent = node.facts.module.parent(target)
+        parent = node.file.module.parent(target)
         value = parent.value if isinstance(parent, ast.Assign | ast.AnnAssign) else None
         is_list = isinstance(value, ast.List) and target.attr not in {"_clock", "_parameters"}
         return is_list or not isinstance(value, ast.Constant | ast.Dict | ast.Set | ast.List)
     if target.attr != "executor":
         return False
-    parent = node.facts.module.parent(target)
+    parent = node.file.module.parent(target)
     value = parent.value if isinstance(parent, ast.Assign | ast.AnnAssign) else None
     if not isinstance(value, ast.Call):
         return True
-    name = node.facts.module.qualified_name(value.func) or ""
+    name = node.file.module.qualified_name(value.func) or ""
     return not name.startswith("concurrent.futures.")

@@ -138,7 +138,7 @@ class AttributeOfNodeUnknown(RclpyRule):
         names: set[str] = set()
         for attribute in used:
             name = attribute.attr
-            if name in defined or name in given or _may_fail(node.facts, attribute):
+            if name in defined or name in given or _may_fail(node.file, attribute):
                 continue
             names = names or {*defined, *given, *_names_of_rclpy()}
             closest = _ELSEWHERE.get(name) or _closest(package, name, names)
@@ -147,7 +147,7 @@ class AttributeOfNodeUnknown(RclpyRule):
             if inner is not None:
                 hint = f"; the one of line {inner.lineno} is inside another method: indent it less"
             message = f"neither {node.name} nor rclpy's Node has {name!r}: AttributeError{hint}"
-            module = node.facts.module
+            module = node.file.module
             is_late = only_while_stopping(module, attribute)
             severity = Severity.WARNING if is_late else Severity.ERROR
             cause = f"attributes of {node.name} in {module.path}"
@@ -156,7 +156,7 @@ class AttributeOfNodeUnknown(RclpyRule):
 
 def _inner_function(node: NodeClass, name: str) -> ast.FunctionDef | None:
     """Return the function of a name that a method of a node defines for itself."""
-    module = node.facts.module
+    module = node.file.module
     for function in module.below(node.node, ast.FunctionDef):
         if function.name == name and module.enclosing_function(function) is not None:
             return function

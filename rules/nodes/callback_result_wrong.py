@@ -234,7 +234,7 @@ class CallbackResultWrong(MessageRule):
 
     def _check_actions(self, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[tuple[str, FunctionNode]] = set()
-        for server in types.facts.action_servers:
+        for server in types.file.action_servers:
             for name in ("execute_callback", *_ANSWERS):
                 function = _function(types, server, name)
                 if function is not None and (name, function) not in seen:
@@ -244,7 +244,7 @@ class CallbackResultWrong(MessageRule):
 
     def _check_services(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
         seen: set[FunctionNode] = set()
-        for service in types.facts.services:
+        for service in types.file.services:
             callback = service.callback
             function = callback.function if callback else None
             if function is None or isinstance(function, ast.Lambda) or function in seen:
@@ -332,7 +332,7 @@ def _when_sent() -> str:
 def _function(types: MessageTypes, server: ActionServer, name: str) -> FunctionNode | None:
     """Return the definition of a callback that nothing wraps."""
     given = server.argument(name)
-    callback = types.facts.callback(given.node) if given else None
+    callback = types.file.callback(given.node) if given else None
     function = callback.function if callback else None
     if callback is None or function is None or isinstance(function, ast.Lambda):
         return None
@@ -416,7 +416,7 @@ def _plain(types: MessageTypes, value: ast.expr) -> str:
         case ast.Dict() | ast.List() | ast.Tuple() | ast.Set():
             return f"a {type(value).__name__.lower()}"
         case ast.Call(func=func):
-            called = types.facts.callback(func).function
+            called = types.file.callback(func).function
             if isinstance(called, ast.FunctionDef) and _returns_nothing(called):
                 return f"nothing from {called.name}()"
     return ""

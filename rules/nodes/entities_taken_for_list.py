@@ -89,13 +89,13 @@ def _is_of_node(file: RclpyFile, attribute: ast.Attribute) -> bool:
     """Return whether only Node has the attribute: no class sets or defines it."""
     owner = file.owner_of(attribute.value)
     while isinstance(owner, NodeClass):
-        bindings = owner.facts.module.index.bindings(owner.node)
+        bindings = owner.file.module.index.bindings(owner.node)
         if len(owner.node.bases) != 1 or attribute.attr in bindings:
             return False
-        if owner.facts.evaluator.stores(attribute.attr):
+        if owner.file.evaluator.stores(attribute.attr):
             return False
         if owner.base is None:
-            base = owner.facts.module.qualified_name(owner.node.bases[0]) or ""
+            base = owner.file.module.qualified_name(owner.node.bases[0]) or ""
             return base.startswith("rclpy.")
         owner = owner.base
     return False

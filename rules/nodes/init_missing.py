@@ -88,16 +88,16 @@ def _problem_of(package: Package, path: str, function: str | None) -> tuple[Loca
     """Return place and message of what is wrong about a program; raises ViewError."""
     run = run_of(package, path, function)
     first = next(iter(run.nodes()), None)
-    if first is None or run.facts.module.in_tests:
+    if first is None or run.file.module.in_tests:
         return None
     problem = _problem(package, run, first[0])
-    return (run.facts.module.location(first[0]), problem) if problem else None
+    return (run.file.module.location(first[0]), problem) if problem else None
 
 
 def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
-    facts = run.facts
-    late = late_init(facts, made)
-    own = facts.module.path
+    file = run.file
+    late = late_init(file, made)
+    own = file.module.path
     for path in paths_of(package, own):
         if may_init(package, path) and not (late and path == own):
             return None
@@ -107,8 +107,8 @@ def _problem(package: Package, run: Execution, made: ast.Call) -> str | None:
         package, run, made
     ):
         return None
-    name = facts.module.text(made.func)
+    name = file.module.text(made.func)
     if late is not None:
-        line = facts.module.location(late).line
+        line = file.module.location(late).line
         return f"{name} is constructed before rclpy.init() in line {line}: NotInitializedException"
     return f"{name} is constructed without rclpy.init(): NotInitializedException"

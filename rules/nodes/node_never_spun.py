@@ -152,7 +152,7 @@ def _spins_itself(file: RclpyFile, class_: NodeClass) -> bool:
         return True
     if class_.base is None:
         return False
-    return class_.base.facts is not file or _spins_itself(file, class_.base)
+    return class_.base.file is not file or _spins_itself(file, class_.base)
 
 
 def _is_spun_by_code(file: RclpyFile, class_: ast.ClassDef) -> bool:

@@ -123,13 +123,13 @@ class ParameterReadUndeclared(RclpyRule):
             for read in node.parameter_reads:
                 message = _message(package, read, by_name) or _called_early(node, read, by_name)
                 if message and not is_handled(
-                    node.facts.module, read.call, "ParameterNotDeclaredException"
+                    node.file.module, read.call, "ParameterNotDeclaredException"
                 ):
                     yield self.report(read, message)
             for used in names_used_by(package, node):
                 if used.name in by_name or has_always(used.name):
                     continue
-                module = node.facts.module
+                module = node.file.module
                 if not is_handled(module, used.call, "ParameterNotDeclaredException"):
                     yield self.report(
                         module.location(used.node), _undeclared(package, used.name, by_name)
@@ -190,7 +190,7 @@ def _places(node: NodeClass, method: FunctionNode | None, *, is_certain: bool) -
         method: The method.
         is_certain: Whether only calls count that are always made.
     """
-    file = node.facts
+    file = node.file
     if node.constructor is None or method is None or node.methods.get(method.name) is not method:
         return
     for call in file.calls_in(node.constructor):

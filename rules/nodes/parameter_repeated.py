@@ -117,7 +117,7 @@ class ParameterRepeated(RclpyRule):
 
     def _automatic(self, package: Package, node: NodeDefinition) -> Iterator[Diagnostic]:
         """Report what a node declares although rclpy has declared it, if it is set."""
-        if not node.is_declared_by_overrides or "has_parameter" in node.facts.module.source.text:
+        if not node.is_declared_by_overrides or "has_parameter" in node.file.module.source.text:
             return
         for parameter in node.parameters:
             name = parameter.name

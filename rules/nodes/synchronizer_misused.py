@@ -111,7 +111,7 @@ class SynchronizerMisused(MessageRule):
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
-        file = types.facts
+        file = types.file
         if not file.module.mentions("message_filters") or file.module.in_tests:
             return
         for synchronizer in file.synchronizers:

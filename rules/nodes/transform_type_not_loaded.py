@@ -63,7 +63,7 @@ class TransformTypeNotLoaded(MessageRule):
     )
 
     def check_in(self, package: Package, types: MessageTypes) -> Iterator[Diagnostic]:
-        file = types.facts
+        file = types.file
         for lookup in lookups_in(file):
             if lookup.method != "transform" or "new_type" in lookup.arguments:
                 continue

@@ -173,7 +173,7 @@ def _read(owner: NodeDefinition, name: str) -> ParameterRead | None:
     while current is not None:
         for read in current.parameter_reads:
             if read.name == name and read.method == "get_parameter":
-                module = current.facts.module
+                module = current.file.module
                 if not is_handled(module, read.call, "ParameterUninitializedException"):
                     return read
         current = current.base if isinstance(current, NodeClass) else None

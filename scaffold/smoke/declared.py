@@ -39,12 +39,12 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
         run = run_of(package, start.path, start.function)
     except ViewError:
         return None
-    owners = [] if _has_own_arguments(run.facts) else [owner for _, owner in run.nodes()]
+    owners = [] if _has_own_arguments(run.file) else [owner for _, owner in run.nodes()]
     return Expectation(
-        publications=_merged(_publications(run.facts, owners, run.functions)),
+        publications=_merged(_publications(run.file, owners, run.functions)),
         offers=tuple(dict.fromkeys(_offers(owners, run.functions))),
-        is_node=_is_node(package, run.facts),
-        runs_nothing=start.function is None and not run.calls and bool(run.facts.nodes),
+        is_node=_is_node(package, run.file),
+        runs_nothing=start.function is None and not run.calls and bool(run.file.nodes),
         source=start.path,
     )
 
@@ -71,17 +71,17 @@ def _publications(
     file: RclpyFile, owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]
 ) -> Iterator[Publication]:
     for owner in owners:
-        alone = owner.facts is file and not (isinstance(owner, NodeClass) and owner.base)
-        reaches = PublishReach(owner.facts, starts, alone=alone)
+        alone = owner.file is file and not (isinstance(owner, NodeClass) and owner.base)
+        reaches = PublishReach(owner.file, starts, alone=alone)
         for publisher in _made(owner, starts, lambda item: item.publishers):
             topic = _resolved(publisher.topic, owner)
             if topic is not None and owner.is_lifecycle:
                 yield Publication(topic, publisher.message_type, is_managed=True)
             elif topic is not None:
-                rates = publish_rates(owner.facts, publisher) if alone else None
+                rates = publish_rates(owner.file, publisher) if alone else None
                 rate = sum(rates) if rates else None
                 reach = reaches.of(publisher)
-                timers = publish_rates(owner.facts, publisher, may_leave=True) if alone else None
+                timers = publish_rates(owner.file, publisher, may_leave=True) if alone else None
                 yield Publication(
                     topic,
                     publisher.message_type,
@@ -124,7 +124,7 @@ def _made(
         made_in = {
             function
             for start in _constructors(node_class)
-            for function in node_class.facts.reached(start)
+            for function in node_class.file.reached(start)
         }
         for entity in own(node_class):
             if not entity.is_conditional and entity.function in made_in:

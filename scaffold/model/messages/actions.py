@@ -30,7 +30,7 @@ class ActionMessages:
     """Finds the messages that action clients receive in a file."""
 
     def __init__(self, file: RclpyFile) -> None:
-        self._facts = file
+        self._file = file
         self._clients = {client.call: client for client in file.action_clients}
         self._feedback = dict(self._feedback_arguments())
 
@@ -38,8 +38,8 @@ class ActionMessages:
         """Return what an expression certainly is, if a client is given it."""
         if not self._clients:
             return None
-        value = self._facts.evaluator.single_value(node)
-        argument = self._facts.parameter_of(value)
+        value = self._file.evaluator.single_value(node)
+        argument = self._file.parameter_of(value)
         client = self._feedback.get(argument) if argument is not None else None
         if client is not None:
             return Wrapped(client, "Feedback", "feedback", "goal_id")
@@ -50,12 +50,12 @@ class ActionMessages:
 
     def _made_of(self, node: ast.expr, method: str) -> ast.expr | None:
         """Return whose method gave the future that an expression is the result of."""
-        match self._facts.evaluator.single_value(node):
+        match self._file.evaluator.single_value(node):
             case ast.Call(func=ast.Attribute(attr="result", value=future), args=[]):
-                given = future_given(self._facts, future)
-                made = self._facts.evaluator.single_value(future if given is None else given)
+                given = future_given(self._file, future)
+                made = self._file.evaluator.single_value(future if given is None else given)
             case ast.Await(value=awaited):
-                made = self._facts.evaluator.single_value(awaited)
+                made = self._file.evaluator.single_value(awaited)
             case _:
                 return None
         match made:
@@ -64,20 +64,20 @@ class ActionMessages:
         return None
 
     def _client(self, node: ast.expr | None) -> ActionClient | None:
-        call = self._facts.evaluator.single_value(node) if node is not None else None
+        call = self._file.evaluator.single_value(node) if node is not None else None
         return self._clients.get(call) if isinstance(call, ast.Call) else None
 
     def _feedback_arguments(self) -> Iterator[tuple[ast.arg, ActionClient | None]]:
         """Yield the parameters that are given feedback, with the client that gives it."""
         result: dict[ast.arg, ActionClient | None] = {}
-        for attribute in self._facts.module.index.attributes("send_goal_async"):
-            call = self._facts.module.parent(attribute)
+        for attribute in self._file.module.index.attributes("send_goal_async"):
+            call = self._file.module.parent(attribute)
             client = self._client(attribute.value)
             if not isinstance(call, ast.Call) or call.func is not attribute or client is None:
                 continue
             named = [word.value for word in call.keywords if word.arg == "feedback_callback"]
             for given in [*call.args[1:2], *named]:
-                callback = self._facts.callback(given)
+                callback = self._file.callback(given)
                 function = callback.function
                 if function is None or callback.is_called or callback.is_partial:
                     continue

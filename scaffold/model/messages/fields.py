@@ -69,7 +69,7 @@ class TypeMismatches:
         """Tell whether a float field is given the int 0, which arrives as a zero."""
         if not target().fact("messages.has_check_fields"):
             return False  # setters always look at values
-        value = self._types.facts.evaluator.evaluate(item.value)
+        value = self._types.file.evaluator.evaluate(item.value)
         return item.field.type.name in {"float32", "float64"} and type(value) is int and value == 0
 
     def is_unreachable(self, item: Assigned) -> bool:
@@ -109,11 +109,11 @@ class TypeMismatches:
 
     def _table(self, node: ast.expr) -> str | None:
         """Report a numpy array with two dimensions: rosidl reads beyond the first row."""
-        value = self._types.facts.evaluator.single_value(node)
+        value = self._types.file.evaluator.single_value(node)
         if not isinstance(value, ast.Call) or not value.args:
             return None
         name = self._types.module.qualified_name(value.func) or ""
-        first = self._types.facts.evaluator.evaluate(value.args[0])
+        first = self._types.file.evaluator.evaluate(value.args[0])
         is_table = False
         if name in {"numpy.eye", "numpy.identity"}:
             is_table = True
@@ -124,7 +124,7 @@ class TypeMismatches:
         return f"{self._shown(node)} is two-dimensional; append .flatten()" if is_table else None
 
     def _length(self, type_: FieldType, node: ast.expr) -> str | None:
-        value, notes = self._types.facts.evaluator.trace(node)
+        value, notes = self._types.file.evaluator.trace(node)
         size = type_.array_size
         if size is None or not isinstance(value, list | tuple):
             return None
@@ -155,7 +155,7 @@ class TypeMismatches:
 
     def _joined(self, type_: FieldType, node: ast.expr) -> str | None:
         """Report two names of a list that are one, as there is no comma between them."""
-        listed = self._types.facts.evaluator.single_value(node)
+        listed = self._types.file.evaluator.single_value(node)
         if type_.name not in TEXTS or not isinstance(listed, ast.List | ast.Tuple):
             return None
         for part in listed.elts:
@@ -176,7 +176,7 @@ class TypeMismatches:
             return self._object_of_numpy(type_, node) or self._object_of_rclpy(node)
         if kind not in _accepted(type_.name):
             return f"{self._shown(node)} is {_NAMES[kind]}"
-        value = self._types.facts.evaluator.evaluate(node)
+        value = self._types.file.evaluator.evaluate(node)
         bound = type_.text_bound
         if bound is not None and isinstance(value, str) and len(value) > bound:
             return f"{self._shown(node)} has {len(value)} characters, not {bound}"
@@ -191,12 +191,12 @@ class TypeMismatches:
 
     def _object_of_rclpy(self, node: ast.expr) -> str | None:
         """Report an rclpy object, or a method of it that is not called."""
-        facts = self._types.facts
+        file = self._types.file
         if isinstance(node, ast.Attribute):
-            owner = class_of(facts, node.value)
+            owner = class_of(file, node.value)
             if owner is not None and is_method(owner, node.attr):
                 return f"{node.attr!r} is a method that is not called; write {node.attr}()"
-        class_ = class_of(facts, node) if isinstance(node, ast.Call) else None
+        class_ = class_of(file, node) if isinstance(node, ast.Call) else None
         if class_ == PARAMETER:
             return f"{self._shown(node)} is a Parameter; append .value"
         return None
@@ -226,7 +226,7 @@ class TypeMismatches:
 
     def _is_epoch(self, node: ast.expr) -> bool:
         """Tell whether a number is that of the nanoseconds since 1970."""
-        match self._types.facts.evaluator.single_value(node):
+        match self._types.file.evaluator.single_value(node):
             case ast.Attribute(attr="nanoseconds", value=ast.Call(func=ast.Attribute(attr="now"))):
                 return True
         return False
@@ -239,17 +239,17 @@ class TypeMismatches:
         return None
 
     def _counting(self, node: ast.Attribute) -> ast.expr:
-        for store in self._types.facts.evaluator.stores(node.attr):
+        for store in self._types.file.evaluator.stores(node.attr):
             if isinstance(self._types.module.parent(store.node), ast.AugAssign):
                 return store.node
         return node
 
     def _counts_up(self, node: ast.Attribute) -> bool:
-        evaluator, module = self._types.facts.evaluator, self._types.module
+        evaluator, module = self._types.file.evaluator, self._types.module
         class_ = evaluator.self_class(node.value)
         if class_ is None:
             return False
-        family = self._types.facts.related_classes(class_)
+        family = self._types.file.related_classes(class_)
         counted = False
         for store in evaluator.stores(node.attr):
             if store.class_ is not None and store.class_ not in family:
@@ -266,19 +266,19 @@ class TypeMismatches:
 
     def _runs_again(self, node: ast.AST) -> bool:
         """Tell whether a loop or the executor runs a node: input from a person does not count."""
-        module, facts = self._types.module, self._types.facts
+        module, file = self._types.module, self._types.file
         if any(isinstance(parent, ast.While) for parent in module.parents(node)):
             return True
-        function = facts.function_of(node)
+        function = file.function_of(node)
         return any(
-            callback.function is not None and function in facts.reached(callback.function)
-            for _, callback in facts.callbacks
+            callback.function is not None and function in file.reached(callback.function)
+            for _, callback in file.callbacks
         )
 
     def _is_start(self, target: ast.AST, value: ast.expr) -> bool:
         """Tell whether an assignment is in ``__init__``: it starts and resets nothing."""
         function = self._types.module.enclosing_function(target)
-        is_int = isinstance(self._types.facts.evaluator.evaluate(value), int)
+        is_int = isinstance(self._types.file.evaluator.evaluate(value), int)
         return is_int and function is not None and function.name == "__init__"
 
     def _is_watched(self, name: str) -> bool:

@@ -109,7 +109,7 @@ class MessageTypes:
     """The types of the message objects in one Python file."""
 
     def __init__(self, file: RclpyFile, definitions: Definitions) -> None:
-        self.facts = file
+        self.file = file
         self.module = file.module
         self.definitions = definitions
         self._types: dict[object, FieldType | MessageClass | None] = {}
@@ -154,7 +154,7 @@ class MessageTypes:
     def class_of(self, node: ast.expr) -> MessageClass | None:
         """Return the message class that an expression names."""
         if node not in self._classes:
-            name = self.module.qualified_name(self.facts.evaluator.single_value(node))
+            name = self.module.qualified_name(self.file.evaluator.single_value(node))
             self._classes[node] = self.class_named(name) if name else None
         return self._classes[node]
 
@@ -210,18 +210,18 @@ class MessageTypes:
             case ast.Attribute(attr="result", value=future) if not node.args:
                 return self._answer(future)
             case ast.Attribute(attr="get_parameter_value", value=parameter):
-                is_known = class_of(self.facts, parameter) == PARAMETER
+                is_known = class_of(self.file, parameter) == PARAMETER
                 return self.class_named(_PARAMETER_VALUE) if is_known else None
         return self.class_of(node.func)
 
     def _answer(self, node: ast.expr) -> MessageClass | None:
         """Return what the future of a service call gives."""
-        future = future_given(self.facts, node)
-        made = self.facts.evaluator.single_value(node if future is None else future)
+        future = future_given(self.file, node)
+        made = self.file.evaluator.single_value(node if future is None else future)
         match made:
             case ast.Call(func=ast.Attribute(attr="call_async", value=holder)):
-                call = self.facts.evaluator.single_value(holder)
-                for client in self.facts.clients:
+                call = self.file.evaluator.single_value(holder)
+                for client in self.file.clients:
                     if client.call is call:
                         return self._class_of_endpoint(client, "Response")
         return None
@@ -260,7 +260,7 @@ class MessageTypes:
 
     def _type_of_attribute(self, node: ast.Attribute) -> FieldType | MessageClass | None:
         """Return what an attribute of ``self`` is, if all that it is ever assigned agrees."""
-        evaluator = self.facts.evaluator
+        evaluator = self.file.evaluator
         class_ = evaluator.self_class(node.value)
         if class_ is None or self._is_asked(class_, node.attr):
             return None
@@ -284,7 +284,7 @@ class MessageTypes:
     @cached_property
     def action_messages(self) -> ActionMessages:
         """What action clients are given."""
-        return ActionMessages(self.facts)
+        return ActionMessages(self.file)
 
     def _unwrapped(self, node: ast.Attribute) -> MessageClass | None:
         """Return the part of an action for ``message.feedback`` and ``future.result().result``."""
@@ -311,13 +311,13 @@ class MessageTypes:
 
     def _passed(self) -> Iterator[tuple[Endpoint, Callback | None, int, str]]:
         """Yield endpoints with a callback, the index of its parameter and the part that it gets."""
-        for endpoint in self.facts.endpoints:
+        for endpoint in self.file.endpoints:
             if isinstance(endpoint, Subscription) and not endpoint.argument("raw"):
                 yield endpoint, endpoint.callback, 0, ""
             elif isinstance(endpoint, Service):
                 yield endpoint, endpoint.callback, 0, "Request"
                 yield endpoint, endpoint.callback, 1, "Response"
-        for synchronizer in self.facts.synchronizers:
+        for synchronizer in self.file.synchronizers:
             for index, given in enumerate(synchronizer.inputs or ()):
                 if given is not None:
                     yield from ((given, callback, index, "") for callback in synchronizer.callbacks)
@@ -325,7 +325,7 @@ class MessageTypes:
     @cached_property
     def _goal_handles(self) -> Mapping[ast.AST, MessageClass | None]:
         result: dict[ast.AST, MessageClass | None] = {}
-        for endpoint in self.facts.action_servers:
+        for endpoint in self.file.action_servers:
             parameter = self._callback_parameter(endpoint.callback, 0)
             if parameter is not None and isinstance(endpoint, ActionServer):
                 class_ = self._class_of_endpoint(endpoint, "Goal")
@@ -387,7 +387,7 @@ class MessageTypes:
                 if bound:
                     result.add((bound[0], asked.id))
             elif isinstance(asked, ast.Attribute):
-                class_ = self.facts.evaluator.self_class(asked.value)
+                class_ = self.file.evaluator.self_class(asked.value)
                 if class_:
                     result.add((class_, asked.attr))
         return frozenset(result)
@@ -411,7 +411,7 @@ class MessageTypes:
 
     def _stores(self) -> Iterator[Store]:
         for name in sorted({node.attr for node in self.module.walk(ast.Attribute)}):
-            yield from self.facts.evaluator.stores(name)
+            yield from self.file.evaluator.stores(name)
 
     def _keywords(self) -> Iterator[Assigned]:
         for call in self.module.walk(ast.Call):

@@ -33,7 +33,7 @@ _DEEPEST = 6
 
 def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
     """Return the type of Python that a value looks like, and the class of numpy that it has."""
-    value = types.facts.evaluator.single_value(node)
+    value = types.file.evaluator.single_value(node)
     if not isinstance(value, ast.Call) or value.keywords:
         return None
     name = types.module.qualified_name(value.func) or ""
@@ -53,7 +53,7 @@ def numpy_class(types: MessageTypes, node: ast.expr) -> tuple[str, str] | None:
 def _is_single_precision(types: MessageTypes, node: ast.expr) -> bool:
     """Tell whether numpy makes an array of 32-bit floats of a field, as those of its elements."""
     for _ in range(_DEEPEST):
-        node = types.facts.evaluator.single_value(node)
+        node = types.file.evaluator.single_value(node)
         field = types.field_type_of(node)
         if field is not None:
             return field.name == "float32" and field.is_array

@@ -72,7 +72,7 @@ def unstamped(types: MessageTypes) -> Iterator[Unstamped]:
         if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
             continue
         source = _returned_by(types, sent.args[0]) or sent.args[0]
-        made = types.facts.evaluator.single_value(source)
+        made = types.file.evaluator.single_value(source)
         if not isinstance(made, ast.Call) or made in seen or not _is_sender(types, method):
             continue
         message = _message(types, made)
@@ -127,7 +127,7 @@ def _sent(
         sent = types.module.parent(method)
         if not isinstance(sent, ast.Call) or sent.func is not method or len(sent.args) != 1:
             continue
-        made = types.facts.evaluator.single_value(sent.args[0])
+        made = types.file.evaluator.single_value(sent.args[0])
         if isinstance(made, ast.Call) and _is_sender(types, method):
             message = types.class_of(made.func)
             if message is not None:
@@ -175,8 +175,8 @@ def _names_child(types: MessageTypes, made: ast.Call, sent: ast.expr, *, needs_t
 
 def _topic(types: MessageTypes, method: ast.Attribute) -> str:
     """Return the topic that a publisher publishes on; empty if it is not known."""
-    made = types.facts.evaluator.single_value(method.value)
-    names = [publisher.name for publisher in types.facts.publishers if publisher.call is made]
+    made = types.file.evaluator.single_value(method.value)
+    names = [publisher.name for publisher in types.file.publishers if publisher.call is made]
     return "".join(name for name in names[:1] if isinstance(name, str)).lstrip("/")
 
 
@@ -190,8 +190,8 @@ def _missing(message: MessageClass, given: frozenset[str], topic: str) -> str:
 
 def _returned_by(types: MessageTypes, sent: ast.expr) -> ast.expr | None:
     """Return what a function of the file returns whose result is published at once."""
-    value = types.facts.evaluator.single_value(sent)
-    callback = types.facts.callback(value.func) if isinstance(value, ast.Call) else None
+    value = types.file.evaluator.single_value(sent)
+    callback = types.file.callback(value.func) if isinstance(value, ast.Call) else None
     function = callback.function if callback is not None else None
     if value is not sent or not isinstance(function, ast.FunctionDef) or function.decorator_list:
         return None
@@ -204,7 +204,7 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
     """Return what a call makes: its class is called, or cv_bridge turns an image into it."""
     match made.func:
         case ast.Attribute(attr=name, value=bridge) if name in _BRIDGED:
-            bridge = types.facts.evaluator.single_value(bridge)
+            bridge = types.file.evaluator.single_value(bridge)
             names = (
                 types.module.qualified_names(bridge.func) if isinstance(bridge, ast.Call) else ()
             )
@@ -215,13 +215,13 @@ def _message(types: MessageTypes, made: ast.Call) -> MessageClass | None:
 
 def _is_sender(types: MessageTypes, method: ast.Attribute) -> bool:
     """Tell whether a method certainly is that of a publisher, or of a broadcaster of transforms."""
-    made = types.facts.evaluator.single_value(method.value)
+    made = types.file.evaluator.single_value(method.value)
     if not isinstance(made, ast.Call):
         return False
     if method.attr == "sendTransform":
         names = types.module.qualified_names(made.func)
         return any(name.endswith(".TransformBroadcaster") for name in names)
-    return any(publisher.call is made for publisher in types.facts.publishers)
+    return any(publisher.call is made for publisher in types.file.publishers)
 
 
 def _has_header(message: MessageClass) -> bool:

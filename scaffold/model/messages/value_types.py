@@ -65,7 +65,7 @@ def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
 
     ``None`` for what is not certainly one: ``builtin_interfaces/msg/Time`` and so on.
     """
-    value = types.facts.evaluator.single_value(node)
+    value = types.file.evaluator.single_value(node)
     if not isinstance(value, ast.Call):
         return None
     called = types.module.qualified_name(value.func)
@@ -78,7 +78,7 @@ def rclpy_time(types: MessageTypes, node: ast.expr) -> str | None:
 
 
 def _is_clock(types: MessageTypes, node: ast.expr) -> bool:
-    made = types.facts.evaluator.single_value(node)
+    made = types.file.evaluator.single_value(node)
     if not isinstance(made, ast.Call):
         return False
     asked = isinstance(made.func, ast.Attribute) and made.func.attr == "get_clock"
@@ -91,7 +91,7 @@ class ValueTypes:
     def __init__(self, types: MessageTypes) -> None:
         self._types = types
         self._module = types.module
-        self._evaluator = types.facts.evaluator
+        self._evaluator = types.file.evaluator
         self._depth = 0
 
     def of(self, node: ast.expr) -> str | None:
@@ -165,12 +165,12 @@ class ValueTypes:
         if type_ is not None:
             return _kind_of_field(type_)
         if node.attr == "nanoseconds":
-            is_time = class_of(self._types.facts, node.value) in RCLPY_TIMES
+            is_time = class_of(self._types.file, node.value) in RCLPY_TIMES
             return "int" if is_time else None
         class_ = self._evaluator.self_class(node.value)
         if class_ is None:
             return None
-        family = self._types.facts.related_classes(class_)
+        family = self._types.file.related_classes(class_)
         values: list[ast.expr] = []
         for store in self._evaluator.stores(node.attr):
             if store.class_ is not None and store.class_ not in family:

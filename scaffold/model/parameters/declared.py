@@ -69,8 +69,8 @@ def declared_by(owner: NodeDefinition | KnownNode, package: Package) -> Declared
     if isinstance(owner, KnownNode):
         return _declared_at(owner.home(package), owner.path, owner.number)
     owner_package = home_of(owner, package)
-    number = next(at for at, node in enumerate(owner.facts.nodes) if node is owner)
-    return _declared_at(owner_package, owner.facts.module.path, number)
+    number = next(at for at, node in enumerate(owner.file.nodes) if node is owner)
+    return _declared_at(owner_package, owner.file.module.path, number)
 
 
 @fact
@@ -81,8 +81,8 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
     complete = True
     current: NodeDefinition | None = owner
     while current is not None:
-        divide = divisors(current.facts)
-        is_dynamic = current.facts.module.mentions("dynamic_typing", "set_descriptor(")
+        divide = divisors(current.file)
+        is_dynamic = current.file.module.mentions("dynamic_typing", "set_descriptor(")
         for parameter in (*current.parameters, *_from_outside(current, package)):
             name = parameter.name
             if not isinstance(name, str) or parameter.has_unknown_arguments:
@@ -93,7 +93,7 @@ def _declared_at(package: Package, path: str, number: int) -> Declared:
             if name not in places:
                 places[name] = _place(parameter, package, divides=name in divide)
         complete = complete and not current.declares_automatically and not escapes(current)
-        complete = complete and all(item.owner is not None for item in current.facts.parameters)
+        complete = complete and all(item.owner is not None for item in current.file.parameters)
         complete = complete and not (isinstance(current, NodeClass) and current.is_made_later)
         current = current.base if isinstance(current, NodeClass) else None
     return Declared(types, places, complete)
@@ -116,7 +116,7 @@ def home_of(owner: NodeDefinition, package: Package) -> Package:
     """Return the package that the code of a node is in; it may be another one."""
     from scaffold.model.package import Package as _Package  # which imports what this imports
 
-    modules = owner.facts.modules
+    modules = owner.file.modules
     return modules if isinstance(modules, _Package) else package
 
 
@@ -158,13 +158,13 @@ def _declared(
             return None
         if any(not isinstance(parameter.name, str) for parameter in owner.parameters):
             return None
-        if owner.facts not in passed_on:
-            passed_on[owner.facts] = _passed_on(owner.facts)
-        if owner.node in passed_on[owner.facts]:
+        if owner.file not in passed_on:
+            passed_on[owner.file] = _passed_on(owner.file)
+        if owner.node in passed_on[owner.file]:
             return None
         parameters += owner.parameters
         owner = owner.base
-    return None if _declares_on_others(node.facts) else parameters
+    return None if _declares_on_others(node.file) else parameters
 
 
 def _bases(file: RclpyFile) -> frozenset[ast.ClassDef | None]:
@@ -205,7 +205,7 @@ def _from_outside(owner: NodeDefinition, package: Package) -> Iterator[Parameter
     """Yield what other files declare on a node: ``node = Talker(); node.declare_parameter()``."""
     if isinstance(owner, NodeClass):
         for file in rclpy_files(package, mentioning=("declare_parameter", owner.name)):
-            if file is not owner.facts:
+            if file is not owner.file:
                 yield from (parameter for parameter in file.parameters if parameter.owner is owner)
 
 
@@ -240,13 +240,13 @@ def _fixed_type(parameter: Parameter, *, may_be_dynamic: bool) -> str | None:
 def escapes(owner: NodeDefinition) -> bool:
     """Tell whether the node is handed to code that may declare more."""
     if not isinstance(owner, NodeClass):
-        return _is_handed_on(owner, owner.facts.module.tree, owner.name)
+        return _is_handed_on(owner, owner.file.module.tree, owner.name)
     others = owner.node.bases[: owner.base_index] + owner.node.bases[owner.base_index + 1 :]
     return bool(others) or _is_handed_on(owner, owner.node, "self")
 
 
 def _is_handed_on(owner: NodeDefinition, scope: ast.AST, name: str) -> bool:
-    module = owner.facts.module
+    module = owner.file.module
     for use in module.index.names(name):
         parent = module.parent(use)
         if _is_kept_elsewhere(parent, name) and module.is_inside(use, scope):

@@ -225,41 +225,41 @@ def waits_in(
         is_wait: Tells whether a call of that name is one that waits.
     """
     run = run_of(package, *program)
-    module = run.facts.module
+    module = run.file.module
     if module.in_tests:
         return ()
     return tuple(
         (module.location(wait.call), wait.where)
         for wait in _waits(run, method)
-        if is_wait(run.facts, wait.call)
+        if is_wait(run.file, wait.call)
         and not any(_may_end(file, wait) for file in files_of(package, module.path))
     )
 
 
 def _waits(run: Execution, method: str) -> Iterator[_Wait]:
     """Yield the calls of a method that the main thread makes, itself or in a callback."""
-    facts = run.facts
-    calls = [facts.module.parent(node) for node in facts.module.index.attributes(method)]
+    file = run.file
+    calls = [file.module.parent(node) for node in file.module.index.attributes(method)]
     places = _places(run) if calls else {}
     for call in calls:
         if isinstance(call, ast.Call):
-            where = places.get(facts.function_of(call) or facts.module)
+            where = places.get(file.function_of(call) or file.module)
             if where is not None or call in run.calls:
                 yield _Wait(call, where or _BLOCKED, where not in {None, _BLOCKED})
 
 
 def _places(run: Execution) -> dict[object, str]:
     """Return the functions that the main thread runs, with what it does in them."""
-    facts = run.facts
+    file = run.file
     functions: list[object] = [*run.functions]
     classes: set[ast.ClassDef] = set()
     for _, owner in run.nodes():
-        if isinstance(owner, NodeClass) and owner.facts is facts:
-            classes.update(facts.related_classes(owner.node))
-            functions += facts.reached(owner.constructor) if owner.constructor else ()
+        if isinstance(owner, NodeClass) and owner.file is file:
+            classes.update(file.related_classes(owner.node))
+            functions += file.reached(owner.constructor) if owner.constructor else ()
     places = dict.fromkeys(functions, _BLOCKED)
-    for executed in in_callbacks(facts):
-        class_ = facts.module.enclosing_class(executed.function)
+    for executed in in_callbacks(file):
+        class_ = file.module.enclosing_class(executed.function)
         if class_ is None or class_ in classes:
             places.setdefault(executed.function, f"is in {executed.origin}")
     return places

@@ -34,7 +34,7 @@ class EntryPoint(NamedTuple):
 class Execution(NamedTuple):
     """The code of its own file that a program executes."""
 
-    facts: RclpyFile
+    file: RclpyFile
     functions: Sequence[FunctionNode]
     """From the entry on, what that calls included."""
     calls: Sequence[ast.Call]
@@ -43,7 +43,7 @@ class Execution(NamedTuple):
     def nodes(self) -> Iterator[tuple[ast.Call, NodeDefinition]]:
         """Yield the nodes that are certainly made, and the calls that make them."""
         for call in self.calls:
-            owner = None if self.facts.is_conditional(call) else self.facts.owner_of(call)
+            owner = None if self.file.is_conditional(call) else self.file.owner_of(call)
             if owner is not None:
                 yield call, owner
 

@@ -45,11 +45,11 @@ def may_init(package: Package, path: str) -> bool:
 
 def calls_others(package: Package, run: Execution, made: ast.Call) -> bool:
     """Tell whether code of others runs before the node is made, which may initialize rclpy."""
-    module = run.facts.module
-    function = run.facts.function_of(made)
+    module = run.file.module
+    function = run.file.function_of(made)
     own = {part for path in package.python_files for part in path.split("/")}
     for call in run.calls:
-        is_later = run.facts.function_of(call) is function and call.lineno > made.lineno
+        is_later = run.file.function_of(call) is function and call.lineno > made.lineno
         if call is made or is_later or module.enclosing_class(call) is not None:
             continue
         for name in module.qualified_names(call.func):

@@ -364,14 +364,14 @@ class PublishReach:
     """
 
     def __init__(self, file: RclpyFile, starts: Collection[FunctionNode], *, alone: bool) -> None:
-        self._facts = file
+        self._file = file
         self._module = file.module
         self._starts = starts
         self._alone = alone
 
     def of(self, publisher: Publisher) -> Reach:
         """Return whether a publisher publishes at all."""
-        calls = publish_calls(self._facts, publisher)
+        calls = publish_calls(self._file, publisher)
         if calls is None:
             return Reach.PERHAPS
         return _most(self._reach_of_call(call, _MAX_DEPTH) for call in calls)
@@ -402,10 +402,10 @@ class PublishReach:
         calls = list(self._calls_of(function))
         reached = {self._reach_of_call(call, depth - 1) for call in calls}
         passed = 0
-        for entity, callback in self._facts.callbacks:
+        for entity, callback in self._file.callbacks:
             if callback.function is function:
                 passed += 1
-                ticks = isinstance(entity, Timer) and ticks_always(self._facts, entity)
+                ticks = isinstance(entity, Timer) and ticks_always(self._file, entity)
                 reached.add(Reach.ALWAYS if ticks else Reach.PERHAPS)
         if not self._alone or self._mentions(function) > len(calls) + passed:
             reached.add(Reach.PERHAPS)
@@ -417,7 +417,7 @@ class PublishReach:
             spin.name.rpartition(".")[2] == "spin"
             and spin.function is function
             and spin.call.lineno < call.lineno
-            for spin in self._facts.spin_calls
+            for spin in self._file.spin_calls
         )
 
     def _mentions(self, function: FunctionNode) -> int:
@@ -428,7 +428,7 @@ class PublishReach:
 
     def _calls_of(self, function: FunctionNode) -> Iterator[ast.Call]:
         for call in self._module.walk(ast.Call):
-            if self._facts.callback(call.func).function is function:
+            if self._file.callback(call.func).function is function:
                 yield call
 
     def _leaving(self, function: FunctionNode, call: ast.Call) -> list[ast.AST]:

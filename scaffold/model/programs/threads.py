@@ -24,12 +24,12 @@ _SPINNING = ("thread", "concurrent", "process", "async", "pool", "event", "group
 
 def names_other_executor(file: RclpyFile) -> bool:
     """Tell whether a file names an executor that may run callbacks side by side."""
-    facts = file.thread_facts
-    if "executor" not in facts:
-        facts["executor"] = any(
+    answers = file.thread_answers
+    if "executor" not in answers:
+        answers["executor"] = any(
             name.endswith("Executor") and name not in _NO_SPINNERS for name, _ in _identifiers(file)
         )
-    return facts["executor"]
+    return answers["executor"]
 
 
 def spins_in_one_thread(file: RclpyFile) -> bool:
@@ -54,9 +54,9 @@ def spins_elsewhere(file: RclpyFile) -> bool:
     A thread may spin it, or code that is not in the file. A thread that does not spin is of no
     help to a call that waits for a callback.
     """
-    if "spin" not in file.thread_facts:
-        file.thread_facts["spin"] = _spins_elsewhere(file)
-    return file.thread_facts["spin"]
+    if "spin" not in file.thread_answers:
+        file.thread_answers["spin"] = _spins_elsewhere(file)
+    return file.thread_answers["spin"]
 
 
 def _spins_elsewhere(file: RclpyFile) -> bool:
@@ -116,7 +116,7 @@ def _has_default_group(owner: NodeDefinition) -> bool:
     """Tell whether a node has rclpy's own default group, which runs one callback at a time."""
     node = owner
     while True:
-        if node.facts.module.mentions("default_callback_group"):
+        if node.file.module.mentions("default_callback_group"):
             return False
         if not isinstance(node, NodeClass):
             return True

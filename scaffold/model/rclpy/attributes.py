@@ -59,11 +59,11 @@ def defined_by(node: NodeClass) -> set[str]:
     if node.is_lifecycle:
         result.update(name.removesuffix("()") for name in known_names()[_LIFECYCLE])
     while owner is not None:
-        result |= set(owner.facts.module.index.bindings(owner.node))
-        for attribute in owner.facts.module.below(owner.node, ast.Attribute):
+        result |= set(owner.file.module.index.bindings(owner.node))
+        for attribute in owner.file.module.below(owner.node, ast.Attribute):
             if isinstance(attribute.ctx, ast.Load):
                 continue
-            parent = owner.facts.module.parent(attribute)
+            parent = owner.file.module.parent(attribute)
             if not isinstance(parent, ast.AugAssign):  # which needs a value to begin with
                 result.add(attribute.attr)
         owner = owner.base
@@ -74,12 +74,12 @@ def is_read_in_full(node: NodeClass) -> bool:
     """Tell whether a class and its bases are read in full, and make no names at run time."""
     owner: NodeClass | None = node
     while owner is not None:
-        bindings = owner.facts.module.index.bindings(owner.node)
+        bindings = owner.file.module.index.bindings(owner.node)
         if len(owner.node.bases) != 1 or owner.node.keywords or owner.node.decorator_list:
             return False
         if "__getattr__" in bindings or "__getattribute__" in bindings:
             return False
-        if owner.facts.module.mentions("setattr(", "__dict__", "vars(self"):
+        if owner.file.module.mentions("setattr(", "__dict__", "vars(self"):
             return False
         owner = owner.base
     return True

@@ -85,37 +85,37 @@ class Creation:
     """Finds the entities that the calls of a file create."""
 
     def __init__(self, file: RclpyFile) -> None:
-        self._facts = file
+        self._file = file
 
     def entities(self) -> Iterator[Entity]:
         """Yield everything created, in the order of the text."""
-        for call in self._facts.module.walk(ast.Call):
+        for call in self._file.module.walk(ast.Call):
             method = self._creating_method(call)
             if method is not None:
                 yield from self._created_by(call, method)
 
     def _creating_method(self, call: ast.Call) -> str | None:
-        func = self._facts.method_of(call)
+        func = self._file.method_of(call)
         if func is not None and func.attr in NODE_METHODS:
-            if self._facts.is_node_class(func.value):
+            if self._file.is_node_class(func.value):
                 return None  # Node.create_publisher(self, ...): an override passes on its own
-            is_node = self._facts.owner_of(func.value) is not None
+            is_node = self._file.owner_of(func.value) is not None
             return func.attr if is_node or self._may_be_of_rclpy(func) else None
-        for name in self._facts.module.qualified_names(call.func):
+        for name in self._file.module.qualified_names(call.func):
             if name in _CLASSES:
                 return _CLASSES[name]
         return None
 
     def _may_be_of_rclpy(self, func: ast.Attribute) -> bool:
         """Tell whether a method of what is not known to be a node may be rclpy's."""
-        if not self._facts.uses_rclpy:
+        if not self._file.uses_rclpy:
             return False
-        class_ = self._facts.evaluator.self_class(func.value)
-        return class_ is None or not self._facts.defines(class_, func.attr)
+        class_ = self._file.evaluator.self_class(func.value)
+        return class_ is None or not self._file.defines(class_, func.attr)
 
     def _created_by(self, call: ast.Call, method: str) -> Iterator[Entity]:
         created = self._created(call, method)
-        evaluator = self._facts.evaluator
+        evaluator = self._file.evaluator
         if method in _ENDPOINTS:
             yield self._endpoint(created, method)
         elif method in {"TimeSynchronizer", "ApproximateTimeSynchronizer"}:
@@ -145,11 +145,11 @@ class Creation:
         kind = _ENDPOINTS[method]
         type_ = created.arguments.get(kind.type_parameter)
         name = created.arguments.get(kind.name_parameter)
-        text, notes = self._facts.evaluator.trace(name.node if name else None)
+        text, notes = self._file.evaluator.trace(name.node if name else None)
         qos = self._qos(created, method)
         made = kind(
             created,
-            interface=self._facts.interface(type_.node) if type_ else None,
+            interface=self._file.interface(type_.node) if type_ else None,
             name=text if isinstance(text, str) else UNKNOWN,
             from_parameters=_parameters_in(notes) if isinstance(text, str) else frozenset(),
             qos=qos,
@@ -166,21 +166,21 @@ class Creation:
         if method == "Subscriber" and not created.has_unknown_arguments:
             more = created.call.args[len(_FILTERS[method]) :]
             if more:  # a TypeError: the value is meant as the quality of service
-                return qos_of(self._facts.evaluator, more[0])
+                return qos_of(self._file.evaluator, more[0])
             return Qos(created.location, None, _DEFAULT_DEPTH, *PROFILES["default"][1:])
         return None
 
     def _qos_given(self, node: ast.expr) -> Qos:
         """Return the quality of service of an expression, also of a constant or function."""
-        qos = qos_of(self._facts.evaluator, node)
+        qos = qos_of(self._file.evaluator, node)
         if qos != Qos(qos.location):
             return qos
-        value = self._facts.evaluator.single_value(node)
+        value = self._file.evaluator.single_value(node)
         is_call = isinstance(value, ast.Call)
-        defined = self._facts.definition_of(value.func if isinstance(value, ast.Call) else value)
+        defined = self._file.definition_of(value.func if isinstance(value, ast.Call) else value)
         if defined is None:
             return qos
-        facts, definition = defined
+        defining_file, definition = defined
         if is_call is not isinstance(definition, ast.FunctionDef):
             return qos
         if isinstance(definition, ast.FunctionDef):
@@ -188,7 +188,7 @@ class Creation:
             if len(given) != 1 or given[0] is None or definition.decorator_list:
                 return qos
             definition = given[0]
-        return qos_of(facts.evaluator, definition)._replace(location=qos.location)
+        return qos_of(defining_file.evaluator, definition)._replace(location=qos.location)
 
     def _callback_of(self, created: Created, method: str) -> Callback | None:
         if method == "Subscriber":
@@ -200,12 +200,12 @@ class Creation:
     def _registered(self, call: ast.Call) -> list[Callback]:
         """Return the callbacks that are registered at a message filter."""
         result: list[Callback] = []
-        for attribute in self._facts.module.index.attributes("registerCallback"):
-            parent = self._facts.module.parent(attribute)
+        for attribute in self._file.module.index.attributes("registerCallback"):
+            parent = self._file.module.parent(attribute)
             if not isinstance(parent, ast.Call) or parent.func is not attribute:
                 continue
-            if parent.args and self._facts.evaluator.single_value(attribute.value) is call:
-                callback = self._facts.callback(parent.args[0])
+            if parent.args and self._file.evaluator.single_value(attribute.value) is call:
+                callback = self._file.callback(parent.args[0])
                 has_more = bool(len(parent.args) > 1 or parent.keywords)
                 result.append(callback._replace(is_partial=callback.is_partial or has_more))
         return result
@@ -214,11 +214,11 @@ class Creation:
         """Return the subscriptions that a synchronizer waits for, if their number is known."""
         if given is None:
             return None
-        made = self._facts.evaluator.single_value(given.node)
-        elements = self._facts.evaluator.elements(made)
+        made = self._file.evaluator.single_value(given.node)
+        elements = self._file.evaluator.elements(made)
         if not elements.complete or any(item.conditional for item in elements.items):
             return None
-        calls = [self._facts.evaluator.single_value(item.node) for item in elements.items]
+        calls = [self._file.evaluator.single_value(item.node) for item in elements.items]
         return [
             self._endpoint(self._created(call, "Subscriber"), "Subscriber")
             if isinstance(call, ast.Call) and self._creating_method(call) == "Subscriber"
@@ -242,40 +242,40 @@ class Creation:
             else:
                 arguments[word.arg] = self._argument(word.arg, word.value)
         attribute, variable = self.target(call)
-        func = self._facts.method_of(call)
+        func = self._file.method_of(call)
         if func is not None and method not in _CLASSES.values():
-            owner = self._facts.owner_of(func.value)
+            owner = self._file.owner_of(func.value)
         else:
-            owner = self._facts.owner_of(arguments["node"].node) if "node" in arguments else None
+            owner = self._file.owner_of(arguments["node"].node) if "node" in arguments else None
         return Created(
             call,
-            self._facts.module.location(call),
+            self._file.module.location(call),
             owner,
             attribute,
             variable,
-            self._facts.module.enclosing_function(call),
+            self._file.module.enclosing_function(call),
             arguments,
             unknown,
-            self._facts.is_conditional(call),
+            self._file.is_conditional(call),
         )
 
     def _argument(self, name: str, node: ast.expr) -> Argument:
         return Argument(
-            name, node, self._facts.evaluator.evaluate(node), self._facts.module.location(node)
+            name, node, self._file.evaluator.evaluate(node), self._file.module.location(node)
         )
 
     def target(self, call: ast.Call) -> tuple[str | None, str | None]:
         """Return the attribute of ``self`` and the variable that a call's result is stored in."""
         attribute: str | None = None
         variable: str | None = None
-        parent = self._facts.module.parent(call)
+        parent = self._file.module.parent(call)
         targets: Sequence[ast.expr] = ()
         if isinstance(parent, ast.Assign):
             targets = parent.targets
         elif isinstance(parent, ast.AnnAssign | ast.NamedExpr):
             targets = [parent.target]
         for target in targets:
-            if isinstance(target, ast.Attribute) and self._facts.evaluator.self_class(target.value):
+            if isinstance(target, ast.Attribute) and self._file.evaluator.self_class(target.value):
                 attribute = target.attr
             elif isinstance(target, ast.Name):
                 variable = target.id
@@ -283,10 +283,10 @@ class Creation:
 
     def _callback_argument(self, created: Created, name: str) -> Callback | None:
         argument = created.arguments.get(name)
-        return self._facts.callback(argument.node) if argument else None
+        return self._file.callback(argument.node) if argument else None
 
     def _declared(self, created: Created, method: str) -> Iterator[Parameter]:
-        for item in self._facts.declarations.declarations_in(created.call, method):
+        for item in self._file.declarations.declarations_in(created.call, method):
             yield self._parameter(created, item)
 
     def _parameter(self, created: Created, given: Declaration) -> Parameter:
@@ -295,15 +295,15 @@ class Creation:
         return Parameter(
             created,
             given,
-            name=self._facts.declarations.full_name(given.prefix, name),
-            name_location=self._facts.module.location(name) if name else created.location,
-            default=self._facts.evaluator.evaluate(value),
+            name=self._file.declarations.full_name(given.prefix, name),
+            name_location=self._file.module.location(name) if name else created.location,
+            default=self._file.evaluator.evaluate(value),
             declared_type=self._type_named(value),
-            descriptor=None if is_open else descriptor_of(self._facts, given.descriptor),
+            descriptor=None if is_open else descriptor_of(self._file, given.descriptor),
         )
 
     def _type_named(self, node: ast.expr | None) -> str | None:
-        name = self._facts.module.qualified_name(node) if node else None
+        name = self._file.module.qualified_name(node) if node else None
         if name and name.startswith("rclpy.") and ".Parameter.Type." in name:
             return name.rpartition(".")[2].lower()
         return None

@@ -123,7 +123,7 @@ class RclpyFile:
         """Both kept by `api`."""
         self.classes_of: dict[ast.expr, str | None] = {}
         """Kept by `api.class_of`."""
-        self.thread_facts: dict[str, bool] = {}
+        self.thread_answers: dict[str, bool] = {}
         """Kept by `programs.threads`."""
         self.executed: dict[object, Any] = {}
         """Kept by `programs.blocking`."""
@@ -212,14 +212,14 @@ class RclpyFile:
                 return self.node_class(nodes[0])
         for name in names:
             module, _, class_name = name.rpartition(".")
-            facts = self._facts_of(module)
-            found_class = facts.module.classes.get(class_name) if facts else None
-            if facts and found_class:
-                return facts.node_class(found_class.node)
+            file = self._file_of(module)
+            found_class = file.module.classes.get(class_name) if file else None
+            if file and found_class:
+                return file.node_class(found_class.node)
         return None
 
-    def _facts_of(self, module: str) -> RclpyFile | None:
-        """Return the facts of another module of the package."""
+    def _file_of(self, module: str) -> RclpyFile | None:
+        """Return the view of another module of the package."""
         if self.modules is None or not module:
             return None
         for path in _module_paths(self.module.path, module):
@@ -244,17 +244,17 @@ class RclpyFile:
         while isinstance(node, ast.Attribute) and isinstance(owner, NodeClass):
             method = owner.methods.get(node.attr)
             if isinstance(method, ast.FunctionDef):
-                return owner.facts, method
+                return owner.file, method
             owner = owner.base
         module, _, name = (self.module.qualified_name(node) or "").rpartition(".")
-        facts = self._facts_of(module)
-        bindings = facts.module.index.bindings(facts.module.tree).get(name, ()) if facts else ()
-        if facts is None or len(bindings) != 1:
+        file = self._file_of(module)
+        bindings = file.module.index.bindings(file.module.tree).get(name, ()) if file else ()
+        if file is None or len(bindings) != 1:
             return None
         definition = bindings[0].node
         if isinstance(definition, ast.FunctionDef):
-            return facts, definition
-        return (facts, bindings[0].value) if bindings[0].value is not None else None
+            return file, definition
+        return (file, bindings[0].value) if bindings[0].value is not None else None
 
     def _constant(self, name: str) -> object:
         """Return the value of a dotted name if it is a constant of another module."""
@@ -347,8 +347,8 @@ class RclpyFile:
         if method in self.module.index.bindings(node):
             return True
         for expression in node.bases if depth else ():
-            for facts, base in self._classes_named(expression):
-                if base is not node and facts.defines(base, method, depth - 1):
+            for file, base in self._classes_named(expression):
+                if base is not node and file.defines(base, method, depth - 1):
                     return True
         return False
 
@@ -361,10 +361,10 @@ class RclpyFile:
                     yield self, binding.node
         for name in self.module.qualified_names(expression):
             module, _, class_name = name.rpartition(".")
-            facts = self._facts_of(module)
-            class_ = facts.module.classes.get(class_name) if facts else None
-            if facts and class_:
-                yield facts, class_.node
+            file = self._file_of(module)
+            class_ = file.module.classes.get(class_name) if file else None
+            if file and class_:
+                yield file, class_.node
 
     def parameter_of(self, node: ast.expr | None) -> ast.arg | None:
         """Return the function parameter that an expression is the name of."""
@@ -442,7 +442,7 @@ class RclpyFile:
         kinds = [part for part in parts[1:-1] if part in {"msg", "srv", "action"}]
         if not kinds or not parts[0] or not parts[-1][:1].isupper():
             return None
-        if self._facts_of(".".join(parts[:2])) is not None:
+        if self._file_of(".".join(parts[:2])) is not None:
             return None  # a module of the package that is called action, too
         return f"{parts[0]}/{kinds[0]}/{parts[-1]}"
 

@@ -108,7 +108,7 @@ class _Outside:
     """What is caught around the functions of a file, by all that call them there."""
 
     def __init__(self, file: RclpyFile) -> None:
-        self._facts = file
+        self._file = file
         self._catches: dict[FunctionNode, frozenset[str]] = {}
         self._depth = 0
         self._calls: dict[str, list[ast.Name]] = {}
@@ -118,14 +118,14 @@ class _Outside:
 
     def around(self, node: ast.AST) -> frozenset[str]:
         """Return what all calls of a node's function catch."""
-        function = self._facts.module.enclosing_function(node)
+        function = self._file.module.enclosing_function(node)
         if function is None or self._depth > _MAX_CALLS:
             return frozenset()
         if function not in self._catches:
             self._catches[function] = frozenset()  # what calls itself promises nothing
             self._depth += 1
             caught = [
-                self.around(name) | _handlers_around(self._facts, name)
+                self.around(name) | _handlers_around(self._file, name)
                 for name in self._calls.get(function.name, ())
                 if self._is_name_of(name, function)
             ]
@@ -134,7 +134,7 @@ class _Outside:
         return self._catches[function]
 
     def _is_name_of(self, name: ast.Name, function: FunctionNode) -> bool:
-        lookup = self._facts.module.index.lookup(name.id, name)
+        lookup = self._file.module.index.lookup(name.id, name)
         return lookup is not None and any(binding.node is function for binding in lookup[1])
 
 

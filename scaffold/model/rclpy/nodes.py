@@ -32,14 +32,14 @@ class NodeDefinition:
     """A node that the code creates: from its own class, or as an object."""
 
     def __init__(self, file: RclpyFile, name: str, location: Location) -> None:
-        self.facts = file
+        self.file = file
         self.name = name
         """Of the class, or of the variable."""
         self.location = location
         self.is_lifecycle = False
 
     def _own(self, kind: type[Entity]) -> list[Entity]:
-        return [item for item in self.facts.entities if item.owner is self and type(item) is kind]
+        return [item for item in self.file.entities if item.owner is self and type(item) is kind]
 
     @cached_property
     def publishers(self) -> Sequence[Publisher]:
@@ -101,19 +101,19 @@ class NodeDefinition:
     @cached_property
     def node_name(self) -> str | Unknown:
         """The name given to rclpy's Node; remapping may change it."""
-        return self.facts.evaluator.text(self.node_name_node)
+        return self.file.evaluator.text(self.node_name_node)
 
     @cached_property
     def node_name_location(self) -> Location:
         """The place of the node's name; without one, of the node."""
         node = self.node_name_node
-        return self.facts.module.location(node) if node else self.location
+        return self.file.module.location(node) if node else self.location
 
     @cached_property
     def namespace(self) -> str | Unknown | None:
         """The namespace given to rclpy's Node."""
         node = self._constructor_argument("namespace", None)
-        return self.facts.evaluator.text(node) if node else None
+        return self.file.evaluator.text(node) if node else None
 
     @cached_property
     def declares_automatically(self) -> bool:
@@ -123,7 +123,7 @@ class NodeDefinition:
             "automatically_declare_parameters_from_overrides",
         ):
             node = self._constructor_argument(name, None)
-            if node is not None and self.facts.evaluator.evaluate(node) is not False:
+            if node is not None and self.file.evaluator.evaluate(node) is not False:
                 return True
         call = self.constructor_call
         return call is not None and any(word.arg is None for word in call.keywords)
@@ -132,7 +132,7 @@ class NodeDefinition:
     def is_declared_by_overrides(self) -> bool:
         """Whether rclpy certainly declares each parameter that is set from outside."""
         node = self._constructor_argument("automatically_declare_parameters_from_overrides", None)
-        return node is not None and self.facts.evaluator.evaluate(node) is True
+        return node is not None and self.file.evaluator.evaluate(node) is True
 
     def _constructor_argument(self, name: str, position: int | None) -> ast.expr | None:
         call = self.constructor_call
@@ -178,7 +178,7 @@ class NodeClass(NodeDefinition):
     def methods(self) -> Mapping[str, FunctionNode]:
         """The methods it defines itself, the last of a name."""
         result: dict[str, FunctionNode] = {}
-        for name, bindings in self.facts.module.index.bindings(self.node).items():
+        for name, bindings in self.file.module.index.bindings(self.node).items():
             for binding in bindings:
                 if isinstance(binding.node, ast.FunctionDef | ast.AsyncFunctionDef):
                     result[name] = binding.node
@@ -187,7 +187,7 @@ class NodeClass(NodeDefinition):
     def method(self, name: str) -> FunctionNode | None:
         """Return a method, also of a base class in the same file."""
         owner: NodeClass | None = self
-        while owner is not None and owner.facts is self.facts:
+        while owner is not None and owner.file is self.file:
             if name in owner.methods:
                 return owner.methods[name]
             owner = owner.base
@@ -207,7 +207,7 @@ class NodeClass(NodeDefinition):
         if self.constructor is None:
             return None
         others: list[ast.Call] = []
-        for call in self.facts.calls_in(self.constructor):
+        for call in self.file.calls_in(self.constructor):
             if isinstance(call.func, ast.Attribute) and call.func.attr == "__init__":
                 if _is_super(call) or self._is_base(call.func.value):
                     return call
@@ -215,9 +215,9 @@ class NodeClass(NodeDefinition):
         return others[0] if others else None
 
     def _is_base(self, node: ast.expr) -> bool:
-        class_ = self.facts.evaluator.named_class(node)
+        class_ = self.file.evaluator.named_class(node)
         is_own = self.base is not None and class_ is self.base.node
-        return is_own or self.facts.is_node_class(node)
+        return is_own or self.file.is_node_class(node)
 
     @property
     def calls_super_init(self) -> bool:
@@ -228,7 +228,7 @@ class NodeClass(NodeDefinition):
     def is_made_later(self) -> bool:
         """Whether another method than the constructor calls the one of the base class."""
         for name, method in self.methods.items():
-            for call in self.facts.calls_in(method) if name != "__init__" else ():
+            for call in self.file.calls_in(method) if name != "__init__" else ():
                 match call.func:
                     case ast.Attribute(attr="__init__", value=value):
                         if _is_super(call) or self._is_base(value):
@@ -249,8 +249,8 @@ class NodeClass(NodeDefinition):
     def _comes_first(self) -> bool:
         """Whether ``super().__init__`` is the constructor of the node, not of a mixin."""
         for base in self.node.bases[: self.base_index]:
-            class_ = self.facts.evaluator.named_class(base)
-            if class_ is None or "__init__" in self.facts.module.index.bindings(class_):
+            class_ = self.file.evaluator.named_class(base)
+            if class_ is None or "__init__" in self.file.module.index.bindings(class_):
                 return False
         return True
 
@@ -259,8 +259,8 @@ class NodeClass(NodeDefinition):
         """The name given to rclpy's Node, by this class or by all that make objects of it."""
         if self.constructor is None:
             return self.base.node_name if self.base else UNKNOWN
-        node, facts = self.name_given(None, self.facts)
-        return facts.evaluator.text(node)
+        node, file = self.name_given(None, self.file)
+        return file.evaluator.text(node)
 
     def name_given(
         self, call: ast.Call | None, caller: RclpyFile
@@ -271,13 +271,13 @@ class NodeClass(NodeDefinition):
             if self.base is not None:
                 return self.base.name_given(call, caller)
             return (call.args[0] if call and call.args else None), caller
-        node, facts = self.node_name_node, self.facts
+        node, file = self.node_name_node, self.file
         inner = self.constructor_call
         if self.base is not None:
-            node, facts = self.base.name_given(inner, self.facts) if inner else (None, facts)
-        parameter = facts.parameter_of(node) if facts is self.facts else None
+            node, file = self.base.name_given(inner, self.file) if inner else (None, file)
+        parameter = file.parameter_of(node) if file is self.file else None
         if call is None or parameter is None:
-            return node, facts
+            return node, file
         return given_argument(constructor, call, parameter, is_method=True), caller
 
 

@@ -198,11 +198,11 @@ def profile_words(endpoint: Endpoint) -> dict[str, str] | None:
         return None
     if isinstance(argument.value, int) or endpoint.qos.profile is not None:
         return {}
-    facts = endpoint.owner.facts if endpoint.owner else None
-    value = facts.evaluator.single_value(argument.node) if facts else None
+    file = endpoint.owner.file if endpoint.owner else None
+    value = file.evaluator.single_value(argument.node) if file else None
     if not isinstance(value, ast.Call) or any(word.arg is None for word in value.keywords):
         return None
     names = ("deadline", "liveliness")
-    if facts is None or any(facts.evaluator.stores(name) for name in names):
+    if file is None or any(file.evaluator.stores(name) for name in names):
         return None
     return {word.arg or "": ast.unparse(word.value) for word in value.keywords}

@@ -242,7 +242,7 @@ def test_base_class_in_another_file_of_the_package() -> None:
     (talker,) = view.classes
     assert (talker.is_lifecycle, talker.node_name) == (True, "base")
     assert talker.base is not None
-    assert talker.base.facts is rclpy_file(package, "demo/base.py")
+    assert talker.base.file is rclpy_file(package, "demo/base.py")
     assert [(timer.period, set(timer.from_parameters)) for timer in talker.timers] == [
         (0.5, {"rate"})
     ]

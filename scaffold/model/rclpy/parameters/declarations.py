@@ -37,7 +37,7 @@ class Declarations:
     """The parameters that a file declares."""
 
     def __init__(self, file: RclpyFile) -> None:
-        self._facts = file
+        self._file = file
         self._is_indexing = False
 
     def declarations_in(self, call: ast.Call, method: str) -> Iterator[Declaration]:
@@ -49,9 +49,9 @@ class Declarations:
             for row in self._rows(nodes[0]):
                 yield Declaration("", *(_in_row(node, row) for node in nodes))
             return
-        prefix = self._facts.evaluator.text(given["namespace"]) if "namespace" in given else ""
+        prefix = self._file.evaluator.text(given["namespace"]) if "namespace" in given else ""
         listed = given.get("parameters")
-        for item in self._facts.evaluator.elements(listed).items if listed else ():
+        for item in self._file.evaluator.elements(listed).items if listed else ():
             if isinstance(item.node, ast.Tuple | ast.List) and item.node.elts:
                 parts = item.node.elts
                 value, descriptor = (parts[at] if len(parts) > at else None for at in (1, 2))
@@ -67,7 +67,7 @@ class Declarations:
         Returns:
             One iteration without variables if it is not a loop over a literal list.
         """
-        index = self._facts.module.index
+        index = self._file.module.index
         lookup = index.lookup(node.id, node) if isinstance(node, ast.Name) else None
         target = lookup[1][0].node if lookup and len(lookup[1]) == 1 else None
         loop = index.parent(target) if target is not None else None
@@ -98,8 +98,8 @@ class Declarations:
                     if key is not None
                 ]
                 return result if len(result) == len(pairs.keys) else ()
-        items, is_complete = self._facts.evaluator.elements(node)
-        parent = self._facts.module.index.parent
+        items, is_complete = self._file.evaluator.elements(node)
+        parent = self._file.module.index.parent
         is_written = all(isinstance(parent(item.node), ast.List | ast.Tuple) for item in items)
         is_written = is_written and len({id(item.node) for item in items}) == len(items)
         if is_written or not is_complete:
@@ -111,14 +111,14 @@ class Declarations:
 
     def full_name(self, prefix: str | Unknown, name: ast.expr | None) -> str | Unknown:
         """Return a parameter's name with the namespace in front."""
-        text = self._facts.evaluator.text(name)
+        text = self._file.evaluator.text(name)
         if text is UNKNOWN or prefix is UNKNOWN:
             return UNKNOWN
         return f"{prefix}.{text}" if prefix else text
 
     def default_of(self, receiver: ast.expr, name: str) -> object:
         """Return the default that all declarations of a parameter agree on."""
-        owner = self._facts.owner_of(receiver)
+        owner = self._file.owner_of(receiver)
         nodes = [
             value
             for declarer, value in self._declarations.get(name, ())
@@ -126,15 +126,15 @@ class Declarations:
         ]
         if not nodes and isinstance(owner, NodeClass) and owner.base is not None:
             base = owner.base
-            return UNKNOWN if base.facts is self._facts else base.facts.default_in(base, name)
-        values = [self._facts.evaluator.evaluate(node) for node in nodes]
+            return UNKNOWN if base.file is self._file else base.file.default_in(base, name)
+        values = [self._file.evaluator.evaluate(node) for node in nodes]
         return values[0] if values and all(same(value, values[0]) for value in values) else UNKNOWN
 
     @property
     def _declarations(self) -> Mapping[str, Sequence[_Declaration]]:
         """Owner and default of the declared parameters whose names are plain to see."""
         if self._is_indexing:
-            self._facts.evaluator.cut()
+            self._file.evaluator.cut()
             return {}
         return self._index
 
@@ -142,10 +142,10 @@ class Declarations:
     def _index(self) -> Mapping[str, Sequence[_Declaration]]:
         self._is_indexing = True
         result: dict[str, list[_Declaration]] = {}
-        for call in self._facts.module.walk(ast.Call):
-            func = self._facts.method_of(call)
+        for call in self._file.module.walk(ast.Call):
+            func = self._file.method_of(call)
             if func is not None and func.attr in SIGNATURES:
-                owner = self._facts.owner_of(func.value)
+                owner = self._file.owner_of(func.value)
                 for item in self.declarations_in(call, func.attr):
                     text = self.full_name(item.prefix, item.name)
                     if isinstance(text, str):

@@ -230,11 +230,11 @@ def names_used_by(package: Package, owner: NodeDefinition) -> Sequence[NameUsed]
 
     def by_owner() -> dict[NodeDefinition, list[NameUsed]]:
         result: dict[NodeDefinition, list[NameUsed]] = {}
-        for used in names_used(owner.facts):
+        for used in names_used(owner.file):
             result.setdefault(used.owner, []).append(used)
         return result
 
-    return package.remember(("names_used", owner.facts), by_owner).get(owner, ())
+    return package.remember(("names_used", owner.file), by_owner).get(owner, ())
 
 
 def _texts(
