@@ -1,16 +1,15 @@
 """A subprocess that runs one command and ends all of its descendants.
 
-This is a process of its own, between ``smoke`` and the command. It is the subreaper of all that the
-command starts: what detaches itself comes back here. Its life hangs on a socket. When that closes,
-because ``smoke`` was interrupted or killed, it ends what it has started and removes the shared
-memory that those processes used. It imports nothing but the standard library and its neighbors,
-because it runs in an isolated interpreter.
+It runs between ``smoke`` and the command, as the subreaper of everything that the command starts:
+detached processes become its children. It ends when its socket closes: if ``smoke`` was interrupted
+or killed, it ends what it has started and removes the shared memory that those processes used. It
+imports only the standard library and its neighbors, because it runs in an isolated interpreter.
 
-Lines of JSON come in: first ``{"command": [...], "variables": {...}, "ledger": path or null}``,
-then ``{"signal": number}`` for the process group of the command, and ``{"finish": seconds}`` once
-the command has ended: so long its children may live on. With ``finish`` in the first of them, the
-end of the command is the end. Lines of JSON go out: ``{"started": pid}``
-or ``{"errno": number}``, ``{"ended": status}``, and last ``{"left": [command lines], "leaked":
+It reads lines of JSON: first ``{"command": [...], "variables": {...}, "ledger": path or null}``,
+then ``{"signal": number}`` for the process group of the command, and ``{"finish": seconds}`` after
+the command has ended: its children may run for so long. If the first line contains ``finish``,
+the supervisor finishes when the command ends. It writes lines of JSON: ``{"started": pid}`` or
+``{"errno": number}``, ``{"ended": status}``, and finally ``{"left": [command lines], "leaked":
 [paths], "used": [names of segments]}``.
 """
 
