@@ -40,6 +40,7 @@ _AROUND_FEEDBACK = frozenset({"feedback", "goal_id"})
 _PLAIN = frozenset({"str", "int", "float", "bool", "bytes"})
 COROUTINE = "a coroutine"
 FUNCTION = "a function"
+TUPLE = "a tuple"
 _MAKING = re.compile(rf"\(\) -> {MARKED}(?:\[.*\])?")
 """Matches a method that an attribute keeps, and that returns an object of ROS."""
 METHOD = re.compile(rf"bound method ({MARKED})(?:\[.*\])?\.(\w+)\(.*")
@@ -60,6 +61,8 @@ def _plain(node: ast.Attribute, owner: str) -> tuple[str, frozenset[str]] | None
         return f"{full_name(method[1])}.{method[2]}", frozenset()
     if _MAKING.fullmatch(owner) and isinstance(node.ctx, ast.Load):
         return FUNCTION, frozenset()
+    if owner.startswith("tuple[") and isinstance(node.ctx, ast.Load):
+        return TUPLE, frozenset()
     if owner.startswith("CoroutineType["):
         return COROUTINE, frozenset()
     return (with_article(owner), frozenset()) if owner in _PLAIN else None

@@ -27,6 +27,7 @@ from ._attribute_owners import (
     COROUTINE,
     FUNCTION,
     METHOD,
+    TUPLE,
     cause,
     is_closed,
     known_owner,
@@ -118,6 +119,8 @@ _OF_MOCKS = re.compile(
 """Matches the attributes of ``unittest.mock.AsyncMock``."""
 _FEW = 6
 """Names that a message can list."""
+_TO_DO = {COROUTINE: "await it", FUNCTION: "call it first", TUPLE: "unpack it first"}
+"""What to do with what is not an object of ROS but leads to one."""
 
 
 class AttributeMissing(TypeRule):
@@ -137,6 +140,17 @@ class AttributeMissing(TypeRule):
     other_severities = {Severity.WARNING: "it only shows while the node is being stopped"}
     kinds = frozenset({"missing-attribute"})
     examples = (
+        Example(
+            "two values that are taken for the message",
+            {
+                "once.py": "from rclpy.wait_for_message import wait_for_message\n"
+                "from sensor_msgs.msg import CameraInfo\n\n\n"
+                "def width(node):\n"
+                "    info = wait_for_message(CameraInfo, node, 'camera_info')\n"
+                "    return info.width\n"
+            },
+            "7:12: a tuple has no 'width': AttributeError; unpack it first",
+        ),
         Example(
             "a method that is kept instead of what it returns",
             {
@@ -622,8 +636,8 @@ def _instead(shown: str, name: str, method: str) -> str:
     """Return what to write instead, where it is not another name of the same object."""
     if method:
         return f"; write {method}()"
-    if shown in {COROUTINE, FUNCTION}:
-        return "; await it" if shown == COROUTINE else "; call it first"
+    if shown in _TO_DO:
+        return f"; {_TO_DO[shown]}"
     if shown == "rclpy.task.Future":
         return "; what the future brings is in result()"
     if shown in _TIMES and name in _SECONDS:
