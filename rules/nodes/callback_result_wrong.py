@@ -90,6 +90,12 @@ class CallbackResultWrong(MessageRule):
             "AttributeError when the result is sent",
         ),
         Example(
+            "a comparison for the answer",
+            {"server.py": _NODE.format("return goal.order < 10", "return Fibonacci.Result()")},
+            "13:9: returns a bool, not a GoalResponse for the action server of line 9: it counts "
+            "as a rejection",
+        ),
+        Example(
             "the wrong answer, the feedback",
             {
                 "server.py": _NODE.format(
@@ -346,16 +352,24 @@ def _wrong(types: MessageTypes, server: ActionServer, value: ast.expr | None, an
         return "nothing"
     if isinstance(value, ast.Constant):
         return repr(value.value)
-    name = types.module.qualified_name(value) or ""
     if answer:
-        other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
-        return "" if other == answer else f"a {other}"
+        return _wrong_answer(types, value, answer)
     if isinstance(value, ast.Attribute) and types.class_of(value) is not None:
         return f"the class {types.module.text(value)}"
     message = types.type_of(value)
     if message is None or types.definitions.find(server.interface or "") is None:
         return ""
     return "" if message.name == f"{server.interface}.Result" else message.name
+
+
+def _wrong_answer(types: MessageTypes, value: ast.expr, answer: str) -> str:
+    """Describe what is returned for an answer to a goal and certainly is none."""
+    match value:
+        case ast.Compare() | ast.UnaryOp(op=ast.Not()):
+            return "a bool"
+    name = types.module.qualified_name(value) or ""
+    other = next((x for x in _ANSWERS.values() if f".{x}." in name), answer)
+    return "" if other == answer else f"a {other}"
 
 
 def _is_new(types: MessageTypes, function: FunctionNode, value: ast.expr | None) -> bool:
