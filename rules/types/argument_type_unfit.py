@@ -596,6 +596,28 @@ class ArgumentTypeUnfit(TypeRule):
             },
             "8:27: split() of bytes cannot use a str: TypeError; decode() the bytes first",
         ),
+        Example(
+            "a transform that a dataclass sends, and an image that is none",
+            {
+                "odom.py": "from dataclasses import dataclass\n\n"
+                "from geometry_msgs.msg import PoseStamped\n"
+                "from tf2_ros import TransformBroadcaster\n\n\n"
+                "@dataclass\nclass Outputs:\n"
+                "    tf: TransformBroadcaster\n    frame: str = 'odom'\n\n\n"
+                "def send(node):\n"
+                "    outputs = Outputs(TransformBroadcaster(node))\n"
+                "    outputs.tf.sendTransform(PoseStamped())\n",
+                "gray.py": "from cv_bridge import CvBridge\nfrom sensor_msgs.msg import Image\n\n\n"
+                "def gray():\n"
+                "    image = CvBridge().imgmsg_to_cv2(Image(), 'mono8')\n"
+                "    return CvBridge().cv2_to_imgmsg(Image()), CvBridge().cv2_to_imgmsg(image)\n",
+            },
+            "gray.py:7:37: 'cvim' of cv2_to_imgmsg() must be a numpy.ndarray, not a "
+            "sensor_msgs.msg.Image: cv2_to_imgmsg() fails",
+            "odom.py:15:30: 'transform' of sendTransform() must be a "
+            "geometry_msgs.msg.TransformStamped or list, not a geometry_msgs.msg.PoseStamped: "
+            "sendTransform() fails",
+        ),
         Example("callbacks in a table", {"arm.py": _TABLE.format("request, response")}),
         Example(
             "one of the callbacks in a table takes too little",

@@ -121,10 +121,14 @@ def _write_aside(distribution: Distribution, place: str) -> None:
     trim(kept)
 
 
+_ARRAY = ("ndarray[Any, Any]", "ndarray")
+"""The partial stub of numpy has a class without arguments."""
+
+
 def _write(distribution: Distribution, place: str) -> list[str]:
     """Write an environment; return the paths of its files."""
     files = {
-        os.path.join(packages(distribution), path): marked(path, text)
+        os.path.join(packages(distribution), path): marked(path, text.replace(*_ARRAY))
         for path, text in (stubs.partial_stubs() | stubs.stub_files(distribution)).items()
     }
     files["pyvenv.cfg"] = _SETTINGS.format(distribution.python_version)

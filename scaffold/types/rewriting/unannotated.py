@@ -67,7 +67,7 @@ def _annotations(index: ScopeIndex) -> Iterator[tuple[str, ast.expr]]:
             if argument.arg not in written or not _is_text(argument.annotation):
                 yield "parameter", argument.annotation
     for variable in index.all_of(ast.AnnAssign):
-        if _is_made_so(variable):
+        if _is_made_so(variable) or _is_of_record(index, variable):
             continue
         yield "declaration" if variable.value is None else "variable", variable.annotation
 
@@ -124,6 +124,16 @@ def _is_made_so(variable: ast.AnnAssign) -> bool:
         case ast.Call(keywords=[ast.keyword(arg="default_factory", value=factory)]):
             return ast.unparse(factory) == ast.unparse(variable.annotation)
     return False
+
+
+def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
+    """Tell whether a variable is a field that all objects of a dataclass or tuple are made with."""
+    class_ = index.parent(variable)
+    if variable.value is not None or not isinstance(class_, ast.ClassDef):
+        return False
+    decorators = [it.func if isinstance(it, ast.Call) else it for it in class_.decorator_list]
+    names = {*map(_name, decorators), *map(_name, class_.bases)}
+    return not names.isdisjoint({"dataclass", "NamedTuple"})
 
 
 def _is_text(annotation: ast.expr) -> bool:
