@@ -72,6 +72,14 @@ class ImportUndeclared(Rule):
             },
         ),
         Example(
+            "a library that has more than interfaces",
+            {
+                "package.xml": _manifest("rclpy"),
+                "talker/__init__.py": "",
+                "talker/node.py": "import robotarm.action\nimport robotarm.gripper\n",
+            },
+        ),
+        Example(
             "what helps to work on the package is not installed",
             {
                 "package.xml": _manifest("rclpy"),

@@ -59,7 +59,8 @@ class EntryPointUnusable(Rule):
     code = "SP001"
     name = "entry-point-unusable"
     other_severities = {
-        Severity.WARNING: "no function is named, but the module runs its node when it is imported"
+        Severity.WARNING: "no function is named, but the module runs its node when it is imported; "
+        "or CMake builds the package, and nothing reads setup.py"
     }
     examples = (
         Example(
@@ -199,6 +200,21 @@ class EntryPointUnusable(Rule):
             },
             "setup.py:6:39: Talker is a node class: a program needs a function that spins it",
         ),
+        Example(
+            "no function, where CMake builds the package",
+            {
+                "setup.py": _SETUP.format("'node = talker.node',\n"),
+                **_FILES,
+                "CMakeLists.txt": "project(talker)\nfind_package(ament_cmake REQUIRED)\n",
+                "package.xml": "<package><export><build_type>ament_cmake</build_type></export>"
+                "</package>\n",
+            },
+            Report(
+                "setup.py:5:1",
+                "console script 'node = talker.node': no function is named: name = module:function",
+                severity=Severity.WARNING,
+            ),
+        ),
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
@@ -216,7 +232,8 @@ class EntryPointUnusable(Rule):
             elif entry.malformed:
                 message = f"console script {entry.text!r}: {entry.malformed}"
                 is_running = not entry.function and _runs_when_imported(package, entry.module)
-                severity = Severity.WARNING if is_running else Severity.ERROR
+                is_used = package.build_type != "ament_cmake" and not is_running
+                severity = Severity.ERROR if is_used else Severity.WARNING
                 yield self.report(entry, message, severity=severity)
 
     def _check_names(self, package: Package) -> Iterator[Diagnostic]:

@@ -71,6 +71,23 @@ class ObjectMisused(TypeRule):
     name = "object-misused"
     kinds = frozenset({*_DOES, "invalid-assignment"})
     examples = (
+        Example(
+            "what is under one key, where another has less",
+            {
+                "boxes.py": "from rclpy.node import Node\n\n\n"
+                "class Boxes(Node):\n"
+                "    def __init__(self):\n"
+                "        super().__init__('boxes')\n"
+                "        self.boxes = []\n\n"
+                "    def add(self, x, y):\n"
+                "        self.boxes.append({'center': (x, y), 'bounds': (x, x + 1, y, y + 1)})\n\n"
+                "    def widths(self):\n"
+                "        return [self.width(box['bounds']) for box in self.boxes]\n\n"
+                "    def width(self, bounds):\n"
+                "        low, high, _, _ = bounds\n"
+                "        return high - low\n"
+            },
+        ),
         Example("a field", {"height.py": _NODE.format("point.z")}),
         Example(
             "elements of what another function makes of an object",
@@ -231,7 +248,8 @@ class ObjectMisused(TypeRule):
         if unpacked is not None:
             problem = f"{unpacked['problem'].lower()} values for {unpacked['names']} names"
             message = f"{problem}: ValueError"
-            return None if _is_asked_for(finding) else self.report(finding, message)
+            is_unclear = _is_asked_for(finding) or _is_of_table(finding)
+            return None if is_unclear else self.report(finding, message)
         matched = finding.kind in _DOES and (
             finding.match(
                 r"(?:Object of type|Cannot subscript object of type|Cannot raise object of type) "
@@ -290,6 +308,24 @@ def _is_asked_for(finding: TypeFinding) -> bool:
                 return False
         inner = node
     return False
+
+
+def _is_of_table(finding: TypeFinding) -> bool:
+    """Tell whether what is unpacked is under one of the keys of a dictionary.
+
+    What is under its other keys may be of another length, and is not told apart.
+    """
+    for node in finding.parents():
+        if isinstance(node, ast.Assign):
+            values = [node.value]
+            if isinstance(node.value, ast.Name):
+                values += finding.arguments_for(node.value)
+            return any(map(_has_key, values))
+    return False
+
+
+def _has_key(node: ast.expr) -> bool:
+    return isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant | ast.Name)
 
 
 def _mentions(node: ast.expr, name: str) -> bool:

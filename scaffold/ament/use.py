@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
+from scaffold.model.install.unused import is_unrun_test
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -212,6 +213,8 @@ def linter_tests(package: Package, linter: str) -> Iterator[tuple[PythonModule, 
             continue
         if re.search(r"pytest\.mark\.(?:skip|xfail)|pytest\.skip\(", module.source.text):
             yield module, f"{path} is skipped"
+        elif is_unrun_test(package, path):
+            yield module, f"CMake does not run {path}"
         else:
             yield module, "" if _asserts(module) else f"{path} asserts nothing"
 

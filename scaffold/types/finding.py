@@ -123,6 +123,10 @@ class TypeFinding:
         place = first_call(self.package, self.path, called) if called else None
         return (node.id, f"line {place[1]} of {place[0]}") if place else None
 
+    def arguments_for(self, name: ast.Name) -> Sequence[ast.expr]:
+        """Return what calls in the file pass to the parameter that a name is."""
+        return origins.arguments_for(self.module, name)
+
     @cached_property
     def _root(self) -> ast.Name | None:
         """The name that the expression at the place starts with."""

@@ -97,6 +97,22 @@ CASES: Mapping[str, tuple[Example, ...]] = {
             ),
         ),
         Example(
+            "without, where CMake runs another test",
+            {
+                "a/one.py": BARE,
+                "test/test_copyright.py": TEST,
+                "package.xml": "<package><export><build_type>ament_cmake</build_type></export>"
+                "</package>\n",
+                "CMakeLists.txt": "project(a)\nament_add_pytest_test(walk test/test_walk.py)\n",
+            },
+            Report(
+                "a/one.py:1:1",
+                "no copyright notice: ament_copyright would fail, but CMake does not run "
+                "test/test_copyright.py",
+                severity=Severity.INFO,
+            ),
+        ),
+        Example(
             "without, where nobody looks: advice, once",
             {"a/one.py": BARE, "a/two.py": BARE, "test/test_copyright.py": SKIPPED},
             Report(

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 INTERFACE_MODULES = frozenset({"msg", "srv", "action"})
+_OF_INTERFACES = [[], *([name] for name in sorted(INTERFACE_MODULES))]
+"""What follows the name of a package of interfaces in an import."""
 _NOT_SHIPPED = ("doc/", "docs/", "setup.py", "conf.py")
 _ROS1 = frozenset({"rospy", "roslib"})
 _COMPILING = re.compile(
@@ -247,9 +249,23 @@ def _keys(package: Package, node: Import, local: frozenset[str]) -> tuple[str, .
     if root in ROS1_PACKAGES:
         return ()
     is_interface = len(names) > 1 and names[1] in INTERFACE_MODULES
+    is_interface = is_interface and root not in _libraries(package)
     if is_interface or package.workspace.get(root) is not None:
         return (root,)
     return ()
+
+
+def _libraries(package: Package) -> frozenset[str]:
+    """Return the top-level packages of which modules are imported that hold no interfaces."""
+    return package.remember(
+        "libraries that are imported",
+        lambda: frozenset(
+            node.root
+            for _, imports in imports_by_path(package)
+            for node in imports
+            if node.module.split(".")[1:2] not in _OF_INTERFACES
+        ),
+    )
 
 
 def _keys_for_pip(keys: Sequence[str]) -> tuple[str, ...]:
