@@ -393,7 +393,7 @@ def _uses_as_list(types: MessageTypes) -> Iterator[tuple[ast.expr, ast.expr, str
         yield part.iter, part.iter, "is not iterable"
 
 
-_WANTS_NUMBER = re.compile(r"%[-+ #0]*[0-9]*(?:\.[0-9]+)?[dioxXeEfFgG]")
+_WANTS_NUMBER = re.compile(r"%[-+ #]*[0-9]*(?:\.[0-9]+)?[dioxXeEfFgG]")
 """Matches a placeholder for a number in a text that ``%`` fills in."""
 _NO_IMAGE = "is not an image of OpenCV"
 _HINT = "TypeError; use one of its fields"

@@ -195,8 +195,8 @@ def test_signal_that_is_obeyed(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    ending, code = asynchronously(run)
-    assert (ending.sent, ending.was_ignored, code) == (("SIGINT",), False, -2)
+    stop, code = asynchronously(run)
+    assert (stop.sent, stop.was_ignored, code) == (("SIGINT",), False, -2)
 
 
 def test_signal_that_is_ignored(tmp_path: Path) -> None:
@@ -214,9 +214,9 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    ending, exit_code = asynchronously(run)
-    assert (ending.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
-    assert (ending.was_ignored, ending.was_missed) == (True, False)
+    stop, exit_code = asynchronously(run)
+    assert (stop.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
+    assert (stop.was_ignored, stop.was_missed) == (True, False)
 
 
 def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
@@ -235,8 +235,8 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    ending = asynchronously(run)
-    assert (ending.sent, ending.was_missed) == (("SIGTERM", "SIGTERM"), True)
+    stop = asynchronously(run)
+    assert (stop.sent, stop.was_missed) == (("SIGTERM", "SIGTERM"), True)
 
 
 def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
