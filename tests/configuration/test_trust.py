@@ -687,6 +687,9 @@ def test_the_reference_evaluates_no_strings(repository: Repository, run: Run, pr
     repository.write("talker/own.cfg", "[flake8]\n")  # asks for docstrings that are missing
     test = "from ament_flake8.main import main\nassert main(['--config', 'own.cfg']) == 0\n"
     repository.write("talker/test/test_flake8.py", test)
+    repository.write(
+        "talker/CMakeLists.txt", f"{CMAKE}ament_add_pytest_test(flake8 test/test_flake8.py)\n"
+    )
     assert " D100 " in run("check", "talker", "--select", "D").out
     assert not repository.has_run
 
