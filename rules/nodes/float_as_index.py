@@ -9,32 +9,28 @@ from scaffold.api import Diagnostic, Example, Package, PythonRule
 from scaffold.api.python import PythonModule, is_handled
 from scaffold.api.rclpy import RclpyFile, rclpy_file
 
-_NODE = (
+_HEAD = (
     "from rclpy.node import Node\nfrom sensor_msgs.msg import LaserScan\n\n\n"
     "class Front(Node):\n"
     "    def __init__(self):\n"
     "        super().__init__('front')\n"
     "        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)\n\n"
     "    def on_scan(self, scan):\n"
+)
+_NODE = _HEAD + (
     "        middle = len(scan.ranges) {} 2\n"
     "        front = scan.ranges[middle - 5:middle + 5]\n"
     "        for number in range(len(front) {} 2):\n"
     "            self.near = front[number] < 1.0\n"
 )
-_AHEAD = (
-    "from rclpy.node import Node\nfrom sensor_msgs.msg import LaserScan\n\n\n"
-    "class Front(Node):\n"
-    "    def __init__(self):\n"
-    "        super().__init__('front')\n"
-    "        self.create_subscription(LaserScan, 'scan', self.on_scan, 10)\n\n"
-    "    def on_scan(self, scan):\n"
+_AHEAD = _HEAD + (
     "        middle = len(scan.ranges) {0} 2\n"
     "        self.ahead = scan.ranges[middle] + scan.ranges[len(scan.ranges) {0} 4]\n"
 )
 
 
 class FloatAsIndex(PythonRule):
-    """The result of a division bounds a slice or a range.
+    """The result of a division is an index, or bounds a slice or a range.
 
     **Why.** ``/`` always gives a float: ``TypeError: slice indices must be integers``, or
     ``'float' object cannot be interpreted as an integer``.
@@ -52,8 +48,8 @@ class FloatAsIndex(PythonRule):
         Example(
             "the beam ahead, by a division",
             {"front.py": _AHEAD.format("/")},
-            "12:34: a float is no index: TypeError; divide with //",
-            "12:56: a float is no index: TypeError; divide with //",
+            "12:34: a float cannot be an index: TypeError; divide with //",
+            "12:56: a float cannot be an index: TypeError; divide with //",
         ),
         Example(
             "divisions",
@@ -87,13 +83,7 @@ class FloatAsIndex(PythonRule):
             if _is_of_own_length(file, subscript) and not is_handled(
                 module, subscript, "TypeError"
             ):
-                message = "a float is no index: TypeError; divide with //"
-                yield self.report(module.location(subscript.slice), message)
-        for subscript in module.walk(ast.Subscript):
-            if _is_of_own_length(file, subscript) and not is_handled(
-                module, subscript, "TypeError"
-            ):
-                message = "a float is no index: TypeError; divide with //"
+                message = "a float cannot be an index: TypeError; divide with //"
                 yield self.report(module.location(subscript.slice), message)
         for call in module.calls_of("range"):
             for given in call.args:
@@ -121,7 +111,7 @@ def _is_of_labels(module: PythonModule, node: ast.Slice) -> bool:
 
 
 def _is_of_own_length(file: RclpyFile, node: ast.Subscript) -> bool:
-    """Tell whether an index is a quotient of the length of what it is an index of."""
+    """Tell whether an index is computed by dividing the length of the list that it indexes."""
     index = file.evaluator.single_value(node.slice) or node.slice
     if not isinstance(node.slice, ast.Name | ast.BinOp) or not _is_quotient(file, index):
         return False

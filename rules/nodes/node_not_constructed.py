@@ -331,7 +331,7 @@ def _lacks_base(file: RclpyFile, class_: ast.ClassDef) -> bool:
 
 
 def _hands_on(file: RclpyFile, class_: ast.ClassDef) -> bool:
-    """Tell whether a class without bases calls the constructor of what it is mixed into."""
+    """Tell whether a class without bases calls the constructor of the class it is combined with."""
     for call in file.module.below(class_, ast.Call):
         match call:
             case ast.Call(

@@ -72,7 +72,7 @@ class ObjectMisused(TypeRule):
     kinds = frozenset({*_DOES, "invalid-assignment"})
     examples = (
         Example(
-            "what is under one key, where another has less",
+            "a tuple of a dictionary that holds a shorter one as well",
             {
                 "boxes.py": "from rclpy.node import Node\n\n\n"
                 "class Boxes(Node):\n"
@@ -311,9 +311,9 @@ def _is_asked_for(finding: TypeFinding) -> bool:
 
 
 def _is_of_table(finding: TypeFinding) -> bool:
-    """Tell whether what is unpacked is under one of the keys of a dictionary.
+    """Tell whether what is unpacked is a value of a dictionary.
 
-    What is under its other keys may be of another length, and is not told apart.
+    The type checker does not distinguish its keys, whose values may have other lengths.
     """
     for node in finding.parents():
         if isinstance(node, ast.Assign):

@@ -114,8 +114,8 @@ class OperatorUnsupported(TypeRule):
         Example(
             "a text and a number that are added",
             {"speed.py": _SPEED.format("'speed ' + speed", "2 + ' m'")},
-            "9:28: a str and a float are not joined with '+': TypeError; use an f-string",
-            "10:28: an int and a str are not joined with '+': TypeError; use an f-string",
+            "9:28: '+' cannot join a str and a float: TypeError; use an f-string",
+            "10:28: '+' cannot join an int and a str: TypeError; use an f-string",
         ),
         Example(
             "a text and the bytes of a serial port",
@@ -169,7 +169,7 @@ def _on_text(operator: str, words: Sequence[str]) -> str:
         problem = f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError"
         return f"{problem}; decode() the bytes first"
     if operator == "+":
-        return f"{words[0]} and {words[1]} are not joined with '+': TypeError; use an f-string"
+        return f"'+' cannot join {words[0]} and {words[1]}: TypeError; use an f-string"
     return f"{operator!r} does not work on {words[0]} and {words[1]}: TypeError; use float(...)"
 
 
