@@ -287,7 +287,7 @@ class ImportUndeclared(Rule):
             "what comes with `ros2 launch`",
             {
                 "package.xml": _manifest(),
-                "launch/a.launch.py": "import ament_index_python\n",
+                "launch/a.launch.py": "import ament_index_python\nimport launch_xml\n",
             },
             Report(
                 "launch/a.launch.py:1:1",
@@ -296,7 +296,14 @@ class ImportUndeclared(Rule):
                 fix="declare ament_index_python",
                 severity=Severity.WARNING,
             ),
-            fixed={"package.xml": _manifest("ament_index_python")},
+            Report(
+                "launch/a.launch.py:2:1",
+                "imports 'launch_xml', which no dependency in package.xml provides; add "
+                "<exec_depend>launch_xml</exec_depend>",
+                fix="declare launch_xml",
+                severity=Severity.WARNING,
+            ),
+            fixed={"package.xml": _manifest("ament_index_python", "launch_xml")},
         ),
         Example(
             "a key for pip",
@@ -457,7 +464,7 @@ def _why(package: Package, need: requirements.Requirement) -> str:
 def _comes_with_launch(need: requirements.Requirement) -> bool:
     key = need.keys[0]
     return key in {_BUILD, *_LAUNCH} or (
-        need.for_launch and key in transitive_dependencies({"launch_ros"})
+        need.for_launch and key in transitive_dependencies({"ros2launch"})
     )
 
 
