@@ -1,4 +1,4 @@
-"""setup.cfg: places, values and edits; what setuptools reads is the measure."""
+"""setup.cfg: locations, values and edits, compared with what setuptools reads."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def apply(text: str, edit: Edit) -> str:
     return text[: edit.start] + edit.text + text[edit.end :]
 
 
-def test_values() -> None:
+def test_values_of_options() -> None:
     file = read(TALKER)
     assert list(file.sections) == ["develop", "install", "options.entry_points"]
     assert file.get("develop", "script_dir") == "$base/lib/talker"
@@ -50,13 +50,13 @@ def test_values() -> None:
     assert file.get("other", "script_dir") is None
 
 
-def test_the_first_of_some_spellings() -> None:
+def test_option_is_found_under_alternative_spellings() -> None:
     option = read(TALKER).option("install", "install_scripts", "install-scripts")
     assert option is not None
     assert option.key == "install-scripts"
 
 
-def test_places() -> None:
+def test_locations_of_sections_and_options() -> None:
     file = read(TALKER)
     section = file.sections["install"]
     assert section.location[1:] == (4, 1, 4, 10)
@@ -67,7 +67,7 @@ def test_places() -> None:
     assert TALKER[option.value_start : option.value_end] == "$base/lib/talker"
 
 
-def test_places_of_lines() -> None:
+def test_locations_of_lines_of_a_value() -> None:
     option = read(TALKER).option("options.entry_points", "console_scripts")
     assert option is not None
     assert [(line.text, line.location[1:]) for line in option.lines] == [
@@ -78,14 +78,14 @@ def test_places_of_lines() -> None:
     assert option.key_location[1:] == (8, 1, 8, 16)
 
 
-def test_place_of_an_empty_value() -> None:
+def test_location_of_an_empty_value() -> None:
     option = read("[a]\nb =\n").option("a", "b")
     assert option is not None
     assert (option.value, option.lines) == ("", ())
     assert option.location[1:] == (2, 4, 2, 4)
 
 
-def test_defaults_hold_for_every_section() -> None:
+def test_defaults_apply_to_every_section() -> None:
     file = read("[DEFAULT]\na=1\n[b]\nc=2\n")
     assert file.get("b", "a") == "1"
     assert file.get("c", "a") is None
@@ -102,7 +102,7 @@ def test_defaults_hold_for_every_section() -> None:
         ("[a]\nb=1\nb : 2\n", "3:1", "b is set in line 2 already"),
     ],
 )
-def test_errors(text: str, at: str, message: str) -> None:
+def test_syntax_errors(text: str, at: str, message: str) -> None:
     with pytest.raises(ParseError) as caught:
         read(text)
     location = caught.value.location
@@ -119,7 +119,7 @@ TEXTS = st.lists(st.sampled_from([*PIECES[0], *PIECES[1]]), max_size=14).map("".
 @given(st.one_of(TEXTS, TEXTS.map("[s]\n{}".format), st.text(max_size=30)))
 @example(TALKER)
 @example("[a]\nb" + " " * 5000 + "c")
-def test_same_as_configparser(text: str) -> None:
+def test_values_equal_those_of_configparser(text: str) -> None:
     expected = by_configparser(text)
     if expected is None:
         with pytest.raises(ParseError):
@@ -165,7 +165,7 @@ def by_configparser(text: str) -> dict[str, dict[str, str]] | None:
         ("third", "key", "zip_safe : True\n", "zip_safe : True\n[third]\nkey=new\n"),
     ],
 )
-def test_set(section: str, key: str, before: str, after: str, newline: str) -> None:
+def test_set_option(section: str, key: str, before: str, after: str, newline: str) -> None:
     text = TALKER.replace("\n", newline)
     expected = TALKER.replace(before, after).replace("\n", newline)
     changed = apply(text, read(text).set(section, key, "new"))
@@ -173,11 +173,11 @@ def test_set(section: str, key: str, before: str, after: str, newline: str) -> N
     assert read(changed).get(section, key) == "new"
 
 
-def test_set_in_an_empty_file() -> None:
+def test_set_option_in_an_empty_file() -> None:
     assert apply("", read("").set("a", "b", "c")) == "[a]\nb=c\n"
 
 
-def test_rename() -> None:
+def test_rename_option() -> None:
     file = read(TALKER)
     option = file.option("install", "install-scripts")
     assert option is not None

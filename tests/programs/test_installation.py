@@ -1,4 +1,4 @@
-"""The commands that messages advise for installing this tool again: from its source alone."""
+"""The installation commands in messages: always from the source of this tool."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CLONE = "pipx install --force '.[ros]' (in a clone of its repository)"
 
 
 def advice(directory: Path, place: str, origin: object) -> str:
-    """Return the command of an installation in a place, with what its installer noted."""
+    """Return the advised command for an installation directory and its installer's metadata."""
     venv.create(directory / place, symlinks=True)
     noted = directory / "noted" / "ros2_scaffold-0.1.0.dist-info"
     noted.mkdir(parents=True)
@@ -42,21 +42,19 @@ def advice(directory: Path, place: str, origin: object) -> str:
         ("environment", "/bin/python -m pip install"),
     ],
 )
-def test_the_command_installs_with_the_same_installer(
-    place: str, installer: str, tmp_path: Path
-) -> None:
+def test_command_uses_the_same_installer(place: str, installer: str, tmp_path: Path) -> None:
     command = advice(tmp_path, place, {"url": ROOT.as_uri(), "dir_info": {}})
     before, _, source = command.rpartition(" ")
     assert before.endswith(installer)
     assert shlex.split(source) == [f"{ROOT}[ros]"]
 
 
-def test_an_editable_installation_stays_one(tmp_path: Path) -> None:
+def test_editable_installation_stays_editable(tmp_path: Path) -> None:
     origin = {"url": ROOT.as_uri(), "dir_info": {"editable": True}}
     assert shlex.split(advice(tmp_path, "pipx/x", origin))[-2:] == ["--editable", f"{ROOT}[ros]"]
 
 
-def test_a_repository_is_named_with_its_address(tmp_path: Path) -> None:
+def test_installation_from_a_repository_names_its_url(tmp_path: Path) -> None:
     origin = {"url": "https://git.example.com/tool.git", "vcs_info": {"vcs": "git"}}
     assert shlex.split(advice(tmp_path, "pipx/x", origin))[-1] == (
         "ros2-scaffold[ros] @ git+https://git.example.com/tool.git"
@@ -67,11 +65,11 @@ def test_a_repository_is_named_with_its_address(tmp_path: Path) -> None:
     "origin",
     [None, {}, [], {"url": "file:///no/such/directory"}, {"url": "file:///dist/tool.whl"}],
 )
-def test_a_source_that_is_gone_is_a_clone(origin: object, tmp_path: Path) -> None:
+def test_unknown_origin_advises_a_clone(origin: object, tmp_path: Path) -> None:
     assert advice(tmp_path, "pipx/x", origin) == CLONE
 
 
-def test_nothing_names_the_tool_on_a_package_index() -> None:
+def test_no_message_installs_from_a_package_index() -> None:
     files = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / ".pre-commit-hooks.yaml"]
     for directory in ("scaffold", "templates", "docs", "rules", "changelog.d"):
         files += (file for file in (ROOT / directory).rglob("*") if file.is_file())

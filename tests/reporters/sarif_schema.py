@@ -1,4 +1,4 @@
-"""What a SARIF report may hold: no more than SARIF 2.1.0 has, no less than GitHub needs.
+"""JSON schema of our SARIF reports: a subset of SARIF 2.1.0 with all that GitHub requires.
 
 No package of the index has the schema of OASIS. This one names only the properties that we write,
 with the types that section 3 of the standard gives them, and requires what the page "SARIF support

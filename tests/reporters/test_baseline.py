@@ -1,4 +1,4 @@
-"""A baseline hides what it has, wherever its line is now, and nothing else."""
+"""A baseline hides exactly its findings, even if their lines have moved."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def check(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, list[st
     return code, capsys.readouterr().out.splitlines()
 
 
-def test_only_what_is_new_is_reported(talker: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_only_new_findings_are_reported(talker: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, (*old, _) = check(capsys)
     assert len(old) > 3
     code, lines = check(capsys, "--write-baseline", "base.json")
@@ -64,7 +64,7 @@ def test_only_what_is_new_is_reported(talker: Path, capsys: pytest.CaptureFixtur
     ], "the same fault once more is new"
 
 
-def test_the_distributions_that_are_checked_for_do_not_count(
+def test_baseline_matches_whatever_the_target_distributions(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (talker / "talker" / "extra.py").write_text(
@@ -97,7 +97,7 @@ def test_entries_that_no_longer_occur_are_counted(
     assert note == "baseline base.json: 0 findings hidden", "nor what is not checked"
 
 
-def test_a_changed_baseline_counts_at_once(
+def test_edited_baseline_is_not_served_from_the_cache(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["check", "--write-baseline", "base.json"])
@@ -114,7 +114,9 @@ def test_a_changed_baseline_counts_at_once(
     assert len(check(capsys, "--baseline", "base.json")[1]) == len(data["findings"]) + 3
 
 
-def test_a_baseline_merges(talker: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_git_merges_baselines_of_two_branches(
+    talker: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     main(["check", "--write-baseline", "base.json"])
     capsys.readouterr()
     head, *entries, end = (talker.parent / "base.json").read_text().splitlines()
@@ -126,7 +128,7 @@ def test_a_baseline_merges(talker: Path, capsys: pytest.CaptureFixture[str]) -> 
 
 
 @pytest.mark.usefixtures("talker")
-def test_fixes_are_applied_and_the_rest_is_hidden(capsys: pytest.CaptureFixture[str]) -> None:
+def test_baseline_findings_are_fixed_or_hidden(capsys: pytest.CaptureFixture[str]) -> None:
     main(["check", "--write-baseline", "base.json"])
     capsys.readouterr()
     words = ["--baseline", "base.json", "--fix", "--select", "F,LY"]
@@ -148,7 +150,7 @@ def test_fixes_are_applied_and_the_rest_is_hidden(capsys: pytest.CaptureFixture[
         ("[" * 100_000, "not a baseline: "),
     ],
 )
-def test_what_is_no_baseline_is_refused(
+def test_invalid_baseline_is_rejected(
     capsys: pytest.CaptureFixture[str], text: str | None, message: str
 ) -> None:
     if text is not None:
@@ -160,7 +162,7 @@ def test_what_is_no_baseline_is_refused(
 
 @pytest.mark.usefixtures("talker")
 @pytest.mark.parametrize("flag", [["--fix"], ["--baseline", "a"], ["--output-file", "a"]])
-def test_writing_goes_with_no_other_output(
+def test_write_baseline_excludes_other_output_flags(
     capsys: pytest.CaptureFixture[str], flag: list[str]
 ) -> None:
     assert main(["check", "--write-baseline", "base.json", *flag]) == 2

@@ -17,7 +17,7 @@ from scaffold.source import Location
 
 @pytest.fixture(autouse=True, scope="module")
 def rules() -> None:
-    """Load what declares the effects of flaws."""
+    """Load the rules, which declare the effects of findings."""
     registry.load(content.roots("rules"))
 
 
@@ -26,9 +26,7 @@ def _result(directory: str, code: str, path: str, severity: Severity = Severity.
     return Result(Package.at(directory), 1, [diagnostic])
 
 
-def test_what_is_set_aside_comes_after_what_is_used(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_archived_packages_come_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     top = tmp_path / "old"  # around the current directory: says nothing about what is below
     names = ("archive/talker", "legacy_nodes/talker", "listener", "my_old/talker", "threshold")
     for name in names:
@@ -57,13 +55,13 @@ def test_what_is_set_aside_comes_after_what_is_used(
     ]
 
 
-def test_packages_of_ros1_come_after_crashes() -> None:
+def test_ros1_packages_come_after_crashes() -> None:
     results = [_result(".", "SC007", "package.xml"), _result(".", "ND001", "node.py")]
     ordered = in_order([entry for result in results for entry in by_cause(result)])
     assert [entry.first.code for entry in ordered] == ["ND001", "SC007"]
 
 
-def test_what_keeps_a_package_from_being_built_comes_before_crashes() -> None:
+def test_build_failures_come_before_crashes() -> None:
     codes = ["LY020", "PX001", "PF004", "CM014", "ND001", "CM011", "E999"]
     ordered = in_order([entry for code in codes for entry in by_cause(_result(".", code, "a"))])
     assert [entry.first.code for entry in ordered] == [
@@ -71,7 +69,7 @@ def test_what_keeps_a_package_from_being_built_comes_before_crashes() -> None:
     ]
 
 
-def test_missing_packages_come_before_what_stops_nothing() -> None:
+def test_missing_packages_come_before_harmless_findings() -> None:
     results = [_result(".", code, "a") for code in ("LY020", "PX001", "CM020", "PX020", "LF005")]
     for result in results[2:]:
         (found,) = result.diagnostics
@@ -80,7 +78,7 @@ def test_missing_packages_come_before_what_stops_nothing() -> None:
     assert [entry.first.code for entry in ordered] == ["CM020", "PX020", "LF005", "PX001", "LY020"]
 
 
-def test_tests_come_after_what_a_robot_runs() -> None:
+def test_findings_in_tests_come_after_those_in_programs() -> None:
     paths = ("test/test_a.py", "a/contest.py", "tests/helper.py")
     results = [_result(".", "TY003", path) for path in paths]
     ordered = in_order([entry for result in results for entry in by_cause(result)])
@@ -91,7 +89,7 @@ def test_tests_come_after_what_a_robot_runs() -> None:
     ]
 
 
-def test_what_several_packages_have_in_common_is_one_entry() -> None:
+def test_same_cause_in_several_packages_is_one_entry() -> None:
     results = [
         _result("archive/talker", "SC007", "package.xml"),
         _result("talker", "SC007", "package.xml"),
@@ -109,7 +107,7 @@ def test_what_several_packages_have_in_common_is_one_entry() -> None:
     ]
 
 
-def test_other_findings_of_the_same_cause_are_other_entries() -> None:
+def test_different_messages_of_one_cause_are_not_merged() -> None:
     first = _result("talker", "LF005", "a.launch.py")
     second = _result("listener", "LF005", "a.launch.py")
     second.diagnostics[0] = first.diagnostics[0]._replace(message="another", cause="dependency a")
@@ -118,7 +116,7 @@ def test_other_findings_of_the_same_cause_are_other_entries() -> None:
     assert merged(entries) == entries
 
 
-def test_what_a_manifest_or_the_imports_of_a_file_lack_is_one_entry() -> None:
+def test_missing_dependencies_and_missing_imports_are_one_entry_each() -> None:
     result = _result("talker", "PX020", "a.py")
     (found,) = result.diagnostics
     names = ("rclpy", "std_msgs", "yaml")

@@ -1,4 +1,4 @@
-"""Annotations of GitHub: what a runner reads out of them is what was found."""
+"""GitHub annotations: a runner that parses them gets every finding."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ COMMAND = re.compile(r"::(?P<command>\w+) (?P<properties>[^:]*)::(?P<message>.*)
 
 
 def read(line: str) -> tuple[str, dict[str, str], str]:
-    """Read a workflow command as a runner does."""
+    """Parse a workflow command as a runner does."""
     match = COMMAND.fullmatch(line)
     assert match is not None, line
     properties = dict(pair.split("=", 1) for pair in match["properties"].split(","))
@@ -32,7 +32,9 @@ def _decode(text: str) -> str:
     return text.replace("%0D", "\r").replace("%0A", "\n").replace("%25", "%")
 
 
-def test_a_runner_reads_what_was_found(check: Check, diagnostics: list[dict[str, Any]]) -> None:
+def test_annotations_have_place_severity_and_message(
+    check: Check, diagnostics: list[dict[str, Any]]
+) -> None:
     commands = {"error": "error", "warning": "warning", "info": "notice"}
     found = [read(line) for line in check("--format", "github").splitlines()]
     assert f"src/talker/{ODD_NAME}" in {properties["file"] for _, properties, _ in found}
@@ -54,7 +56,7 @@ def test_errors_come_first(check: Check) -> None:
     assert {*commands} >= {"error", "warning"}
 
 
-def test_the_summary_of_the_job_is_added_to(
+def test_job_summary_is_appended(
     check: Check, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, diagnostics: list[dict[str, Any]]
 ) -> None:
     summary = tmp_path / "summary.md"
@@ -75,7 +77,7 @@ def test_the_summary_of_the_job_is_added_to(
     assert summary.read_text().count("### ros2-scaffold check") == 2
 
 
-def test_a_summary_that_cannot_be_written_is_no_failure(
+def test_unwritable_job_summary_is_no_failure(
     repository: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

@@ -1,4 +1,4 @@
-"""Code Quality of GitLab: the fields of its documentation."""
+"""GitLab Code Quality report: the documented fields."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ SCHEMA = {
 }
 
 
-def test_holds_every_finding_with_the_documented_fields(
+def test_every_finding_has_the_documented_fields(
     check: Check, diagnostics: list[dict[str, Any]]
 ) -> None:
     text = check("--format", "gitlab")
@@ -54,7 +54,7 @@ def test_holds_every_finding_with_the_documented_fields(
     ]
 
 
-def test_fingerprints_are_unique_and_do_not_move_with_the_lines(
+def test_fingerprints_are_unique_and_independent_of_line_numbers(
     check: Check, repository: Path
 ) -> None:
     before = json.loads(check("--format", "gitlab"))
@@ -67,5 +67,5 @@ def test_fingerprints_are_unique_and_do_not_move_with_the_lines(
     assert [one["location"] for one in after] != [one["location"] for one in before]
 
 
-def test_nothing_found_is_an_empty_array(check: Check) -> None:
+def test_clean_package_gives_an_empty_array(check: Check) -> None:
     assert json.loads(check("--format", "gitlab", "--select", "ND", code=0)) == []

@@ -17,13 +17,11 @@ Check = Callable[..., str]
 Finding = dict[str, Any]
 
 
-def test_names_its_version(check: Check) -> None:
+def test_report_has_a_format_version(check: Check) -> None:
     assert json.loads(check("--format", "json"))["schema_version"] == 1
 
 
-def test_edits_remove_the_findings_that_they_belong_to(
-    check: Check, diagnostics: list[Finding]
-) -> None:
+def test_applying_edits_fixes_their_findings(check: Check, diagnostics: list[Finding]) -> None:
     edited = [one for one in diagnostics if one["fix"] and one["fix"]["edits"]]
     assert {one["code"] for one in edited} == {"F401", "Q000"}
     assert {one["fix"]["safety"] for one in edited} == {"safe"}

@@ -1,4 +1,4 @@
-"""JUnit: what `colcon test-result` makes of a report."""
+"""JUnit: what `colcon test-result` reads from a report."""
 
 from __future__ import annotations
 
@@ -64,14 +64,14 @@ def test_a_clean_package_is_a_case_that_passes(check: Check, tmp_path: Path) -> 
     assert "1 test, 0 errors, 0 failures, 0 skipped" in output
 
 
-def test_advice_is_no_failure(check: Check) -> None:
+def test_info_findings_are_no_failures(check: Check) -> None:
     (suite,) = read(check("--format", "junit", "--select", "LY", code=0))
     assert (suite.get("tests"), suite.get("failures")) == ("1", "0")
     (case,) = suite
     assert case.findtext("system-out")
 
 
-def test_characters_that_xml_forbids_are_spelled_out(check: Check, repository: Path) -> None:
+def test_characters_forbidden_in_xml_are_escaped(check: Check, repository: Path) -> None:
     path = repository / "src" / "talker" / "talker" / "bell\a.py"
     path.write_text("import os\n")
     root = read(check("--format", "junit"))

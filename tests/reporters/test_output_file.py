@@ -1,4 +1,4 @@
-"""`--output-file`: the whole report or the old one, and nothing for terminals in it."""
+"""`--output-file`: written atomically, without terminal escapes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Check = Callable[..., str]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_file_has_what_standard_output_would_get(
+def test_file_equals_standard_output(
     check: Check, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     expected = check("--format", name)
@@ -51,9 +51,7 @@ def test_text_for_a_file_has_no_colors(repository: Path, tmp_path: Path) -> None
     assert "\x1b" not in text
 
 
-def test_a_file_that_was_removed_is_written_by_a_remembered_run(
-    check: Check, tmp_path: Path
-) -> None:
+def test_cached_run_writes_a_removed_file_again(check: Check, tmp_path: Path) -> None:
     path = tmp_path / "report"
     command = ("--output-file", str(path))
     check(*command)
@@ -63,9 +61,7 @@ def test_a_file_that_was_removed_is_written_by_a_remembered_run(
     assert path.read_text() == text
 
 
-def test_an_existing_file_keeps_its_mode_and_a_link_its_target(
-    check: Check, tmp_path: Path
-) -> None:
+def test_file_mode_and_symlink_target_are_kept(check: Check, tmp_path: Path) -> None:
     path = tmp_path / "report"
     path.write_text("old")
     path.chmod(0o640)
@@ -77,7 +73,7 @@ def test_an_existing_file_keeps_its_mode_and_a_link_its_target(
     assert path.stat().st_mode & 0o777 == 0o640
 
 
-def test_a_device_is_written_to_and_not_replaced(check: Check) -> None:
+def test_device_is_written_to_but_not_replaced(check: Check) -> None:
     check("--output-file", os.devnull)
     assert Path(os.devnull).is_char_device()
 
@@ -91,7 +87,7 @@ def test_a_device_is_written_to_and_not_replaced(check: Check) -> None:
         (["--diff", "--output-file", "report"], "omit --output-file"),
     ],
 )
-def test_a_place_that_takes_no_report_is_one_clear_line(
+def test_unwritable_output_file_is_one_error_line(
     words: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", *words]) == 2

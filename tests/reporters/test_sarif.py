@@ -1,4 +1,4 @@
-"""SARIF: valid, complete, and the same findings after lines have moved."""
+"""SARIF: valid, complete, and with fingerprints that survive moved lines."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def _run(text: str) -> dict[str, Any]:
     return found
 
 
-def test_holds_every_finding_at_its_place(
+def test_every_finding_has_its_location(
     run: dict[str, Any], diagnostics: list[dict[str, Any]]
 ) -> None:
     levels = {"error": "error", "warning": "warning", "info": "note"}
@@ -62,7 +62,7 @@ def test_holds_every_finding_at_its_place(
     assert found
 
 
-def test_documents_the_rules_of_the_findings(run: dict[str, Any]) -> None:
+def test_rules_of_findings_are_documented(run: dict[str, Any]) -> None:
     rules = run["tool"]["driver"]["rules"]
     for result in run["results"]:
         assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
@@ -73,9 +73,7 @@ def test_documents_the_rules_of_the_findings(run: dict[str, Any]) -> None:
     assert "**" not in by_code["SP006"]["help"]["text"]
 
 
-def test_a_fix_that_edits_files_is_there_as_replacements(
-    run: dict[str, Any], repository: Path
-) -> None:
+def test_edits_of_a_fix_are_replacements(run: dict[str, Any], repository: Path) -> None:
     (quotes,) = [one for one in run["results"] if one["ruleId"] == "Q000"]
     (fix,) = quotes["fixes"]
     (change,) = fix["artifactChanges"]
@@ -93,7 +91,7 @@ def test_a_fix_that_edits_files_is_there_as_replacements(
     assert "    print('hällo')" in lines
 
 
-def test_a_fix_that_creates_a_file_is_left_out(
+def test_fix_that_creates_a_file_is_omitted(
     run: dict[str, Any], diagnostics: list[dict[str, Any]]
 ) -> None:
     creating = {one["code"] for one in diagnostics if one["fix"] and one["fix"]["creates"]}
@@ -120,9 +118,7 @@ def _line(result: dict[str, Any]) -> int:
     return line
 
 
-def test_equal_findings_in_equal_lines_have_fingerprints_of_their_own(
-    check: Check, repository: Path
-) -> None:
+def test_identical_findings_have_distinct_fingerprints(check: Check, repository: Path) -> None:
     path = repository / "src" / "talker" / "talker" / "talk.py"
     path.write_text(path.read_text() + '    print("hällo")\n')
     results = _run(check("--format", "sarif", "--select", "Q000"))["results"]
@@ -144,15 +140,13 @@ def test_equal_findings_in_equal_lines_have_fingerprints_of_their_own(
     ],
     ids=["empty", "spaces", "repeated", "carriage returns", "emoji"],
 )
-def test_hashes_of_lines_are_those_that_code_scanning_computes(
-    text: str, hashes: list[str]
-) -> None:
+def test_line_hashes_equal_those_of_code_scanning(text: str, hashes: list[str]) -> None:
     """The upload to GitHub warns of each that differs from its own."""
     package = Package.of({"a.py": text})
     assert [line_hash(package, "a.py", number + 1) for number in range(len(hashes))] == hashes
 
 
-def test_paths_start_at_the_top_of_the_repository(
+def test_paths_are_relative_to_the_repository(
     check: Check, repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     expected = _paths(check("--format", "sarif"))
@@ -175,7 +169,7 @@ def test_a_clean_package_gives_a_valid_report(check: Check) -> None:
     assert run["results"] == run["tool"]["driver"]["rules"] == []
 
 
-def test_a_remembered_run_has_the_same_report(check: Check, tmp_path: Path) -> None:
+def test_cached_run_gives_the_same_report(check: Check, tmp_path: Path) -> None:
     first = check("--format", "sarif")
     path = tmp_path / "again.sarif"
     command = ("--format", "sarif", "--output-file", str(path))

@@ -1,4 +1,4 @@
-"""The report for people: in a file every finding has its line, a terminal shows what matters."""
+"""The text report: one line per finding in a file, a grouped summary on a terminal."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def main():
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a directory with a clean package that gets a faulty node with double quotes."""
+    """Return a directory with a clean package plus a faulty node with double quotes."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     assert main(["new", "robot", "--topic", "chatter"]) == 0
@@ -67,7 +67,7 @@ def on_terminal(directory: Path, *arguments: str, lines: int = 40) -> tuple[int,
 def shown_on_terminal(
     directory: Path, *arguments: str, lines: int = 40, variables: Mapping[str, str] | None = None
 ) -> tuple[int, str]:
-    """Return the exit code and all that is sent to a terminal."""
+    """Return the exit code and the raw output on a terminal."""
     own = {name: value for name, value in os.environ.items() if name not in SIZES}
     command = os.path.join(os.path.dirname(sys.executable), "ros2-scaffold")
     child = pexpect.spawn(
@@ -90,7 +90,7 @@ def findings(lines: list[str]) -> list[str]:
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_file_gets_every_finding_in_a_line_of_its_own_errors_first(
+def test_file_has_one_line_per_finding_errors_first(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     code, lines = check(capsys, "robot")
@@ -102,7 +102,7 @@ def test_a_file_gets_every_finding_in_a_line_of_its_own_errors_first(
     assert len(findings(lines)) == len(lines) - 1
 
 
-def test_a_terminal_counts_style_while_there_are_errors(workspace: Path) -> None:
+def test_terminal_folds_style_findings_while_there_are_errors(workspace: Path) -> None:
     code, lines = on_terminal(workspace, "robot")
     assert code == 1
     assert not [line for line in findings(lines) if " Q000 " in line]
@@ -112,7 +112,7 @@ def test_a_terminal_counts_style_while_there_are_errors(workspace: Path) -> None
     assert [line for line in findings(shown) if " Q000 " in line]
 
 
-def test_a_terminal_links_codes_to_their_pages(workspace: Path) -> None:
+def test_terminal_links_codes_to_rule_pages(workspace: Path) -> None:
     raw = shown_on_terminal(workspace, "robot")[1]
     pages = dict(re.findall(r"\x1b\]8;[^;]*;file://([^\x1b]+)\x1b\\\x1b\[[0-9;]*m(\w+)", raw))
     assert "TY003" in pages.values()
@@ -129,7 +129,7 @@ def test_a_file_has_no_links(workspace: Path, capsys: pytest.CaptureFixture[str]
     assert not any("\x1b" in line for line in lines)
 
 
-def test_a_terminal_shows_the_source_line_with_a_mark(workspace: Path) -> None:
+def test_terminal_underlines_the_place_in_the_source_line(workspace: Path) -> None:
     _, lines = on_terminal(workspace, "robot")
     at = next(at for at, line in enumerate(lines) if "warn_throttle'" in line)
     assert lines[at + 1].endswith('self.get_logger().warn_throttle(1, "late")')
@@ -156,7 +156,7 @@ def crowded(workspace: Path) -> Path:
     return workspace
 
 
-def test_a_terminal_shows_one_screen_and_says_what_is_left_out(crowded: Path) -> None:
+def test_terminal_shows_one_screen_and_counts_the_rest(crowded: Path) -> None:
     _, lines = on_terminal(crowded, "robot", lines=30)
     assert len(lines) <= 30
     assert any(re.match(r"not shown: \d+ errors.*; --all shows them", line) for line in lines)
@@ -166,7 +166,7 @@ def test_a_terminal_shows_one_screen_and_says_what_is_left_out(crowded: Path) ->
     assert len([line for line in findings(everything) if " TY003 " in line]) == 40
 
 
-def test_another_size_of_the_terminal_is_another_report(crowded: Path) -> None:
+def test_report_fits_the_height_of_the_terminal(crowded: Path) -> None:
     _, small = on_terminal(crowded, "robot", lines=30)
     _, large = on_terminal(crowded, "robot", lines=90)
     assert len(findings(small)) < len(findings(large))
@@ -185,7 +185,7 @@ def test_statistics_count_codes(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.usefixtures("workspace")
-def test_severity_hides_but_counts(capsys: pytest.CaptureFixture[str]) -> None:
+def test_severity_flag_hides_findings_but_counts_them(capsys: pytest.CaptureFixture[str]) -> None:
     _, lines = check(capsys, "--severity", "error", "robot")
     assert {line.split()[1] for line in findings(lines)} == {"error"}
     assert re.search(r"\d+ warnings", lines[-1])
@@ -200,12 +200,12 @@ def test_quiet_leaves_out_the_summary(capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.usefixtures("workspace")
-def test_exit_zero(capsys: pytest.CaptureFixture[str]) -> None:
+def test_exit_zero_flag(capsys: pytest.CaptureFixture[str]) -> None:
     code, lines = check(capsys, "--exit-zero", "robot")
     assert (code, bool(findings(lines))) == (0, True)
 
 
 @pytest.mark.usefixtures("workspace")
-def test_source_lines_in_a_file_on_request(capsys: pytest.CaptureFixture[str]) -> None:
+def test_show_source_writes_source_lines_to_a_file(capsys: pytest.CaptureFixture[str]) -> None:
     _, lines = check(capsys, "--show-source", "robot")
     assert any(line.endswith('self.get_logger().warn_throttle(1, "late")') for line in lines)

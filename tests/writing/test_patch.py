@@ -1,4 +1,4 @@
-"""Patches: git applies them, and what is there then is what writing the plan would leave."""
+"""Patches: applying them with git gives the same files as writing the plan."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Tree = dict[str, tuple[bytes, bool]]
 
 
 def git(directory: Path, *arguments: str) -> str:
-    """Run git without anybody's configuration."""
+    """Run git without the user's configuration."""
     environment = {
         **os.environ,
         "GIT_CONFIG_GLOBAL": os.devnull,
@@ -41,7 +41,7 @@ def fill(root: Path, files: Mapping[str, bytes]) -> None:
 
 
 def tree(root: Path) -> Tree:
-    """Return what is in a directory, but not what git keeps there."""
+    """Return the contents of a directory without `.git`."""
     return {
         os.fsdecode(path.relative_to(root)): (
             path.read_bytes(),
@@ -101,7 +101,7 @@ NAMES = (
 
 
 @pytest.mark.parametrize("name", NAMES, ids=ascii)
-def test_git_applies_changes_of_files_with_any_name(tmp_path: Path, name: str) -> None:
+def test_git_applies_patch_of_files_with_odd_names(tmp_path: Path, name: str) -> None:
     check(
         tmp_path, {name: CASES["edited"], f"x/{name}": CASES["new"], f"y/{name}": CASES["removed"]}
     )
@@ -109,16 +109,16 @@ def test_git_applies_changes_of_files_with_any_name(tmp_path: Path, name: str) -
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_git_applies_changes_of_any_kind(tmp_path: Path, case: str) -> None:
+def test_git_applies_patch_with_each_kind_of_change(tmp_path: Path, case: str) -> None:
     check(tmp_path, {"file": CASES[case]})
 
 
-def test_git_applies_all_of_it_at_once(tmp_path: Path) -> None:
+def test_git_applies_patch_with_all_kinds_of_changes(tmp_path: Path) -> None:
     check(tmp_path, {f"directory {at}/file": case for at, case in enumerate(CASES.values())})
 
 
 def check(directory: Path, cases: Mapping[str, tuple[bytes | None, bytes | None, bool]]) -> None:
-    """Let git apply a patch, and write the same plan elsewhere."""
+    """Apply a patch with git, write the same plan elsewhere, and compare."""
     old = {name: before for name, (before, _, _) in cases.items() if before is not None}
     applied, written = (directory / side for side in ("applied", "written"))
     for side in (applied, written):
@@ -150,10 +150,10 @@ def check(directory: Path, cases: Mapping[str, tuple[bytes | None, bytes | None,
 
 @pytest.mark.parametrize("below", ["", "src", "src/pkg", "other"])
 @pytest.mark.parametrize("is_repository", [True, False])
-def test_paths_fit_the_directory_where_git_applies(
+def test_paths_are_relative_to_directory_of_git_apply(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, below: str, is_repository: bool
 ) -> None:
-    """From the top, from below, and without any repository."""
+    """From the top of the repository, from below it, and without a repository."""
     top = tmp_path / "top"
     fill(top, {"src/pkg/a": b"1\n", "src/second/a": b"1\n", "other/a": b"1\n"})
     if is_repository:
@@ -169,14 +169,14 @@ def test_paths_fit_the_directory_where_git_applies(
 
 
 def plan_again(plan: WritePlan) -> WritePlan:
-    """Compare the same files with what is there now."""
+    """Return a plan for the same files against their current content."""
     return WritePlan.of(plan.root, {"a": "2\n"}, executable=["a"])
 
 
-def test_paths_are_below_what_all_packages_share(
+def test_paths_are_relative_to_common_parent_of_packages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The current directory is elsewhere: no two files of a patch have one path."""
+    """The current directory is elsewhere: no two files of a patch get the same path."""
     (tmp_path / "elsewhere").mkdir()
     monkeypatch.chdir(tmp_path / "elsewhere")
     roots = [str(tmp_path / "ws" / name) for name in ("a", "b")]
@@ -187,9 +187,7 @@ def test_paths_are_below_what_all_packages_share(
     assert patch.base(roots[:1]) == str(tmp_path / "ws")
 
 
-def test_a_link_is_followed_to_the_file_that_changes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_patch_changes_target_of_symlink(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     fill(tmp_path, {"real": b"1\n"})
     (tmp_path / "link").symlink_to("real")
     git(tmp_path, "init", "-q")

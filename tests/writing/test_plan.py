@@ -1,4 +1,4 @@
-"""WritePlan: decided first, then everything or nothing."""
+"""WritePlan: conflicts are found before writing; all files are written or none."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scaffold.writing.plan import WritePlan
 from scaffold.writing.planned_file import State
 
 
-def test_new_directory_appears_whole(tmp_path: Path) -> None:
+def test_new_directory_is_created_atomically(tmp_path: Path) -> None:
     root = tmp_path / "ws" / "src" / "talker"
     plan = WritePlan.of(root, {"a": "1\n", "run/me": b"#!"}, executable={"run/me"})
     assert [(f.path, f.state) for f in plan.files] == [("a", State.NEW), ("run/me", State.NEW)]
@@ -42,7 +42,7 @@ def test_conflict_writes_nothing(tmp_path: Path) -> None:
     assert tree(tmp_path) == {"b": "mine"}
 
 
-def test_same_content_is_no_conflict(tmp_path: Path) -> None:
+def test_file_with_same_content_is_no_conflict(tmp_path: Path) -> None:
     (tmp_path / "b").write_text("2")
     stamp = (tmp_path / "b").stat().st_mtime_ns
     plan = WritePlan.of(tmp_path, {"a": "1", "b": "2"})
@@ -60,7 +60,7 @@ def test_force_overwrites_and_keeps_modes(tmp_path: Path) -> None:
     assert stat.S_IMODE((tmp_path / "b").stat().st_mode) == 0o604
 
 
-def test_bits_removal_and_diff(tmp_path: Path) -> None:
+def test_executable_bits_and_removed_files_are_in_diff(tmp_path: Path) -> None:
     (tmp_path / "tool.py").write_text("x\n")
     (tmp_path / "gone").write_text("old\n")
     (tmp_path / "kept").write_text("one\ntwo")
@@ -84,14 +84,14 @@ def test_bits_removal_and_diff(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ["../x", "a/../../x", "/etc/x", "", "a//b", "./a", "a\\b", "a\0b"])
-def test_paths_stay_inside(tmp_path: Path, path: str) -> None:
+def test_paths_outside_of_the_root_are_rejected(tmp_path: Path, path: str) -> None:
     with pytest.raises(InputError, match="is not a path below"):
         WritePlan.of(tmp_path / "p", {path: ""})
     assert tree(tmp_path) == {}
 
 
 @pytest.mark.parametrize("path", ["link", "dir/x", "dangling"])
-def test_links_do_not_lead_out(tmp_path: Path, path: str) -> None:
+def test_symlinks_out_of_the_root_are_rejected(tmp_path: Path, path: str) -> None:
     root, outside = tmp_path / "p", tmp_path / "outside"
     root.mkdir()
     outside.mkdir()
@@ -103,7 +103,7 @@ def test_links_do_not_lead_out(tmp_path: Path, path: str) -> None:
         WritePlan.of(root, {path: "stolen"})
 
 
-def test_link_inside_is_followed(tmp_path: Path) -> None:
+def test_symlink_within_the_root_is_followed(tmp_path: Path) -> None:
     (tmp_path / "real").write_text("1")
     (tmp_path / "link").symlink_to("real")
     WritePlan.of(tmp_path, {"link": "2"}).write(force=True)
@@ -111,7 +111,7 @@ def test_link_inside_is_followed(tmp_path: Path) -> None:
     assert (tmp_path / "real").read_text() == "2"
 
 
-def test_files_and_directories_do_not_mix(tmp_path: Path) -> None:
+def test_file_in_place_of_directory_is_rejected(tmp_path: Path) -> None:
     (tmp_path / "d").mkdir()
     (tmp_path / "f").write_text("")
     for files, words in (
@@ -123,7 +123,7 @@ def test_files_and_directories_do_not_mix(tmp_path: Path) -> None:
             WritePlan.of(tmp_path, files)
 
 
-def test_a_failure_leaves_no_new_directory(tmp_path: Path) -> None:
+def test_failed_write_leaves_no_new_directory(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     for root in (tmp_path / "file" / "p", tmp_path / ("n" * 300)):
         with pytest.raises((InputError, ConflictError)):
@@ -135,7 +135,7 @@ def test_a_failure_leaves_no_new_directory(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == ["file"]
 
 
-def test_a_failure_puts_back_what_was_there(tmp_path: Path) -> None:
+def test_failed_write_restores_previous_files(tmp_path: Path) -> None:
     (tmp_path / "a").write_text("old")
     (tmp_path / "a").chmod(0o640)
     (tmp_path / "z").write_text("old")
@@ -149,7 +149,7 @@ def test_a_failure_puts_back_what_was_there(tmp_path: Path) -> None:
     assert sorted(os.listdir(tmp_path)) == ["a", "z"]
 
 
-def test_a_directory_that_appears_in_the_meantime_is_kept(tmp_path: Path) -> None:
+def test_directory_created_after_planning_is_kept(tmp_path: Path) -> None:
     plan = WritePlan.of(tmp_path / "p", {"a": "1"})
     (tmp_path / "p").mkdir()
     with pytest.raises(ConflictError, match="created in the meantime"):

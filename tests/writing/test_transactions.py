@@ -1,4 +1,4 @@
-"""Writing into packages: nothing is lost when a run is killed, or somebody else writes as well."""
+"""Transactions: no data is lost when a run is killed or another process writes too."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def write(root: Path, files: dict[str, str]) -> Path:
 def killed_writer(
     root: Path, at: int, how: str = "at once", around: dict[str, str] | None = None
 ) -> bool:
-    """Let a process write that kills itself before the n-th step; tell whether it came to that."""
+    """Write in a process that kills itself before the n-th step; return whether it was killed."""
     process = os.fork()
     if process == 0:
         try:
@@ -82,7 +82,7 @@ def killed_writer(
 
 
 def _count_down(at: int) -> None:
-    """Replace the functions that change something: the n-th call of one kills this process."""
+    """Replace the functions that change files: the n-th call of any of them kills this process."""
     steps = iter(range(1, at))
 
     def counted(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -105,8 +105,8 @@ def heal(root: Path) -> list[str]:
     return notes
 
 
-def cut_off(root: Path, how: str = "at once") -> Iterator[int]:
-    """Yield each point at which a writer can be killed, with what it leaves in ``root``."""
+def killed_states(root: Path, how: str = "at once") -> Iterator[int]:
+    """Yield each step at which a writer can be killed, and leave its files in ``root``."""
     for at in range(1, 200):
         shutil.rmtree(root, ignore_errors=True)
         write(root, BEFORE)
@@ -118,9 +118,9 @@ def cut_off(root: Path, how: str = "at once") -> Iterator[int]:
 
 
 @pytest.mark.parametrize("how", STEPS)
-def test_what_is_killed_at_any_step_is_completed_or_undone(tmp_path: Path, how: str) -> None:
+def test_write_killed_at_any_step_is_completed_or_undone(tmp_path: Path, how: str) -> None:
     outcomes: set[str] = set()
-    for at in cut_off(tmp_path / "p", how):
+    for at in killed_states(tmp_path / "p", how):
         is_unfinished = transaction.is_unfinished(str(tmp_path / "p"))
         notes = heal(tmp_path / "p")
         assert tree(tmp_path / "p") in (BEFORE, AFTER), at
@@ -137,7 +137,7 @@ AROUND_AFTER = {"hooks": "new\n", ".github/workflows/p": "new\n"}
 
 
 @pytest.mark.parametrize("how", STEPS)
-def test_files_around_a_package_are_of_the_same_transaction(tmp_path: Path, how: str) -> None:
+def test_files_outside_the_package_are_in_the_same_transaction(tmp_path: Path, how: str) -> None:
     top = tmp_path / "top"
     before = {**AROUND_BEFORE, **{f"src/p/{path}": text for path, text in BEFORE.items()}}
     after = {**AROUND_BEFORE, **AROUND_AFTER, **{f"src/p/{name}": AFTER[name] for name in AFTER}}
@@ -155,7 +155,7 @@ def test_files_around_a_package_are_of_the_same_transaction(tmp_path: Path, how:
     assert outcomes == {"completed", "undone"}
 
 
-def test_a_new_package_and_files_around_it_are_one_transaction(tmp_path: Path) -> None:
+def test_new_package_and_files_outside_of_it_are_one_transaction(tmp_path: Path) -> None:
     top = tmp_path / "top"
     after = {**AROUND_BEFORE, **AROUND_AFTER, **{f"src/p/{name}": AFTER[name] for name in AFTER}}
     outcomes: set[str] = set()
@@ -172,7 +172,7 @@ def test_a_new_package_and_files_around_it_are_one_transaction(tmp_path: Path) -
     assert outcomes == {"completed"}
 
 
-def test_a_new_package_is_taken_back_when_a_file_around_it_changes(
+def test_new_package_is_removed_when_a_file_outside_of_it_changes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write(tmp_path, AROUND_BEFORE)
@@ -191,7 +191,7 @@ def test_a_new_package_is_taken_back_when_a_file_around_it_changes(
     assert os.listdir(tmp_path / "src") == ["other"]
 
 
-def test_a_file_around_it_on_another_file_system_stops_all(tmp_path: Path) -> None:
+def test_file_on_another_file_system_is_rejected_before_writing(tmp_path: Path) -> None:
     memory = Path("/dev/shm")  # noqa: S108  its own file system on every Linux
     if not memory.is_dir() or memory.stat().st_dev == tmp_path.stat().st_dev:
         pytest.skip("needs two file systems")
@@ -205,7 +205,7 @@ def test_a_file_around_it_on_another_file_system_stops_all(tmp_path: Path) -> No
     assert tree(tmp_path) == BEFORE
 
 
-def test_another_user_cannot_mean_files_outside_of_the_package(
+def test_journal_of_another_user_does_not_change_files_outside_the_package(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root = write(tmp_path / "src" / "p", BEFORE)
@@ -223,9 +223,9 @@ def test_another_user_cannot_mean_files_outside_of_the_package(
     assert note.endswith("undone")
 
 
-def test_the_sidecar_and_the_record_change_last(tmp_path: Path) -> None:
+def test_sidecar_and_record_are_written_last(tmp_path: Path) -> None:
     root = tmp_path / "p"
-    for _ in cut_off(root):
+    for _ in killed_states(root):
         if (root / transaction.BASES).read_text() == AFTER[transaction.BASES]:
             assert {**tree(root), transaction.RECORD: ""}.items() >= {
                 **AFTER,
@@ -237,7 +237,7 @@ def test_the_sidecar_and_the_record_change_last(tmp_path: Path) -> None:
 
 def test_edits_after_a_crash_are_kept(tmp_path: Path) -> None:
     root = tmp_path / "p"
-    for at in cut_off(root):
+    for at in killed_states(root):
         (root / "b" / "c").write_text("mine\n")
         notes = heal(root)
         assert (root / "b" / "c").read_text() == "mine\n", at
@@ -250,10 +250,10 @@ def test_edits_after_a_crash_are_kept(tmp_path: Path) -> None:
         ], at
 
 
-def test_a_file_that_is_restored_gets_a_new_time(tmp_path: Path) -> None:
+def test_restored_file_gets_a_new_modification_time(tmp_path: Path) -> None:
     root = tmp_path / "p"
     undone = 0
-    for _ in cut_off(root):
+    for _ in killed_states(root):
         crashed = (root / "a").read_text() == AFTER["a"]
         os.utime(root / "a", (1_000_000_000, 1_000_000_000))
         notes = heal(root)
@@ -263,9 +263,9 @@ def test_a_file_that_is_restored_gets_a_new_time(tmp_path: Path) -> None:
     assert undone
 
 
-def test_a_journal_from_elsewhere_is_not_believed(tmp_path: Path) -> None:
+def test_copied_journal_is_ignored(tmp_path: Path) -> None:
     root, copy = tmp_path / "p", tmp_path / "copy"
-    for _ in cut_off(root):
+    for _ in killed_states(root):
         if transaction.is_unfinished(str(root)):
             break
     shutil.copytree(root, copy)
@@ -276,7 +276,7 @@ def test_a_journal_from_elsewhere_is_not_believed(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("how", STEPS)
-def test_a_file_that_changes_before_its_rename_stops_all(
+def test_file_changed_before_its_rename_aborts_the_transaction(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, how: str
 ) -> None:
     write(tmp_path, BEFORE)
@@ -299,7 +299,7 @@ def test_a_file_that_changes_before_its_rename_stops_all(
     assert sorted(os.listdir(tmp_path)) == TOP
 
 
-def test_what_is_written_to_an_open_file_is_kept(
+def test_text_written_through_an_open_file_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write(tmp_path, BEFORE)
@@ -318,7 +318,7 @@ def test_what_is_written_to_an_open_file_is_kept(
 
 
 @pytest.mark.parametrize("change", ["edited", "gone", "appeared", "executable"])
-def test_a_file_that_changes_after_the_plan_stops_it_before_the_first_write(
+def test_file_changed_after_planning_aborts_before_the_first_write(
     tmp_path: Path, change: str
 ) -> None:
     write(tmp_path, BEFORE)
@@ -349,7 +349,7 @@ def package(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Path:
 
 @contextmanager
 def edit_during_the_check(path: Path, text: str) -> Iterator[None]:
-    """Let somebody edit a file when a run has read the package, and has not planned yet."""
+    """Edit a file after a run has read the package and before it plans its writes."""
     of = WritePlan.of
 
     def late(*arguments: object, **options: object) -> WritePlan:
@@ -386,7 +386,7 @@ def test_a_file_that_appears_during_add_is_not_overwritten(package: Path) -> Non
     assert (package / "talker" / "beat.py").read_text() == "mine\n"
 
 
-def test_parallel_adds_all_count(package: Path) -> None:
+def test_parallel_adds_are_all_applied(package: Path) -> None:
     names = [f"beat_{number}" for number in range(6)]
     command = [sys.executable, "-m", "scaffold", "add", "timer"]
     processes = [
@@ -407,7 +407,7 @@ def test_parallel_adds_all_count(package: Path) -> None:
         assert f"talker/{name}.py" in files
 
 
-def test_who_waits_says_for_whom_and_gives_up(
+def test_waiting_names_the_holder_of_the_lock_and_times_out(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write(tmp_path, BEFORE)
@@ -425,7 +425,7 @@ def test_who_waits_says_for_whom_and_gives_up(
     assert "nothing was written" in str(raised.value)
 
 
-def test_a_killed_holder_holds_nothing(tmp_path: Path) -> None:
+def test_lock_of_killed_process_is_released(tmp_path: Path) -> None:
     with holding(tmp_path) as process:
         os.kill(process, signal.SIGKILL)
         with transaction.exclusive(str(tmp_path)):
@@ -434,7 +434,7 @@ def test_a_killed_holder_holds_nothing(tmp_path: Path) -> None:
 
 @contextmanager
 def holding(directory: Path) -> Iterator[int]:
-    """Let another process hold the lock of a directory."""
+    """Hold the lock of a directory in another process."""
     script = (
         "import sys\nfrom scaffold.writing import lock\n"
         "with lock.locked(sys.argv[1], print):\n    print('held', flush=True)\n    sys.stdin.read()"
@@ -450,7 +450,7 @@ def holding(directory: Path) -> Iterator[int]:
         process.kill()
 
 
-def test_file_systems_without_locks_on_directories(
+def test_lock_works_where_directories_cannot_be_locked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     flock = fcntl.flock
@@ -474,7 +474,7 @@ def test_file_systems_without_locks_on_directories(
         pytest.fail("it is locked")
 
 
-def test_check_notes_what_was_cut_off_and_changes_nothing(
+def test_check_notes_an_interrupted_write_and_changes_nothing(
     package: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     at = next(at for at in range(1, 200) if killed_writer_left_a_journal(package, at))
@@ -499,7 +499,7 @@ def killed_writer_left_a_journal(root: Path, at: int) -> bool:
     return False
 
 
-def test_new_sweeps_what_a_killed_new_left(tmp_path: Path) -> None:
+def test_new_removes_leftovers_of_a_killed_new(tmp_path: Path) -> None:
     script = (
         "import os, signal, sys\nfrom scaffold.writing.plan import WritePlan\n"
         "os.rename = lambda *_: os.kill(os.getpid(), signal.SIGKILL)\n"
@@ -516,9 +516,7 @@ def test_new_sweeps_what_a_killed_new_left(tmp_path: Path) -> None:
     assert names == {"p", theirs.name, os.path.basename(alive.path)}
 
 
-def test_nothing_is_written_through_a_planted_link(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_planted_symlink_is_not_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "victim").write_text("precious")
     kept = tmp_path / "kept"
     kept.mkdir()
@@ -549,7 +547,7 @@ def test_a_file_keeps_its_mode_and_attributes_and_gets_a_new_time(tmp_path: Path
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files away")
-def test_root_leaves_files_to_their_owners(tmp_path: Path) -> None:
+def test_root_keeps_the_owners_of_files(tmp_path: Path) -> None:
     root = write(tmp_path / "p", BEFORE)
     for path in (tmp_path, root, *root.rglob("*")):
         os.chown(path, 1234, 2345)
@@ -563,7 +561,7 @@ def test_root_leaves_files_to_their_owners(tmp_path: Path) -> None:
     assert set(owners.values()) == {1234}
 
 
-def test_a_link_out_of_the_package_stops_the_fix_of_that_file_only(
+def test_symlink_out_of_the_package_blocks_only_the_fix_of_that_file(
     package: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     outside = tmp_path / "shared.py"
