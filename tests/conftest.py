@@ -1,4 +1,4 @@
-"""What all tests share: nothing of the user's home directory gets in or is changed."""
+"""Shared setup: tests neither read nor change the user's home directory."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ settings.load_profile("repository")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what takes hours, unless its marker is asked for; begin with what takes minutes.
+    """Deselect tests that take hours unless their marker is given; run slow files first.
 
     pytest-xdist hands out whole files in this order: a file that takes minutes must not be the
     last, with only one process left to do it.
@@ -35,7 +35,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.fixture(scope="session", autouse=True)
 def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Let the session have an empty home directory."""
+    """Give the session an empty home directory."""
     empty = str(tmp_path_factory.mktemp("home"))
     with pytest.MonkeyPatch.context() as patch:
         for name in [name for name in os.environ if name.startswith(("XDG_", "ROS_HOME"))]:

@@ -15,7 +15,7 @@ from tests.smoke.smoke_runs import ROOT, variables, wait_until
 
 @dataclass
 class Member:
-    """A scheduler or worker, with a directory for temporary files: it tells whose a process is."""
+    """A scheduler or worker; its directory for temporary files identifies its processes."""
 
     process: subprocess.Popen[str]
     tmp: Path
@@ -62,7 +62,7 @@ def cluster(
     """Run a scheduler and workers with one thread each for the length of the block.
 
     Args:
-        directory: Gets their logs and temporary files.
+        directory: For their logs and temporary files.
         workers: How many.
         of_all: Variables of the environment.
         of_workers: More of them, for workers.

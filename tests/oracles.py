@@ -1,4 +1,4 @@
-"""The real linters of ament, and what they say about a directory."""
+"""The real linters of ament, and what they report for a directory."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 
 
 class Finding(NamedTuple):
-    """What a linter says, without its words."""
+    """A finding of a linter, without its message."""
 
     path: str
     """Relative to the directory that was linted."""
@@ -93,14 +93,14 @@ def files_rejected_by_xmllint(directory: Path) -> set[str]:
 
 
 def needs_system_linter(name: str) -> pytest.MarkDecorator:
-    """Skip a test, aloud, where a linter of the system is not installed."""
+    """Skip a test with a reason where a linter of the system is not installed."""
     return pytest.mark.skipif(
         not is_installed(name) and os.environ.get(REQUIRE_ALL) != "1", reason=_missing(name)
     )
 
 
 def is_installed(name: str) -> bool:
-    """Tell whether one of `SYSTEM_LINTERS` is there."""
+    """Tell whether one of `SYSTEM_LINTERS` is installed."""
     if name == "ament_lint_auto":  # CMake files and no program
         prefixes = system_environment().get("AMENT_PREFIX_PATH", "").split(os.pathsep)
         return any(Path(prefix, "share", name).is_dir() for prefix in [*prefixes, "/usr"] if prefix)

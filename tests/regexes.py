@@ -1,4 +1,4 @@
-"""The regular expressions of this repository, and which of them may take quadratic time.
+"""The regular expressions of this repository, and which may take quadratic time.
 
 A pattern is in danger where a repeat without a bound can be followed by another one over the same
 characters, where one is inside of another, and where a search may start anywhere in what the first
@@ -34,7 +34,7 @@ _CATEGORIES = {"space": r"\s", "word": r"\w", "digit": r"\d"}
 
 
 class Pattern(NamedTuple):
-    """A pattern in a file of ours."""
+    """A pattern in a file of this repository."""
 
     path: str
     line: int
@@ -44,7 +44,7 @@ class Pattern(NamedTuple):
 
 
 class _Piece(NamedTuple):
-    """A part of a pattern: its characters, and whether it may be left out or go on for ever."""
+    """A part of a pattern: its characters, and whether it is optional or unbounded."""
 
     characters: frozenset[str]
     is_optional: bool = False
@@ -89,7 +89,7 @@ def _names(node: ast.expr, values: Mapping[str, ast.expr]) -> TypeGuard[ast.Name
 
 
 def _constants(tree: ast.Module) -> dict[str, ast.expr]:
-    """Return what the names at the top of a module stand for."""
+    """Return the values of the module-level names of a module."""
     found: dict[str, ast.expr] = {}
     for node in tree.body:
         match node:
@@ -101,7 +101,7 @@ def _constants(tree: ast.Module) -> dict[str, ast.expr]:
 
 
 def _text(node: ast.expr, names: Mapping[str, ast.expr], depth: int) -> str | None:
-    """Return the text of an expression, with a word for what is not known."""
+    """Return the text of an expression, with a placeholder for unknown parts."""
     text: str | None = None
     match node:
         case ast.Constant(str() as text):
@@ -127,7 +127,7 @@ def _flags(call: ast.Call) -> int:
 
 
 def _uses(tree: ast.Module, compiled: ast.Call) -> set[str]:
-    """Return how a compiled pattern is used; as in a search, if that cannot be seen."""
+    """Return how a compiled pattern is used; assume a search if that is unknown."""
     names: set[str] = set()
     found: set[str] = set()
     for node in ast.walk(tree):
@@ -155,7 +155,7 @@ def _is_excused(lines: Sequence[str], nodes: Sequence[ast.expr]) -> bool:
 
 
 def dangers(text: str, flags: int = 0, *, is_search: bool = True) -> list[str]:
-    """Return where a pattern may take more than linear time, in words."""
+    """Describe where a pattern may take more than linear time."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         tree: Any = parser.parse(text, flags)
@@ -202,7 +202,7 @@ def _can_fail(pieces: Sequence[_Piece]) -> bool:
 
 
 def _sequences(items: list[Any], flags: int, found: list[str]) -> Iterator[list[_Piece]]:
-    """Yield the ways through a pattern, up to some, each as pieces in a row."""
+    """Yield the paths through a pattern, up to a limit, each as a sequence of pieces."""
     ways: list[list[_Piece]] = [[]]
     for kind, value in items:
         parts = list(_pieces(kind, value, flags, found))
@@ -216,7 +216,7 @@ def _pieces(
     flags: int,
     found: list[str],
 ) -> Iterator[list[_Piece]]:
-    """Yield the ways through an item of a pattern."""
+    """Yield the paths through an item of a pattern."""
     if kind in (constants.MAX_REPEAT, constants.MIN_REPEAT):
         yield [_repeat(value, flags, found)]
     elif kind is constants.SUBPATTERN:
@@ -238,7 +238,7 @@ _ENDS = (constants.AT_END, constants.AT_END_STRING)
 
 
 def _anchor(value: Any, flags: int) -> _Piece:  # noqa: ANN401  of re
-    """Return what an anchor says of the character before it."""
+    """Return the characters that an anchor allows before it."""
     if value is constants.AT_BEGINNING_STRING:
         return _Piece(frozenset(), guard=_EVERYTHING)
     if value is constants.AT_BEGINNING:
@@ -285,7 +285,7 @@ def _repeat(value: Any, flags: int, found: list[str]) -> _Piece:  # noqa: ANN401
 
 
 def _open(way: Sequence[_Piece]) -> frozenset[str]:
-    """Return what may come first."""
+    """Return the characters that may come first."""
     found = frozenset[str]()
     for piece in way:
         found |= piece.characters if piece.opening is None else piece.opening

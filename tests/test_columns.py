@@ -1,4 +1,4 @@
-"""Text that is made to fit a terminal."""
+"""Text cut and wrapped to the width of a terminal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RED = "\033[31mproblem:\033[0m"
     ("text", "width"),
     [("", 0), ("plain", 5), (RED, 8), ("速度", 4), ("e\u0301", 1), ("Größe", 5)],
 )
-def test_columns_of_text(text: str, width: int) -> None:
+def test_width_in_columns(text: str, width: int) -> None:
     assert columns(text) == width
 
 
@@ -21,7 +21,7 @@ def test_columns_of_text(text: str, width: int) -> None:
     ("text", "shown"),
     [("fits well", "fits well"), ("fits no more", "fits n..."), ("速度速度速度", "速度速...")],
 )
-def test_cut(text: str, shown: str) -> None:
+def test_cut_to_width(text: str, shown: str) -> None:
     assert cut(text, 9) == shown
 
 
@@ -35,5 +35,5 @@ def test_cut(text: str, shown: str) -> None:
         ("/a/topic/longer/than/this hears", ["/a/topic/longer/than/this", "    hears"]),
     ],
 )
-def test_wrapped(line: str, parts: list[str]) -> None:
+def test_wrapped_to_width(line: str, parts: list[str]) -> None:
     assert [*wrapped(line, 20 if "crashes" not in line else 16)] == parts

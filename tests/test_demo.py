@@ -1,4 +1,4 @@
-"""The commands of ``make demo`` on the poorest machine: no git, no CMake, no compiler."""
+"""The commands of ``make demo`` on a minimal machine: no git, no CMake, no compiler."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ABSENT = re.compile(
 
 
 @pytest.mark.build
-def test_demo_needs_little(tmp_path: Path) -> None:
+def test_demo_runs_without_optional_programs(tmp_path: Path) -> None:
     commands = re.findall(r"(?m)^\t\$\(RUN\) (.+)$", MAKEFILE.read_text())
     assert [command.split()[0] for command in commands] == ["new", "check", "smoke"]
 
@@ -34,7 +34,7 @@ def test_demo_needs_little(tmp_path: Path) -> None:
 
 
 def link_programs(directory: Path) -> None:
-    """Fill a directory with the programs of the system but for those that may be absent."""
+    """Link the programs of the system into a directory, except those that may be missing."""
     directory.mkdir()
     for source in (Path("/bin"), Path("/usr/bin")):
         for program in source.iterdir():

@@ -57,7 +57,7 @@ def write(directory: Path, code: str) -> Path:
 def check(
     capsys: pytest.CaptureFixture[str], package: Path, distro: str, select: str = "ND,TY,MS,SC"
 ) -> Found:
-    """Return code, message and distributions of what is found."""
+    """Return code, message and distributions of each finding."""
     main(["check", str(package), "--distro", distro, "--format", "json", "--select", select])
     found = json.loads(capsys.readouterr().out)["diagnostics"]
     return [(item["code"], item["message"], item["distributions"]) for item in found]
@@ -72,7 +72,7 @@ NODE = (
 )
 
 
-def test_an_unknown_distribution_is_refused(
+def test_unknown_distribution_is_rejected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, "")
@@ -87,15 +87,13 @@ def test_an_unknown_distribution_is_refused(
         assert message in capsys.readouterr().err
 
 
-def test_a_repeated_flag_names_all_of_them(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_distro_flag_can_be_repeated(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     package = write(tmp_path, "")
     main(["check", str(package), "--select", "ND", "--distro", "lyrical,jazzy", "--distro=humble"])
     assert " for Humble, Jazzy and Lyrical: " in capsys.readouterr().out
 
 
-def test_a_removed_method_is_reported_where_it_is_gone(
+def test_removed_method_is_reported_for_later_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, NODE.format("warn"))
@@ -124,7 +122,7 @@ def test_several_distributions_report_each_finding_once(
     assert summary.startswith("1 package, 3 files for Jazzy and Lyrical: ")
 
 
-def test_a_finding_for_several_distributions_names_them_all(
+def test_finding_names_all_affected_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, "import imp\nimport rclpy\nimport rclpy.nodes\n")
@@ -135,7 +133,7 @@ def test_a_finding_for_several_distributions_names_them_all(
     assert alone[1].startswith("Python 3.14 has no module 'imp'")
 
 
-def test_an_import_for_older_distributions_is_no_error_on_newer_ones(
+def test_fallback_import_for_older_distributions_is_accepted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     older = "from ros2param.api import get_parameter_value\n"
@@ -145,7 +143,9 @@ def test_an_import_for_older_distributions_is_no_error_on_newer_ones(
     assert check(capsys, write(tmp_path / "b", code), "jazzy", "IM050") == []
 
 
-def test_a_name_that_is_not_there_yet(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_name_added_later_is_reported_for_earlier_distributions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     package = write(
         tmp_path, "import rclpy\n\n\ndef main():\n    with rclpy.init():\n        pass\n"
     )
@@ -153,9 +153,7 @@ def test_a_name_that_is_not_there_yet(tmp_path: Path, capsys: pytest.CaptureFixt
     assert found == {"humble": ["ND007"], "jazzy": ["ND007"], "kilted": [], "lyrical": []}
 
 
-def test_arguments_are_those_of_the_target(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_arguments_depend_on_the_target(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code = NODE.format("info").replace("'talker'", "'talker', enable_logger_service=True")
     package = write(tmp_path, code)
     (found,) = check(capsys, package, "humble")
@@ -163,7 +161,7 @@ def test_arguments_are_those_of_the_target(
     assert check(capsys, package, "jazzy") == []
 
 
-def test_messages_are_those_of_the_target(
+def test_message_types_depend_on_the_target(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, "from geometry_msgs.msg import Pose2D\n\npose = Pose2D()\n")
@@ -172,7 +170,7 @@ def test_messages_are_those_of_the_target(
     assert found[0] == "TY002"
 
 
-def test_syntax_is_that_of_the_targets_python(
+def test_python_syntax_depends_on_the_target(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code = "def run(work):\n    try:\n        work()\n    except* ValueError:\n        pass\n"
@@ -182,7 +180,7 @@ def test_syntax_is_that_of_the_targets_python(
     assert check(capsys, package, "jazzy", "E9") == []
 
 
-def test_a_shell_for_another_distribution_is_noted(
+def test_sourced_shell_of_another_distribution_is_noted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package = write(tmp_path, "")
@@ -220,7 +218,7 @@ def test_a_shell_for_another_distribution_is_noted(
         ("README.md", "Heroshumble ROS Ironclad, see the ROS 2 documentation\n", ""),
     ],
 )
-def test_a_repository_for_another_distribution_is_noted(
+def test_workflow_for_another_distribution_is_noted(
     path: str,
     text: str,
     expected: str,
@@ -255,14 +253,14 @@ def test_a_repository_for_another_distribution_is_noted(
         ),
     ],
 )
-def test_smoke_notes_a_shell_for_another_distribution(
+def test_smoke_notes_a_sourced_shell_of_another_distribution(
     shell: str, expected: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DISTRO", shell)
     assert distro.note_of_smoke("jazzy") == expected
 
 
-def test_the_configuration_names_targets(
+def test_configuration_sets_targets(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write(tmp_path, NODE.format("warn"))
@@ -275,7 +273,7 @@ def test_the_configuration_names_targets(
     assert "--add-noqa works for one distribution at a time" in capsys.readouterr().err
 
 
-def test_a_change_is_checked_for_several(
+def test_since_works_with_several_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package = write(tmp_path, NODE.format("shout"))
@@ -292,7 +290,7 @@ def test_a_change_is_checked_for_several(
     assert "since HEAD: 1 changed file; 1 older finding in other files hidden" in printed
 
 
-def test_an_unsaved_text_is_checked_and_fixed_for_several(tmp_path: Path) -> None:
+def test_standard_input_is_checked_and_fixed_for_several_distributions(tmp_path: Path) -> None:
     package = write(tmp_path, "")
     command = [sys.executable, "-m", "scaffold", "check", "--select", "IM,ND,TY"]
     command += ["--distro", "jazzy,lyrical", "--stdin-filename", str(package / "talker/node.py")]
@@ -308,7 +306,7 @@ def test_an_unsaved_text_is_checked_and_fixed_for_several(tmp_path: Path) -> Non
     assert fixed.returncode == 0
 
 
-def test_what_is_remembered_is_of_one_target(
+def test_cached_results_depend_on_the_target(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write(tmp_path, NODE.format("warn"))
@@ -322,7 +320,7 @@ def test_what_is_remembered_is_of_one_target(
     capsys.readouterr()
 
 
-def test_fixes_for_several_are_those_that_are_right_for_all(
+def test_fixes_are_valid_for_all_given_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = write(tmp_path, NODE.format("warn").replace("'hello'", '"hello", [1,]'))
@@ -344,7 +342,7 @@ def test_fixes_for_several_are_those_that_are_right_for_all(
     assert module.read_text() == written
 
 
-def test_linters_that_contradict_each_other_get_the_order_of_the_oldest(
+def test_conflicting_import_orders_follow_the_oldest_distribution(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = "import os\nimport imp\n\nimport rclpy\n\nprint(imp, os, rclpy)\n"
@@ -364,7 +362,7 @@ def test_linters_that_contradict_each_other_get_the_order_of_the_oldest(
     assert "third-party" in capsys.readouterr().out
 
 
-def test_only_a_fix_that_is_right_for_all_is_offered_for_several() -> None:
+def test_fix_is_offered_only_if_valid_for_all_distributions() -> None:
     package = Package.of({"package.xml": "<package/>"})
     at = Location.start_of("package.xml")
     fix = Fix("write it", (Edit("package.xml", 0, 0, " "),))
@@ -381,7 +379,7 @@ def test_only_a_fix_that_is_right_for_all_is_offered_for_several() -> None:
     assert offered == {"AA001": False, "AA002": True, "AA003": True}
 
 
-def test_conditions_are_those_of_the_target() -> None:
+def test_manifest_conditions_depend_on_the_target() -> None:
     with distributions.targeting(named("humble")):
         assert conditions.holds("$ROS_DISTRO == humble")
     assert not conditions.holds("$ROS_DISTRO == humble")
@@ -399,7 +397,7 @@ def test_each_distribution_has_its_data(name: str) -> None:
     assert definition is not None
 
 
-def test_no_code_asks_for_the_name_of_a_distribution() -> None:
+def test_no_code_compares_distribution_names() -> None:
     exempt = "(?<!distro=)(?<!moved_from=)(?<!did you mean )"  # examples of rules
     pattern = re.compile(rf"""{exempt}["'](?:{"|".join(NAMES)})["']""")
     asking = {
@@ -412,13 +410,13 @@ def test_no_code_asks_for_the_name_of_a_distribution() -> None:
     assert asking == {"scaffold/distributions.py": ['"rolling"', '"jazzy"']}
 
 
-def test_a_distribution_without_data_is_taken_for_the_next_one() -> None:
+def test_distribution_without_data_maps_to_the_nearest() -> None:
     found = {name: nearest(name).name for name in ("foxy", "iron", "kilted", "rolling", "mellow")}
     expected = {"foxy": "humble", "iron": "jazzy", "kilted": "kilted", "rolling": "rolling"}
     assert found == {**expected, "mellow": ORDER[-1]}
 
 
-def test_the_facts_of_a_new_distribution_are_those_of_the_one_before(
+def test_new_distribution_copies_facts_of_the_previous_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ORDER:
@@ -435,7 +433,7 @@ def test_the_facts_of_a_new_distribution_are_those_of_the_one_before(
     assert [*bundle_distribution.with_facts("mellow")] == []
 
 
-def test_the_pages_are_current(tmp_path: Path) -> None:
+def test_pages_are_up_to_date(tmp_path: Path) -> None:
     script = ROOT / "scripts" / "document_distributions.py"
     subprocess.run([sys.executable, str(script), str(tmp_path)], check=True, cwd=ROOT)
     pages = {file.name: file.read_text() for file in tmp_path.iterdir()}
@@ -455,8 +453,8 @@ def test_the_data_of_all_distributions_is_small() -> None:
 
 
 @pytest.mark.parametrize("name", ORDER)
-def test_packages_of_interfaces_go_with_a_word(name: str) -> None:
-    """What an older distribution bundles and this one does not is among what was removed."""
+def test_removed_interface_packages_are_listed_as_removed(name: str) -> None:
+    """Packages bundled with an older distribution but not with this one are in the removals."""
     target = named(name)
     older = [one for one in map(named, ORDER) if one.place < target.place]
     gone = {package for one in older for package in _bundled(one)} - _bundled(target)

@@ -1,4 +1,4 @@
-"""The action of GitHub and the template of GitLab: valid, and their steps run as written."""
+"""The GitHub action and the GitLab template: valid, and their steps run as written."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ ROOT = Path(__file__).resolve().parents[1]
     ("schema", "name"),
     [("vendor.github-actions", "action.yml"), ("vendor.gitlab-ci", "ci/gitlab.yml")],
 )
-def test_is_valid(schema: str, name: str) -> None:
+def test_file_matches_its_schema(schema: str, name: str) -> None:
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", schema, name]
     done = subprocess.run(
         command, capture_output=True, text=True, check=False, timeout=PATIENCE, cwd=ROOT
@@ -55,7 +55,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def run(shell: list[str], script: str, top: Path, variables: dict[str, str]) -> tuple[int, str]:
-    """Run a script in an environment that knows nothing of this one."""
+    """Run a script in a clean environment."""
     done = subprocess.run(
         [*shell, "-c", script],
         cwd=top,
@@ -95,7 +95,7 @@ class Action:
         return run(shell, step["run"], self._top, variables)
 
 
-def test_the_action_installs_itself_and_checks(clone: Path, checkout: Path, tmp_path: Path) -> None:
+def test_action_installs_the_tool_and_checks(clone: Path, checkout: Path, tmp_path: Path) -> None:
     needs_index(tmp_path)
     action = Action(clone, checkout)
     code, log = action.step(0)
@@ -122,7 +122,7 @@ def test_the_action_installs_itself_and_checks(clone: Path, checkout: Path, tmp_
     assert not (checkout / "injected").exists()
 
 
-def test_the_template_of_gitlab_checks_and_leaves_its_report(
+def test_gitlab_template_checks_and_stores_its_report(
     clone: Path, checkout: Path, tmp_path: Path
 ) -> None:
     needs_index(tmp_path)
@@ -146,13 +146,13 @@ def test_the_template_of_gitlab_checks_and_leaves_its_report(
     assert (checkout / path).is_file()
 
 
-def test_the_page_names_every_format() -> None:
+def test_page_lists_every_report_format() -> None:
     text = (ROOT / "docs" / "integrations.md").read_text()
     for name in NAMES:
         assert f"| `{name}` |" in text
 
 
-def test_the_page_names_the_inputs_of_the_action_and_the_hooks() -> None:
+def test_page_lists_action_inputs_and_hooks() -> None:
     text = (ROOT / "docs" / "integrations.md").read_text()
     for name in yaml_file.read(str(ROOT / "action.yml"))["inputs"]:
         assert f"| `{name}` |" in text

@@ -1,4 +1,4 @@
-"""What is in the repository is in the distributions, and works from there."""
+"""The sdist and the wheel hold the repository, and the installed tool works."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def command(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return fresh / "bin" / "ros2-scaffold"
 
 
-def test_wheel_holds_the_repository(wheel: Path) -> None:
+def test_wheel_contains_the_repository(wheel: Path) -> None:
     names = names_in_wheel(wheel)
     assert {name for name in names if ".dist-info/" not in name} == {
         *tracked("scaffold"),
@@ -72,7 +72,7 @@ def test_wheel_holds_the_repository(wheel: Path) -> None:
     }
 
 
-def test_wheel_says_what_it_is(wheel: Path) -> None:
+def test_wheel_has_entry_point_and_license(wheel: Path) -> None:
     information = f"ros2_scaffold-{__version__}.dist-info"
     with zipfile.ZipFile(wheel) as archive:
         entry_points = archive.read(f"{information}/entry_points.txt").decode()
@@ -81,18 +81,18 @@ def test_wheel_says_what_it_is(wheel: Path) -> None:
     assert licence == (ROOT / "LICENSE").read_bytes()
 
 
-def test_wheel_of_the_checkout_is_that_of_the_sdist(wheel: Path, tmp_path: Path) -> None:
+def test_wheels_from_checkout_and_sdist_have_the_same_files(wheel: Path, tmp_path: Path) -> None:
     run(sys.executable, "-m", "build", "--no-isolation", "--wheel", "--outdir", tmp_path, ROOT)
     assert names_in_wheel(only(tmp_path, "*.whl")) == names_in_wheel(wheel)
 
 
-def test_sdist_holds_the_repository(built: Path) -> None:
+def test_sdist_contains_the_repository(built: Path) -> None:
     with tarfile.open(only(built, "*.tar.gz")) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
     assert names - {"PKG-INFO"} == tracked()
 
 
-def test_installed_command_has_its_content(command: Path, tmp_path: Path) -> None:
+def test_installed_command_finds_its_rules(command: Path, tmp_path: Path) -> None:
     assert run(command, "--version", cwd=tmp_path) == f"ros2-scaffold {__version__}\n"
 
     rules = json.loads(run(command, "rules", "--format", "json", cwd=tmp_path))
@@ -172,7 +172,7 @@ def test_every_dependency_has_a_lower_bound_and_a_reason() -> None:
     assert [one for one in reasons if not any(re.fullmatch(one, line) for line in lines)] == []
 
 
-def test_lower_bounds_have_known_fixes_in() -> None:
+def test_lower_bounds_include_security_fixes() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     groups = [project["dependencies"], *project["optional-dependencies"].values()]
     seen = set()

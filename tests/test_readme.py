@@ -1,4 +1,4 @@
-"""What the README shows is what happens.
+"""The commands in the README print what the README shows.
 
 A ``console`` block holds commands after ``$`` and their output, in which ``...`` stands for the
 rest of a line, or alone for any lines. The blocks are one session: each command goes on where
@@ -43,14 +43,14 @@ STEPS = read_steps(README.read_text())
 
 
 class Session:
-    """A shell session in one directory; what is asked for is run once, with all before it."""
+    """A shell session in one directory; each step runs once, after all steps before it."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
         self.outputs: dict[int, str] = {}
 
     def output(self, wanted: int) -> str:
-        """Return what a step prints; slow steps before it are left out."""
+        """Return what a step prints; slow steps before it are skipped."""
         for index, step in enumerate(STEPS[: wanted + 1]):
             if index not in self.outputs and (index == wanted or not step.is_slow):
                 self.outputs[index] = run(step.command, self.directory)
@@ -69,11 +69,11 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Session:
         for index, step in enumerate(STEPS)
     ],
 )
-def test_step(index: int, session: Session) -> None:
+def test_output_of_step(index: int, session: Session) -> None:
     assert_same(session.output(index), STEPS[index])
 
 
-def test_verbs_are_shown() -> None:
+def test_all_verbs_are_shown() -> None:
     shown = {step.command.split()[1] for step in STEPS if step.command.startswith("ros2-scaffold")}
     assert shown >= {"new", "add", "update", "check", "rules", "templates", "smoke"}
 

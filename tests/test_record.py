@@ -1,4 +1,4 @@
-"""The cheap ``NamedTuple`` does what the one of typing does."""
+"""Our light ``NamedTuple`` behaves like that of typing."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_construction_and_fields(kind: Kind) -> None:
 
 
 @BOTH
-def test_what_is_wrong_is_refused(kind: Kind) -> None:
+def test_invalid_arguments_and_assignments_are_rejected(kind: Kind) -> None:
     for arguments, words in (((), {}), ((1, 2, (), 4), {}), ((1,), {"z": 1}), ((1,), {"x": 1})):
         with pytest.raises(TypeError):
             kind(*arguments, **words)
@@ -75,7 +75,7 @@ def test_what_is_wrong_is_refused(kind: Kind) -> None:
 
 
 @BOTH
-def test_copies(kind: Kind) -> None:
+def test_replace_pickle_copy_and_repr(kind: Kind) -> None:
     one = kind(1, 2.0, ("a",))
     assert one._replace(x=5) == (5, 2.0, ("a",))
     assert one._asdict() == {"x": 1, "y": 2.0, "names": ("a",)}
@@ -87,7 +87,7 @@ def test_copies(kind: Kind) -> None:
 
 
 @BOTH
-def test_patterns(kind: Kind) -> None:
+def test_match_patterns(kind: Kind) -> None:
     match kind(1, 2.0):
         case (x, y, _) if isinstance(x, str):
             pytest.fail(f"{y}")

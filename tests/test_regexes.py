@@ -1,4 +1,4 @@
-"""Every regular expression over the user's text takes linear time, as far as its form shows."""
+"""Every regular expression over user text takes linear time, judged by its form."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ FAST = {
 
 
 @pytest.mark.parametrize("kind", SLOW)
-def test_slow_patterns_are_seen(kind: str) -> None:
+def test_slow_patterns_are_detected(kind: str) -> None:
     assert dangers(SLOW[kind])
 
 
 @pytest.mark.parametrize("kind", FAST)
-def test_fast_patterns_pass(kind: str) -> None:
+def test_fast_patterns_are_accepted(kind: str) -> None:
     assert dangers(FAST[kind]) == []
 
 
-def test_most_patterns_are_looked_at() -> None:
+def test_patterns_of_the_repository_are_found() -> None:
     written = {pattern.text for pattern in PATTERNS}
     assert len(PATTERNS) > 200
     assert len(written) > 150
@@ -69,7 +69,7 @@ def test_patterns_take_linear_time(pattern: Pattern) -> None:
 # -- the same verdicts as before
 
 
-def test_attributes_of_xml_are_read_with_their_places() -> None:
+def test_xml_attributes_are_read_with_their_positions() -> None:
     text = "<a b='1'\n c = \"d='2'\" é='3'\t\r\n x-y=''/>"
     attributes = parse(Source("a.xml", text)).root.attributes
     assert {name: one.value for name, one in attributes.items()} == {
@@ -95,7 +95,7 @@ def test_attributes_of_xml_are_read_with_their_places() -> None:
         ("|---|---||", False),
     ],
 )
-def test_delimiters_of_tables(line: str, *, is_delimiter: bool) -> None:
+def test_delimiter_rows_of_tables(line: str, *, is_delimiter: bool) -> None:
     pattern = r"\s*\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)*\|?\s*"
     assert bool(re.fullmatch(pattern, line)) == is_delimiter
     assert bool(readme._DELIMITER.fullmatch(line)) == is_delimiter  # noqa: SLF001  its rows are tested elsewhere
@@ -116,11 +116,11 @@ def test_delimiters_of_tables(line: str, *, is_delimiter: bool) -> None:
         ("x == type(  )", []),
     ],
 )
-def test_comparisons(line: str, codes: list[str]) -> None:
+def test_comparisons_with_constants(line: str, codes: list[str]) -> None:
     assert [code for _, code, _ in statements.comparisons(line)] == codes
 
 
-def test_numbers_of_thousands_of_digits_are_no_defect() -> None:
+def test_huge_number_is_no_internal_error() -> None:
     from scaffold.check import runner
     from scaffold.check.rules import registry
     from scaffold.check.session import all_rules

@@ -38,8 +38,8 @@ def imports_of_modules(*, with_types: bool) -> Mapping[str, set[str]]:
     return {name: graph.find_modules_directly_imported_by(name) for name in graph.modules}
 
 
-def assert_no_circle(imported: Mapping[str, set[str]]) -> None:
-    """Fail with the first modules that import each other."""
+def assert_no_cycle(imported: Mapping[str, set[str]]) -> None:
+    """Fail with the first modules that form an import cycle."""
     try:
         TopologicalSorter(imported).prepare()
     except CycleError as error:
@@ -53,7 +53,7 @@ INSTALLED = {
 """The packages among `dependencies` in pyproject.toml that the engine imports."""
 
 
-def test_modules_import_what_the_installation_has() -> None:
+def test_external_imports_are_declared_dependencies() -> None:
     graph = grimp.build_graph(
         "scaffold",
         include_external_packages=True,
@@ -64,11 +64,11 @@ def test_modules_import_what_the_installation_has() -> None:
     assert external - sys.stdlib_module_names <= INSTALLED
 
 
-def test_no_modules_import_each_other_in_a_circle() -> None:
-    assert_no_circle(imports_of_modules(with_types=False))
+def test_no_import_cycles() -> None:
+    assert_no_cycle(imports_of_modules(with_types=False))
 
 
-def test_no_modules_import_each_other_for_types_but_these() -> None:
+def test_type_only_import_cycles_are_the_listed_ones() -> None:
     imported = imports_of_modules(with_types=True)
     center_of = {name: center for center, names in CIRCLES_OF_TYPES.items() for name in names}
     merged: dict[str, set[str]] = {}
@@ -77,4 +77,4 @@ def test_no_modules_import_each_other_for_types_but_these() -> None:
         merged.setdefault(center, set()).update(
             {center_of.get(other, other) for other in others} - {center}
         )
-    assert_no_circle(merged)
+    assert_no_cycle(merged)

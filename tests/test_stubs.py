@@ -1,4 +1,4 @@
-"""Stubs of interfaces and libraries, held against the code that they describe."""
+"""Stubs of interfaces and libraries, compared with the code that they describe."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ Check = Callable[[str], list[int]]
 
 @pytest.fixture(params=CHECKERS)
 def errors(request: pytest.FixtureRequest, bundled: Path, tmp_path: Path) -> Check:
-    """Return what tells the lines of a program in which a type checker sees an error."""
+    """Return a function for the lines of a program in which a type checker reports an error."""
     checker = request.param
 
     def lines(program: str) -> list[int]:
@@ -108,8 +108,8 @@ def errors(request: pytest.FixtureRequest, bundled: Path, tmp_path: Path) -> Che
     return lines
 
 
-def marked(program: str) -> list[int]:
-    """Return the lines of a program that say that they are wrong."""
+def wrong_lines(program: str) -> list[int]:
+    """Return the lines of a program that end in ``# wrong``."""
     lines = enumerate(program.splitlines(), 1)
     return [number for number, line in lines if line.endswith("# wrong")]
 
@@ -149,8 +149,8 @@ poses.poses = Pose()  # wrong
 """
 
 
-def test_messages_take_what_generated_code_takes(errors: Check) -> None:
-    assert errors(MESSAGES) == marked(MESSAGES)
+def test_message_stubs_accept_what_generated_code_accepts(errors: Check) -> None:
+    assert errors(MESSAGES) == wrong_lines(MESSAGES)
 
 
 NODE = """
@@ -220,8 +220,8 @@ class Talker(Node):
 """
 
 
-def test_nodes_are_judged_by_the_classes_they_name(errors: Check) -> None:
-    assert errors(NODE) == marked(NODE)
+def test_errors_in_a_node(errors: Check) -> None:
+    assert errors(NODE) == wrong_lines(NODE)
 
 
 LAUNCH = """
@@ -276,8 +276,8 @@ def generate_launch_description():
 """
 
 
-def test_launch_files_may_pass_what_launch_takes(errors: Check) -> None:
-    assert errors(LAUNCH) == marked(LAUNCH)
+def test_errors_in_a_launch_file(errors: Check) -> None:
+    assert errors(LAUNCH) == wrong_lines(LAUNCH)
 
 
 LIBRARIES = """
@@ -329,11 +329,11 @@ class Follower(Node):
 """
 
 
-def test_libraries_are_called_as_they_are_defined(errors: Check) -> None:
-    assert errors(LIBRARIES) == marked(LIBRARIES)
+def test_errors_in_calls_of_libraries(errors: Check) -> None:
+    assert errors(LIBRARIES) == wrong_lines(LIBRARIES)
 
 
-def test_interfaces_of_the_workspace_come_along(tmp_path: Path) -> None:
+def test_stubs_include_interfaces_of_the_workspace(tmp_path: Path) -> None:
     definitions = definitions_of(
         tmp_path, {"msg/Level.msg": "uint8 LOW=1\nuint8 level\nstd_msgs/Header header\n"}
     )
@@ -343,7 +343,7 @@ def test_interfaces_of_the_workspace_come_along(tmp_path: Path) -> None:
     assert "import Level" in files["robot_interfaces/msg/__init__.pyi"]
 
 
-def test_a_package_alone_imports_what_its_messages_hold(tmp_path: Path) -> None:
+def test_stubs_of_one_package_import_other_message_types(tmp_path: Path) -> None:
     definitions_of(tmp_path, {"msg/Level.msg": "map_msgs/Tile[] tiles\nLow low\n"})
     (target,) = discovery.find([str(tmp_path)])
     module = interface_stub_files(target.package)["robot_interfaces/msg/_level.pyi"]
@@ -352,18 +352,18 @@ def test_a_package_alone_imports_what_its_messages_hold(tmp_path: Path) -> None:
     assert "robot_interfaces" not in "".join(stub_files(JAZZY))
 
 
-def test_what_cannot_be_read_may_be_anything(tmp_path: Path) -> None:
+def test_unreadable_definition_is_any(tmp_path: Path) -> None:
     definitions = definitions_of(tmp_path, {"msg/Level.msg": "uint8 level\n", "msg/Raw.idl": ""})
     module = stub_files(JAZZY, definitions)["robot_interfaces/msg/__init__.pyi"]
     assert "Raw: Any" in module or "def __getattr__" in module
 
 
-def test_an_unknown_distribution_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_distribution_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["stubs", "--distro", "noetic", "--dry-run"]) == 2
     assert "--distro: 'noetic' is of ROS 1; choose from humble," in capsys.readouterr().err
 
 
-def test_stubs_have_no_errors_themselves(bundled: Path) -> None:
+def test_stubs_have_no_type_errors(bundled: Path) -> None:
     packages = [f"--package={path.name}" for path in bundled.iterdir() if path.is_dir()]
     result = subprocess.run(
         [sys.executable, "-m", "mypy", "--config-file=", "--strict", *packages],
@@ -388,7 +388,7 @@ def site_packages() -> Path:
     return Path(spec.origin).parent.parent
 
 
-def test_generated_stubs_are_what_the_script_makes_of_the_source() -> None:
+def test_generated_stubs_are_up_to_date() -> None:
     spec = importlib.util.spec_from_file_location("make_stubs", SCRIPT)
     assert spec is not None
     assert spec.loader is not None
@@ -461,11 +461,11 @@ Go.Goal(text=text)
 """
 
 
-def test_odd_names_of_fields_and_messages_keep_their_types(
+def test_fields_and_messages_with_odd_names_have_types(
     errors: Check, bundled: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "workspace").mkdir()
     definitions = definitions_of(tmp_path / "workspace", ODD)
     stubs = package_stubs(definitions, "robot_interfaces")
     write_stubs(str(bundled), stubs)
-    assert errors(ODD_PROGRAM) == marked(ODD_PROGRAM)
+    assert errors(ODD_PROGRAM) == wrong_lines(ODD_PROGRAM)

@@ -1,4 +1,4 @@
-"""The configuration of a project: where it is found, what it may say, and what comes of it."""
+"""The configuration of a project: where it is found, which keys it has, and their effects."""
 
 from __future__ import annotations
 
@@ -57,14 +57,14 @@ def depend_on(package: Path, name: str) -> None:
     manifest.write_text(manifest.read_text().replace("  <test_depend", dependency, 1))
 
 
-def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+def error_line(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     capsys.readouterr()
     assert main([*(words or ("check",))]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     return line
 
 
-def test_pyproject_configures_like_a_file_of_its_own(
+def test_pyproject_table_is_equivalent_to_own_file(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
@@ -77,22 +77,24 @@ def test_pyproject_configures_like_a_file_of_its_own(
     assert check(capsys, "talker")[0] == 1, "the nearest one counts"
 
 
-def test_two_files_in_a_directory_are_refused(
+def test_two_configuration_files_in_a_directory_are_rejected(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "pyproject.toml").write_text("[tool.ros2-scaffold]\n")
     (workspace / "ros2-scaffold.toml").write_text("")
-    assert f"{workspace}: both ros2-scaffold.toml and [tool.ros2-scaffold] in " in refused(capsys)
+    assert f"{workspace}: both ros2-scaffold.toml and [tool.ros2-scaffold] in " in error_line(
+        capsys
+    )
 
 
-def test_a_pyproject_of_others_need_not_be_valid(
+def test_pyproject_of_other_tools_may_be_invalid(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "pyproject.toml").write_text("this is not TOML")
     assert check(capsys)[0] == 0
     (workspace / "pyproject.toml").write_text('[project.scripts]\nros2-scaffold = "a:b"\n')
     (workspace.parent / "ros2-scaffold.toml").write_text("[check\n")
-    assert "invalid TOML" in refused(capsys), "the search goes on above it"
+    assert "invalid TOML" in error_line(capsys), "the search goes on above it"
 
 
 @pytest.mark.parametrize(
@@ -132,29 +134,29 @@ def test_a_pyproject_of_others_need_not_be_valid(
         ),
     ],
 )
-def test_mistakes_are_refused_in_one_line(
+def test_invalid_configuration_is_one_error_line(
     workspace: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
 ) -> None:
     path = workspace / "pyproject.toml"
     path.write_text(text.replace("[check", "[tool.ros2-scaffold.check"))
     for words in (("check",), ("config",)):
-        line = refused(capsys, *words)
+        line = error_line(capsys, *words)
         assert line.startswith(f"ros2-scaffold: error: {path}: ")
         assert message in line
     if not {"PX999", "licence"} & {*text.replace("'", " ").split()}:
-        assert message in refused(capsys, "rules"), "every verb reads the configuration"
+        assert message in error_line(capsys, "rules"), "every verb reads the configuration"
 
 
-def test_the_file_of_the_user_excludes_nothing(
+def test_exclude_is_rejected_in_user_configuration(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = workspace.parent / "config" / "ros2-scaffold" / "config.toml"
     path.parent.mkdir(parents=True)
     path.write_text('[check]\nexclude = ["talker"]\n')
-    assert "check.exclude is only allowed in the file of a project" in refused(capsys)
+    assert "check.exclude is only allowed in the file of a project" in error_line(capsys)
 
 
-def test_severity_decides_the_exit_code(
+def test_configured_severity_decides_the_exit_code(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "talker" / "talker" / "extra.py").write_text("import scipy\n\nscipy.pi\n")
@@ -173,7 +175,7 @@ def test_severity_decides_the_exit_code(
             assert (finding["severity"], got) == (severity, code)
 
 
-def test_excluded_packages_and_files_are_left_out_and_counted(
+def test_excluded_packages_and_files_are_skipped_and_counted(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("talker", "listener"):
@@ -207,7 +209,7 @@ excluded by ros2-scaffold.toml: 1 package, 1 file
     assert (workspace / "listener" / "listener" / "extra.py").read_text() == FLAWED
 
 
-def test_a_change_in_an_excluded_package_is_seen(
+def test_change_in_excluded_package_invalidates_the_cache(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     depend_on(workspace / "listener", "talker")
@@ -220,7 +222,7 @@ def test_a_change_in_an_excluded_package_is_seen(
     assert (before[0], after[0]) == (0, 1), "the two depend on each other now"
 
 
-def test_own_style_is_that_of_the_linters_that_the_package_runs(
+def test_own_style_follows_the_linters_that_the_package_runs(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "talker" / "talker" / "extra.py").write_text(FLAWED)
@@ -237,7 +239,7 @@ def test_own_style_is_that_of_the_linters_that_the_package_runs(
     assert "F401" in check(capsys, "talker")[1]
 
 
-def test_patterns_count_from_the_file_and_from_packages(
+def test_patterns_are_relative_to_the_file_or_to_packages(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("talker", "listener"):
@@ -257,7 +259,7 @@ def test_patterns_count_from_the_file_and_from_packages(
         assert (found, code) == (reported, 1 if reported else 0), pattern
 
 
-def test_line_length_counts_where_no_test_says_it(
+def test_line_length_applies_where_no_test_configures_it(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("talker", "listener"):
@@ -272,7 +274,9 @@ def test_line_length_counts_where_no_test_says_it(
     assert len(output.splitlines()) == 2
 
 
-def test_licenses_that_are_not_allowed(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_license_not_in_the_allowed_list_is_reported(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     configuration = workspace / "ros2-scaffold.toml"
     configuration.write_text('[check]\nlicenses = ["MIT", "BSD-3-Clause"]\n')
     code, output = check(capsys, "talker", "--select", "SC008", "--quiet")
@@ -287,7 +291,7 @@ def test_licenses_that_are_not_allowed(workspace: Path, capsys: pytest.CaptureFi
     assert check(capsys, "talker", "--select", "SC008", "--quiet") == (0, "")
 
 
-def test_dependencies_that_are_known_to_be_there(
+def test_configured_dependencies_need_no_declaration(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code = "import scipy\nimport torch\nimport tf2_ros\n\nprint(scipy, torch, tf2_ros)\n"
@@ -327,19 +331,19 @@ def test_dependencies_that_are_known_to_be_there(
         ("implicit-dependencies = 'x'", "check.implicit-dependencies must be a list of strings"),
     ],
 )
-def test_wrong_values_are_explained(
+def test_invalid_values_are_explained(
     workspace: Path, capsys: pytest.CaptureFixture[str], line: str, message: str
 ) -> None:
     (workspace / "ros2-scaffold.toml").write_text(f"[check]\n{line}\n")
-    assert message in refused(capsys)
+    assert message in error_line(capsys)
 
 
-def test_an_underscore_in_the_name_of_the_table_is_explained(
+def test_underscore_in_table_name_is_explained(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "pyproject.toml").write_text('[tool.ros2_scaffold.check]\nselect = ["PX"]\n')
     message = "unknown table [tool.ros2_scaffold]; did you mean [tool.ros2-scaffold]?"
-    assert message in refused(capsys)
+    assert message in error_line(capsys)
 
 
 @pytest.mark.parametrize(
@@ -353,11 +357,11 @@ def test_an_underscore_in_the_name_of_the_table_is_explained(
         ("[check]\nignore = ['']", "check.ignore has an empty string"),
     ],
 )
-def test_misplaced_keys_and_empty_words_are_explained(
+def test_misplaced_keys_and_empty_strings_are_explained(
     workspace: Path, capsys: pytest.CaptureFixture[str], text: str, message: str
 ) -> None:
     (workspace / "ros2-scaffold.toml").write_text(f"{text}\n")
-    assert message in refused(capsys)
+    assert message in error_line(capsys)
 
 
 def test_config_shows_each_value_and_its_file(
@@ -396,10 +400,10 @@ def test_config_shows_each_value_and_its_file(
         row["origin"] or "default" for row in rows
     ]
     assert shown[4].startswith('check.severity = { "F401" = "info" }  ')
-    assert "nowhere: no such file or directory" in refused(capsys, "config", "nowhere")
+    assert "nowhere: no such file or directory" in error_line(capsys, "config", "nowhere")
 
 
-def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
+def test_documentation_and_schema_are_up_to_date(tmp_path: Path) -> None:
     shutil.copy(ROOT / "docs" / "configuration.md", tmp_path)
     script = ROOT / "scripts" / "document_configuration.py"
     subprocess.run([sys.executable, str(script), str(tmp_path)], check=True, cwd=ROOT)
@@ -435,7 +439,7 @@ def test_the_page_and_the_schema_are_current(tmp_path: Path) -> None:
         ("contnet = []\n", False),
     ],
 )
-def test_the_schema_agrees_with_the_tool(
+def test_schema_and_tool_accept_the_same_configurations(
     workspace: Path, capsys: pytest.CaptureFixture[str], text: str, *, is_valid: bool
 ) -> None:
     (workspace / "ros2-scaffold.toml").write_text(text)
@@ -446,5 +450,5 @@ def test_the_schema_agrees_with_the_tool(
     capsys.readouterr()
 
 
-def test_a_value_that_is_not_set_is_the_default() -> None:
+def test_unset_value_is_the_default() -> None:
     assert config.Config({}).value("check.style") == "all"

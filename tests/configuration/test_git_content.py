@@ -1,4 +1,4 @@
-"""``--content URL@REV``: templates of a team in a git repository somewhere else."""
+"""``--content URL@REV``: templates of a team in a remote git repository."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from scaffold.cli.main import main
 from scaffold.configuration import git_content
 
 BOARD = """\
-summary: The board that the robot runs on
+summary: The board_file that the robot runs on
 questions:
-  board: { default: pi, help: name of the board }
+  board_file: { default: pi, help: name of the board_file }
 examples:
-  plain: { package: robot_board, board: nano }
+  plain: { package: robot_board, board_file: nano }
 """
 
 
 class Repository:
-    """A repository with templates, which others fetch."""
+    """A repository of templates to fetch from."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
         self.url = f"file://{directory}"
-        self.extra = directory / "templates" / "extras" / "board"
+        self.extra = directory / "templates" / "extras" / "board_file"
         self.extra.mkdir(parents=True)
         (self.extra / "template.yaml").write_text(BOARD)
         self.git("init", "--quiet", "--initial-branch", "main")
@@ -39,7 +39,7 @@ class Repository:
 
     def release(self, tag: str, text: str) -> None:
         """Commit a version of the template and tag it."""
-        (self.extra / "BOARD.md.jinja").write_text(f"{{{{ board }}}}: {text}\n")
+        (self.extra / "BOARD.md.jinja").write_text(f"{{{{ board_file }}}}: {text}\n")
         self.git("add", ".")
         self.git("commit", "--quiet", "-m", tag)
         self.git("tag", tag)
@@ -47,7 +47,7 @@ class Repository:
 
 @pytest.fixture
 def team(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
-    """Return a repository that is trusted, and an empty place to work in."""
+    """Return a trusted repository; the current directory is empty."""
     for name in ("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
@@ -61,10 +61,12 @@ def team(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
 
 
 def new(content: str, *more: str) -> int:
-    """Make a package that has the extra of the team."""
+    """Make a package with the extra of the team."""
     git_content.resolve.cache_clear()
     maintainer = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
-    return main(["new", "rover", "--extras", "board", "--content", content, *maintainer, *more])
+    return main(
+        ["new", "rover", "--extras", "board_file", "--content", content, *maintainer, *more]
+    )
 
 
 def update(*words: str) -> int:
@@ -72,26 +74,26 @@ def update(*words: str) -> int:
     return main(["update", "rover", *words])
 
 
-def board() -> str:
+def board_file() -> str:
     return Path("rover/BOARD.md").read_text()
 
 
-def test_a_package_is_made_and_updated_with_a_revision(team: Repository) -> None:
-    assert new(f"{team.url}@v1", "--board", "nano") == 0
-    assert board() == "nano: one\n"
+def test_package_is_created_and_updated_from_a_revision(team: Repository) -> None:
+    assert new(f"{team.url}@v1", "--board_file", "nano") == 0
+    assert board_file() == "nano: one\n"
     team.release("v2", "two")
     assert update() == 0
-    assert board() == "nano: one\n", "a tag stays"
+    assert board_file() == "nano: one\n", "a tag stays"
     assert update("--content", f"{team.url}@v2") == 0
-    assert board() == "nano: two\n"
+    assert board_file() == "nano: two\n"
     team.release("v3", "three")
     assert update("--content", f"{team.url}@main") == 0
     team.release("v4", "four")
     assert update() == 0
-    assert board() == "nano: four\n", "a branch moves"
+    assert board_file() == "nano: four\n", "a branch moves"
 
 
-def test_the_record_says_what_it_was_made_with(team: Repository) -> None:
+def test_record_has_url_revision_and_commit(team: Repository) -> None:
     assert new(f"{team.url}@v1") == 0
     (source, _) = json.loads(Path("rover/.ros2-scaffold.json").read_text())["content"]
     head = subprocess.check_output(["git", "-C", str(team.directory), "rev-parse", "v1"], text=True)
@@ -107,7 +109,7 @@ def test_add_uses_the_recorded_revision(team: Repository) -> None:
     assert update() == 0
 
 
-def test_a_repository_is_trusted_by_name_only(
+def test_repository_is_not_fetched_before_it_is_trusted(
     team: Repository, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert new(f"{team.url}@v1") == 0
@@ -121,9 +123,7 @@ def test_a_repository_is_trusted_by_name_only(
     assert not Path("rover").exists()
 
 
-def test_tags_and_commits_need_no_network_again(
-    team: Repository, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_tags_and_commits_are_cached(team: Repository, capsys: pytest.CaptureFixture[str]) -> None:
     assert new(f"{team.url}@v1") == 0
     commit = json.loads(Path("rover/.ros2-scaffold.json").read_text())["content"][0]["commit"]
     team.directory.rename(team.directory.with_name("gone"))
@@ -148,7 +148,7 @@ def test_tags_and_commits_need_no_network_again(
         ("@deadbeef", "has no tag, branch or commit 'deadbeef'"),
     ],
 )
-def test_a_wrong_revision_is_one_line(
+def test_unknown_revision_is_one_error_line(
     team: Repository, capsys: pytest.CaptureFixture[str], revision: str, message: str
 ) -> None:
     capsys.readouterr()
@@ -159,7 +159,7 @@ def test_a_wrong_revision_is_one_line(
 
 
 @pytest.mark.parametrize("url", ["ext::sh -c touch%ran", "http://localhost:9/x.git", "git://x/y"])
-def test_other_transports_are_not_used(
+def test_unsafe_git_transports_are_rejected(
     team: Repository, capsys: pytest.CaptureFixture[str], url: str
 ) -> None:
     del team
@@ -178,11 +178,11 @@ def test_other_transports_are_not_used(
         ("ssh://git@host.org/x@feature/a", "ssh://git@host.org/x", "feature/a"),
     ],
 )
-def test_the_revision_is_after_the_last_at(text: str, url: str, name: str) -> None:
+def test_revision_follows_the_last_at_sign(text: str, url: str, name: str) -> None:
     assert git_content.split(text) == (url, name)
 
 
-def test_links_of_a_repository_are_not_followed(team: Repository, tmp_path: Path) -> None:
+def test_symlinks_out_of_the_repository_are_not_followed(team: Repository, tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("secret\n")
     (team.extra / "SECRET.md.jinja").symlink_to(tmp_path / "secret")
     team.release("v2", "two")
@@ -190,7 +190,7 @@ def test_links_of_a_repository_are_not_followed(team: Repository, tmp_path: Path
     assert not Path("rover/SECRET.md").exists()
 
 
-def test_a_trusted_configuration_may_name_a_revision(
+def test_trusted_configuration_may_use_a_git_url(
     team: Repository, capsys: pytest.CaptureFixture[str]
 ) -> None:
     Path("ros2-scaffold.toml").write_text(f'content = ["{team.url}@v1"]\n')
@@ -198,11 +198,11 @@ def test_a_trusted_configuration_may_name_a_revision(
     assert "'content' ignored" in capsys.readouterr().err
     assert main(["trust", "."]) == 0
     assert main(["templates", "list"]) == 0
-    assert "The board that the robot runs on" in capsys.readouterr().out
+    assert "The board_file that the robot runs on" in capsys.readouterr().out
 
 
-def test_the_templates_of_a_revision_are_tested(
+def test_templates_test_accepts_a_git_url(
     team: Repository, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["templates", "test", f"{team.url}@v1"]) == 0
-    assert "board: plain, ament_cmake: ok" in capsys.readouterr().out
+    assert "board_file: plain, ament_cmake: ok" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""Nothing of a checked repository runs, and what names code is the user's own or trusted.
+"""No code of a checked repository runs; only the user or trusted files name code to load.
 
 A canary is a file that code of the repository would write if anything ran it.
 """
@@ -82,7 +82,7 @@ ament_package()
 
 
 class Repository:
-    """A checkout of a stranger's, with a package and code that its configuration names."""
+    """An untrusted checkout with a package, and code that its configuration names."""
 
     def __init__(self, root: Path, canary: Path) -> None:
         self.root = root
@@ -108,7 +108,7 @@ class Repository:
 
     @property
     def has_run(self) -> bool:
-        """Whether any code of the repository ran."""
+        """Whether any code of the repository has run."""
         return self.canary.exists()
 
 
@@ -140,7 +140,7 @@ class Outcome:
 
     @property
     def ignored(self) -> list[str]:
-        """The lines about what was ignored."""
+        """The messages about ignored configuration."""
         return [line for line in self.err.splitlines() if " ignored" in line]
 
 
@@ -193,7 +193,7 @@ COMMANDS = {
 
 
 @pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
-def test_no_verb_runs_code_that_the_repository_names(
+def test_no_verb_runs_code_named_by_the_repository(
     repository: Repository, run: Run, words: tuple[str, ...]
 ) -> None:
     repository.file.unlink()
@@ -210,12 +210,12 @@ def test_no_verb_runs_code_that_the_repository_names(
 
 
 @pytest.mark.parametrize("verb", ["interfaces", "completion bash"])
-def test_other_verbs_read_no_configuration(repository: Repository, run: Run, verb: str) -> None:
+def test_other_verbs_ignore_configuration(repository: Repository, run: Run, verb: str) -> None:
     outcome = run(*verb.split())
     assert (outcome.code, outcome.err, repository.has_run) == (0, "", False)
 
 
-def test_tab_completion_neither_runs_nor_names_it(repository: Repository) -> None:
+def test_tab_completion_ignores_untrusted_content(repository: Repository) -> None:
     line = "ros2-scaffold new x --extras "
     done = subprocess.run(
         [sys.executable, "-c", "from scaffold.cli.main import main; main()"],
@@ -236,14 +236,14 @@ def test_tab_completion_neither_runs_nor_names_it(repository: Repository) -> Non
     assert (done.stderr, repository.has_run) == ("", False)
 
 
-def test_the_flag_names_code(repository: Repository, run: Run) -> None:
+def test_content_flag_loads_code(repository: Repository, run: Run) -> None:
     outcome = run("rules", "--content", "evil")
     assert repository.has_run
     assert "ZZ001" in outcome.out
     assert outcome.err == ""
 
 
-def test_the_users_own_file_names_code(repository: Repository, run: Run, tmp_path: Path) -> None:
+def test_user_configuration_loads_code(repository: Repository, run: Run, tmp_path: Path) -> None:
     repository.file.unlink()
     own = tmp_path / "home" / "config" / "ros2-scaffold" / "config.toml"
     own.parent.mkdir(parents=True)
@@ -253,7 +253,7 @@ def test_the_users_own_file_names_code(repository: Repository, run: Run, tmp_pat
 
 
 @pytest.mark.parametrize("variable", ["XDG_CONFIG_HOME", "HOME"])
-def test_a_file_of_the_repository_is_never_the_users_own(
+def test_file_in_the_repository_is_never_user_configuration(
     repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch, variable: str
 ) -> None:
     repository.file.unlink()
@@ -267,7 +267,7 @@ def test_a_file_of_the_repository_is_never_the_users_own(
     assert not repository.has_run
 
 
-def test_a_trusted_directory_names_code(repository: Repository, run: Run) -> None:
+def test_configuration_of_trusted_directory_loads_code(repository: Repository, run: Run) -> None:
     outcome = run("trust", ".")
     assert outcome.out.splitlines() == [
         f"trusted: {repository.root}",
@@ -282,7 +282,7 @@ def test_a_trusted_directory_names_code(repository: Repository, run: Run) -> Non
     assert "ZZ001" not in run("rules").out
 
 
-def test_trust_is_for_one_directory(repository: Repository, run: Run) -> None:
+def test_trust_covers_exactly_one_directory(repository: Repository, run: Run) -> None:
     run("trust", "..")
     run("trust", "talker")
     assert run("rules").ignored
@@ -292,13 +292,13 @@ def test_trust_is_for_one_directory(repository: Repository, run: Run) -> None:
 
 
 @pytest.mark.usefixtures("repository")
-def test_trust_of_a_directory_without_a_file_says_so(run: Run) -> None:
+def test_trusting_a_directory_without_configuration_is_noted(run: Run) -> None:
     outcome = run("trust", "talker")
     assert outcome.code == 0
     assert outcome.err.startswith("note: there is no ros2-scaffold.toml in ")
 
 
-def test_a_link_to_a_trusted_file_trusts_nothing(repository: Repository, run: Run) -> None:
+def test_symlink_to_a_trusted_file_is_not_trusted(repository: Repository, run: Run) -> None:
     other = repository.root.parent / "trusted"
     other.mkdir()
     (other / "ros2-scaffold.toml").write_text('content = ["evil"]\n')
@@ -309,7 +309,7 @@ def test_a_link_to_a_trusted_file_trusts_nothing(repository: Repository, run: Ru
     assert not repository.has_run
 
 
-def test_a_trusted_directory_is_known_by_its_real_path(repository: Repository, run: Run) -> None:
+def test_trust_uses_the_real_path(repository: Repository, run: Run) -> None:
     link = repository.root.parent / "link"
     link.symlink_to(repository.root)
     assert run("trust", str(link / "talker" / "..")).out.startswith(f"trusted: {repository.root}\n")
@@ -324,7 +324,7 @@ def test_a_trusted_directory_is_known_by_its_real_path(repository: Repository, r
     assert not repository.has_run
 
 
-def test_a_trusted_directory_that_is_moved_is_not_trusted(repository: Repository, run: Run) -> None:
+def test_moved_directory_is_no_longer_trusted(repository: Repository, run: Run) -> None:
     run("trust", ".")
     moved = repository.root.rename(repository.root.parent / "moved")
     os.chdir(moved)
@@ -335,7 +335,7 @@ def test_a_trusted_directory_that_is_moved_is_not_trusted(repository: Repository
     assert run("trust", "--list").out == ""
 
 
-def test_a_trusted_directory_of_another_owner_is_another_directory(
+def test_directory_with_a_new_owner_is_no_longer_trusted(
     repository: Repository, run: Run, tmp_path: Path
 ) -> None:
     run("trust", ".")
@@ -348,14 +348,14 @@ def test_a_trusted_directory_of_another_owner_is_another_directory(
 
 
 @pytest.mark.usefixtures("repository")
-def test_the_flag_for_what_is_named_anyway_needs_no_trust(run: Run) -> None:
+def test_content_flag_overrides_ignored_configuration(run: Run) -> None:
     outcome = run("check", "--content", "evil", "talker")
     assert ("ZZ001" in outcome.out, outcome.err) == (True, "")
     run("trust", ".")
     assert run("check", "--content", "evil", "talker").code == outcome.code
 
 
-def test_an_empty_list_needs_no_trust(repository: Repository, run: Run) -> None:
+def test_empty_content_list_needs_no_trust(repository: Repository, run: Run) -> None:
     repository.write("ros2-scaffold.toml", "content = []\n")
     assert run("rules").err == ""
 
@@ -363,9 +363,7 @@ def test_an_empty_list_needs_no_trust(repository: Repository, run: Run) -> None:
 @pytest.mark.parametrize(
     "value", ["3", '"evil"', "[3]", "[[]]", '[""]', r'["\u0000"]', "{ a = 1 }", "1979-05-27"]
 )
-def test_content_that_is_no_list_of_directories(
-    repository: Repository, run: Run, value: str
-) -> None:
+def test_invalid_content_is_an_error(repository: Repository, run: Run, value: str) -> None:
     repository.write("ros2-scaffold.toml", f"content = {value}\n")
     for words in (["rules"], ["check", "talker"], ["trust", "."]):
         outcome = run(*words)
@@ -374,7 +372,7 @@ def test_content_that_is_no_list_of_directories(
     assert trust.trusted(Disk()) == {}
 
 
-def test_the_line_shows_no_escapes(repository: Repository, run: Run) -> None:
+def test_ignored_message_escapes_control_characters(repository: Repository, run: Run) -> None:
     odd = repository.root / "a\x1b]0;b c"
     shutil.copytree(repository.root / "evil", odd / "evil")
     shutil.copy(repository.file, odd)
@@ -398,14 +396,16 @@ def test_the_line_shows_no_escapes(repository: Repository, run: Run) -> None:
     ],
 )
 @pytest.mark.usefixtures("repository")
-def test_mistakes_get_one_line(run: Run, words: list[str], message: str) -> None:
+def test_invalid_trust_arguments_are_one_error_line(
+    run: Run, words: list[str], message: str
+) -> None:
     outcome = run(*words)
     assert outcome.code == 2
     assert message in outcome.err
     assert outcome.err.count("\n") == 1
 
 
-def test_a_directory_where_everybody_may_write_is_not_trusted(repository: Repository) -> None:
+def test_world_writable_directory_cannot_be_trusted(repository: Repository) -> None:
     shared = repository.root / "shared"
     shared.mkdir()
     shared.chmod(0o1777)
@@ -415,7 +415,7 @@ def test_a_directory_where_everybody_may_write_is_not_trusted(repository: Reposi
 
 @pytest.mark.parametrize("name", ["a b", "# c", "ü", os.fsdecode(b"\xff")])
 @pytest.mark.usefixtures("repository")
-def test_any_name_can_be_trusted(tmp_path: Path, name: str) -> None:
+def test_directory_with_odd_name_can_be_trusted(tmp_path: Path, name: str) -> None:
     directory = tmp_path / name
     directory.mkdir()
     real = trust.add(str(directory))
@@ -426,13 +426,13 @@ def test_any_name_can_be_trusted(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", ["a\nb", "a\rb", "a\u2028b"])
 @pytest.mark.usefixtures("repository")
-def test_a_name_with_a_line_break_is_refused(tmp_path: Path, name: str) -> None:
+def test_directory_name_with_newline_is_rejected(tmp_path: Path, name: str) -> None:
     (tmp_path / name).mkdir()
     with pytest.raises(InputError, match="line break"):
         trust.add(str(tmp_path / name))
 
 
-def test_many_at_once_all_count(repository: Repository) -> None:
+def test_parallel_additions_are_all_kept(repository: Repository) -> None:
     names = [f"d{number}" for number in range(8)]
     for name in names:
         (repository.root / name).mkdir()
@@ -443,7 +443,7 @@ def test_many_at_once_all_count(repository: Repository) -> None:
 
 
 @pytest.mark.usefixtures("repository")
-def test_a_link_to_the_list_stays(tmp_path: Path) -> None:
+def test_symlinked_trust_list_stays_a_symlink(tmp_path: Path) -> None:
     directory = tmp_path / "home" / "config" / "ros2-scaffold"
     directory.mkdir(parents=True)
     (tmp_path / "dotfiles").mkdir()
@@ -455,7 +455,7 @@ def test_a_link_to_the_list_stays(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("repository")
-def test_a_list_that_cannot_be_written_stays(tmp_path: Path) -> None:
+def test_unwritable_trust_list_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "home").mkdir()
     (tmp_path / "home" / "config").write_text("a file")
     with pytest.raises(ConfigError, match="nothing was changed"):
@@ -465,7 +465,7 @@ def test_a_list_that_cannot_be_written_stays(tmp_path: Path) -> None:
 # ---- remembered results
 
 
-def test_what_is_remembered_knows_about_trust(
+def test_cached_results_depend_on_trust(
     repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     checked: list[str] = []
@@ -496,7 +496,7 @@ def test_what_is_remembered_knows_about_trust(
 
 @pytest.fixture
 def foreign(monkeypatch: pytest.MonkeyPatch) -> int:
-    """Be another user than the one who owns the files."""
+    """Pretend to be another user than the owner of the files; return the owner."""
     owner = os.geteuid()
     monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
     return owner
@@ -505,7 +505,7 @@ def foreign(monkeypatch: pytest.MonkeyPatch) -> int:
 IGNORE = '[check]\nignore = ["PX"]\n'
 
 
-def test_a_file_above_the_repository_must_be_the_users_own(
+def test_foreign_file_above_the_repository_is_ignored(
     repository: Repository, run: Run, foreign: int
 ) -> None:
     assert foreign == repository.root.stat().st_uid
@@ -522,7 +522,7 @@ def test_a_file_above_the_repository_must_be_the_users_own(
 
 
 @pytest.mark.usefixtures("foreign")
-def test_in_the_repository_the_owner_does_not_matter(repository: Repository) -> None:
+def test_foreign_file_in_the_repository_is_used(repository: Repository) -> None:
     repository.file.write_text(IGNORE)
     settings = config.load(str(repository.root / "talker"))
     assert settings.strings("check.ignore") == ("PX",)
@@ -530,7 +530,7 @@ def test_in_the_repository_the_owner_does_not_matter(repository: Repository) -> 
 
 
 @pytest.mark.usefixtures("foreign")
-def test_the_next_file_above_counts_instead(repository: Repository) -> None:
+def test_all_foreign_files_above_the_repository_are_ignored(repository: Repository) -> None:
     repository.file.unlink()
     for directory in (repository.root.parent, repository.root.parent.parent):
         (directory / "ros2-scaffold.toml").write_text(IGNORE)
@@ -539,7 +539,7 @@ def test_the_next_file_above_counts_instead(repository: Repository) -> None:
     assert settings.values == {}
 
 
-def test_without_a_repository_the_directory_itself_is_the_limit(
+def test_without_repository_foreign_files_in_parents_are_ignored(
     repository: Repository, foreign: int
 ) -> None:
     assert foreign == repository.root.stat().st_uid
@@ -551,7 +551,7 @@ def test_without_a_repository_the_directory_itself_is_the_limit(
     assert len(settings.warnings) == 1
 
 
-def test_a_file_of_ones_own_counts_wherever_it_is(repository: Repository) -> None:
+def test_own_file_above_the_repository_is_used(repository: Repository) -> None:
     repository.file.unlink()
     (repository.root.parent / "ros2-scaffold.toml").write_text(IGNORE)
     settings = config.load(str(repository.root / "talker"))
@@ -559,7 +559,7 @@ def test_a_file_of_ones_own_counts_wherever_it_is(repository: Repository) -> Non
 
 
 @pytest.mark.usefixtures("foreign")
-def test_a_repository_where_everybody_may_write_is_nobodys(repository: Repository) -> None:
+def test_foreign_file_in_world_writable_repository_is_ignored(repository: Repository) -> None:
     repository.file.write_text(IGNORE)
     repository.root.chmod(0o1777)
     assert config.load(str(repository.root / "talker")).values == {}
@@ -568,7 +568,7 @@ def test_a_repository_where_everybody_may_write_is_nobodys(repository: Repositor
     assert config.load(str(repository.root)).strings("check.ignore") == ("PX",)
 
 
-def test_under_sudo_files_of_the_caller_count(
+def test_under_sudo_files_of_the_caller_are_used(
     repository: Repository, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     repository.file.unlink()
@@ -583,7 +583,7 @@ def test_under_sudo_files_of_the_caller_count(
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root may give files away")
-def test_a_foreign_file_is_told_of_again_and_its_new_owner_is_seen(
+def test_cached_run_still_warns_of_foreign_file_and_sees_new_owner(
     repository: Repository, run: Run
 ) -> None:
     repository.file.unlink()
@@ -600,7 +600,7 @@ def test_a_foreign_file_is_told_of_again_and_its_new_owner_is_seen(
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root may give files away")
-def test_a_link_of_another_user_does_not_choose_a_file(repository: Repository) -> None:
+def test_symlink_of_another_user_is_ignored(repository: Repository) -> None:
     repository.file.unlink()
     own = repository.write("elsewhere.toml", IGNORE)
     above = repository.root.parent / "ros2-scaffold.toml"
@@ -638,7 +638,7 @@ def test_no_module_of_the_current_directory_is_imported(repository: Repository) 
     assert not repository.has_run
 
 
-def test_what_is_checked_is_never_run(repository: Repository) -> None:
+def test_checked_code_is_never_run(repository: Repository) -> None:
     code = _writes(repository.canary)
     repository.write("ros2-scaffold.toml", "")
     package = "talker/"
@@ -675,7 +675,9 @@ def test_what_is_checked_is_never_run(repository: Repository) -> None:
 
 
 @pytest.mark.parametrize("prefix", ["", "f"])
-def test_the_reference_evaluates_no_strings(repository: Repository, run: Run, prefix: str) -> None:
+def test_reference_mode_does_not_evaluate_strings(
+    repository: Repository, run: Run, prefix: str
+) -> None:
     """Pydocstyle evaluates ``__all__``; before Python 3.12 an f-string there is one token."""
     repository.write("ros2-scaffold.toml", "")
     call = "{" + f"open({str(repository.canary)!r}, \\'w\\')" + "}"
@@ -694,7 +696,7 @@ def test_the_reference_evaluates_no_strings(repository: Repository, run: Run, pr
     assert not repository.has_run
 
 
-def test_configuration_of_ruff_changes_nothing(
+def test_ruff_configuration_of_the_repository_is_ignored(
     repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     repository.write("ros2-scaffold.toml", "")
@@ -733,7 +735,7 @@ def test_git_runs_no_program_of_the_repository(repository: Repository, run: Run)
     assert repository.has_run, "git alone does"
 
 
-def test_a_commit_is_read_without_programs_of_the_repository(
+def test_reading_a_commit_runs_no_program_of_the_repository(
     repository: Repository, run: Run
 ) -> None:
     repository.write("ros2-scaffold.toml", "")
@@ -758,7 +760,7 @@ def test_a_commit_is_read_without_programs_of_the_repository(
     assert repository.has_run, "git alone does"
 
 
-def test_git_is_run_in_one_place() -> None:
+def test_only_one_module_runs_git() -> None:
     places = [
         path.relative_to(ROOT).as_posix()
         for path in (ROOT / "scaffold").rglob("*.py")
@@ -768,7 +770,7 @@ def test_git_is_run_in_one_place() -> None:
 
 
 @pytest.mark.parametrize("entry", ["", ".", "bin"])
-def test_no_program_of_the_repository_is_found_on_the_path(
+def test_programs_in_relative_path_entries_are_not_run(
     repository: Repository, run: Run, monkeypatch: pytest.MonkeyPatch, entry: str
 ) -> None:
     for name in ("git", "ruff"):
@@ -792,7 +794,7 @@ def test_no_program_of_the_repository_is_found_on_the_path(
 
 
 @pytest.mark.parametrize("key", ["kind", "text"])
-def test_the_record_of_a_package_names_no_templates(
+def test_record_of_a_package_cannot_name_templates(
     repository: Repository, run: Run, key: str
 ) -> None:
     repository.file.unlink()
@@ -812,7 +814,7 @@ def test_the_record_of_a_package_names_no_templates(
     assert not any(b"1337" in path.read_bytes() for path in files if path != record)
 
 
-def test_answers_run_nothing(repository: Repository, run: Run) -> None:
+def test_answers_are_not_evaluated(repository: Repository, run: Run) -> None:
     repository.file.unlink()
     apply = f"!!python/object/apply:os.system ['touch {repository.canary}']"
     repository.write("answers.yaml", f"description: {apply}\n")
@@ -854,7 +856,7 @@ def test_a_cache_in_the_repository_is_not_read(
 
 
 @pytest.mark.usefixtures("foreign")
-def test_what_another_user_put_into_the_cache_is_not_read(repository: Repository) -> None:
+def test_cache_of_another_user_is_not_read(repository: Repository) -> None:
     _plant_in_cache(repository, str(repository.root / "evil" / "rules"))
     _load(str(repository.root / "evil" / "rules"))
     assert not repository.has_run

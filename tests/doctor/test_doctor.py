@@ -1,4 +1,4 @@
-"""``doctor`` on environments that are broken in the ways that cost beginners hours."""
+"""``doctor`` on environments broken in ways that beginners often run into."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def program(path: Path) -> None:
 
 
 def installation(root: Path, name: str = "jazzy", *packages: str) -> Path:
-    """Write what the doctor looks at of an installation; return its prefix."""
+    """Write a minimal ROS 2 installation; return its prefix."""
     prefix = root / "ros" / name
     touch(prefix / "setup.bash", "echo sourced >&2; exit 1\n")
     for package in ("rclpy", *packages):
@@ -71,7 +71,7 @@ def sourced(prefix: Path, **more: str) -> Mapping[str, str]:
 
 
 def assert_command(fix: str) -> None:
-    """Make sure that a beginner can paste it."""
+    """Fail unless a fix is a command that can be pasted into a shell."""
     bash = ["bash", "--norc", "-c"]
     words = shlex.split(fix, comments=True)
     assert subprocess.run(["bash", "-n", "-c", fix], check=False).returncode == 0
@@ -89,7 +89,7 @@ def found(seen: Machine) -> dict[str, tuple[str, str, str]]:
     return result
 
 
-def test_nothing_is_wrong_with_a_sourced_installation(root: Path) -> None:
+def test_sourced_installation_has_no_findings(root: Path) -> None:
     seen = machine(root, **sourced(installation(root)))
     assert found(seen) == {}
     assert [item.taken for item in environments(seen)] == [True, False, False]
@@ -194,14 +194,14 @@ def test_workspace_that_was_built_with_another_distribution(root: Path) -> None:
         ),
     ],
 )
-def test_variable_that_does_not_work(
+def test_invalid_environment_variable(
     root: Path, name: str, variables: dict[str, str], severity: str, message: str, fix: str
 ) -> None:
     seen = machine(root, **sourced(installation(root), **variables))
     assert found(seen) == {name: (severity, message, fix)}
 
 
-def test_middleware_that_does_not_exist_is_not_to_be_installed(root: Path) -> None:
+def test_fix_for_unknown_middleware_is_to_unset_the_variable(root: Path) -> None:
     seen = machine(root, **sourced(installation(root), RMW_IMPLEMENTATION="rmw_cyclone"))
     assert found(seen)["rmw-missing"][2] == "unset RMW_IMPLEMENTATION"
 
@@ -223,7 +223,9 @@ def test_localhost_only_is_right_in_humble(root: Path) -> None:
         ("0x9", "rmw_cyclonedds_cpp", "warning", "sudo ip link set lo multicast on"),
     ],
 )
-def test_loopback_network(root: Path, flags: str, rmw: str, severity: str, fix: str) -> None:
+def test_loopback_network_problems(
+    root: Path, flags: str, rmw: str, severity: str, fix: str
+) -> None:
     prefix = installation(root)
     touch(prefix / INDEX / "rmw_typesupport" / rmw)
     touch(root / "net" / "lo" / "flags", flags)
@@ -231,7 +233,7 @@ def test_loopback_network(root: Path, flags: str, rmw: str, severity: str, fix: 
     assert (result["loopback"][0], result["loopback"][2]) == (severity, fix)
 
 
-def test_no_colcon(root: Path) -> None:
+def test_missing_colcon(root: Path) -> None:
     (root / "bin" / "colcon").unlink()
     seen = machine(root, **sourced(installation(root)))
     assert found(seen)["colcon-missing"][2] == "sudo apt install python3-colcon-common-extensions"
@@ -242,7 +244,7 @@ def test_no_colcon(root: Path) -> None:
     assert "error: no ROS 2 environment can build and run packages; install one of these" in text
 
 
-def test_colcon_of_wheels_that_are_sourced(root: Path) -> None:
+def test_colcon_of_sourced_wheels_is_not_on_path(root: Path) -> None:
     (root / "bin" / "colcon").unlink()
     wheels = root / "venv"
     touch(wheels / INDEX / "packages" / "rclpy")
@@ -253,7 +255,7 @@ def test_colcon_of_wheels_that_are_sourced(root: Path) -> None:
     assert result["rmw-missing"][2] == "unset RMW_IMPLEMENTATION"
 
 
-def test_package_that_hides_another(root: Path) -> None:
+def test_package_that_shadows_another(root: Path) -> None:
     prefix = installation(root, "jazzy", "std_msgs")
     overlay = root / "ws" / "install" / "std_msgs"
     touch(overlay / INDEX / "packages" / "std_msgs")
@@ -263,7 +265,7 @@ def test_package_that_hides_another(root: Path) -> None:
     assert (severity, message) == ("info", f"'std_msgs' of {overlay} hides that of {prefix}")
 
 
-def test_installation_that_is_gone(root: Path) -> None:
+def test_removed_installation_is_still_on_the_path(root: Path) -> None:
     gone = root / "ros" / "iron"
     severity, message, fix = found(machine(root, AMENT_PREFIX_PATH=str(gone)))["prefix-gone"]
     assert (severity, fix.startswith(f"grep -n {gone} ~/.bashrc")) == ("error", True)
@@ -275,7 +277,7 @@ def test_installation_that_is_gone(root: Path) -> None:
 
 
 @pytest.mark.parametrize(("isolated", "is_found"), [("false", True), ("true", False)])
-def test_virtual_environment_without_the_packages_of_the_system(
+def test_virtual_environment_without_system_packages(
     root: Path, isolated: str, *, is_found: bool
 ) -> None:
     active = root / "venv"
@@ -284,7 +286,7 @@ def test_virtual_environment_without_the_packages_of_the_system(
     assert ("virtual-environment" in result) == is_found
 
 
-def test_conda(root: Path) -> None:
+def test_active_conda_environment(root: Path) -> None:
     result = found(machine(root, **sourced(installation(root), CONDA_PREFIX="/opt/conda")))
     assert result["virtual-environment"][2] == "conda deactivate"
 
@@ -305,7 +307,7 @@ def test_modules_of_another_python(root: Path, version: str) -> None:
 
 
 def workspace(root: Path, *names: str) -> Path:
-    """Write a workspace in which packages look as if they had been built."""
+    """Write a workspace with packages that look built."""
     top = root / "ws"
     touch(top / "install" / ".colcon_install_layout", "isolated\n")
     (top / "src").mkdir(exist_ok=True)
@@ -315,7 +317,7 @@ def workspace(root: Path, *names: str) -> Path:
     return top
 
 
-def test_package_that_was_removed_or_renamed(root: Path) -> None:
+def test_removed_or_renamed_package_is_still_installed(root: Path) -> None:
     top = workspace(root, "talker", "old_name")
     shutil.rmtree(top / "src" / "old_name")
     result = found(machine(root, top, **sourced(installation(root))))
@@ -331,7 +333,7 @@ def test_package_that_was_removed_or_renamed(root: Path) -> None:
     }
 
 
-def test_package_that_is_there_twice(root: Path) -> None:
+def test_duplicate_package(root: Path) -> None:
     top = workspace(root, "talker")
     shutil.copytree(top / "src" / "talker", top / "src" / "copy")
     severity, message, _ = found(machine(root, top, **sourced(installation(root))))["stale-install"]
@@ -339,7 +341,7 @@ def test_package_that_is_there_twice(root: Path) -> None:
     assert message.startswith("two packages are called 'talker': ")
 
 
-def test_workspace_that_is_sourced_is_looked_at(root: Path) -> None:
+def test_sourced_workspace_is_examined(root: Path) -> None:
     top = workspace(root, "talker")
     touch(top / "src" / "new" / "package.xml", "<package><name>new</name></package>")
     prefix = installation(root)
@@ -351,7 +353,7 @@ def test_workspace_that_is_sourced_is_looked_at(root: Path) -> None:
 @pytest.mark.build
 @NEEDS_ROS
 @pytest.mark.parametrize("flags", [[], ["--symlink-install"]])
-def test_sources_that_have_changed_since_the_build(root: Path, flags: list[str]) -> None:
+def test_sources_newer_than_the_build(root: Path, flags: list[str]) -> None:
     top = root / "ws"
     package = python_package(top / "src", "demo", {"once": ONCE})
     colcon = os.path.join(os.path.dirname(sys.executable), "colcon")
@@ -373,7 +375,7 @@ def test_sources_that_have_changed_since_the_build(root: Path, flags: list[str])
 
 
 @pytest.mark.parametrize("name", shell.SHELLS)
-def test_lines_for_a_shell(root: Path, name: str) -> None:
+def test_shell_lines_set_up_the_environment(root: Path, name: str) -> None:
     interpreter = shutil.which(name)
     if interpreter is None:
         pytest.skip(f"no {name}")
@@ -420,6 +422,6 @@ def test_json_holds_environments_and_findings(
     assert text.endswith(("problems\n", "1 problem\n"))
 
 
-def test_lines_go_to_standard_output(capsys: pytest.CaptureFixture[str]) -> None:
+def test_shell_lines_go_to_standard_output(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--shell", "bash"]) == 0
     assert "alias build=" in capsys.readouterr().out
