@@ -218,7 +218,7 @@ def test_sourced_shell_of_another_distribution_is_noted(
         ("README.md", "Heroshumble ROS Ironclad, see the ROS 2 documentation\n", ""),
     ],
 )
-def test_workflow_for_another_distribution_is_noted(
+def test_readme_or_workflow_of_another_distribution_is_noted(
     path: str,
     text: str,
     expected: str,

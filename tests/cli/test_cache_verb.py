@@ -1,4 +1,4 @@
-"""``ros2-scaffold cache``: how much is remembered, and a way to be rid of it."""
+"""``ros2-scaffold cache``: shows the size of the cache and empties it."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from scaffold.files import cache
 
 
 @pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return the cache after a run that used it."""
+def cache_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the directory of the cache after a run that filled it."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     assert main(["new", "talker"]) == 0
@@ -21,54 +21,66 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "cache" / "ros2-scaffold"
 
 
-def files(place: Path) -> list[Path]:
-    return [path for path in place.rglob("*") if path.is_file()]
+def files(cache_directory: Path) -> list[Path]:
+    return [path for path in cache_directory.rglob("*") if path.is_file()]
 
 
-def test_its_place_and_size_are_shown(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    before = files(place)
+def test_directory_and_size_are_shown(
+    cache_directory: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = files(cache_directory)
     capsys.readouterr()
     assert main(["cache"]) == 0
-    assert capsys.readouterr().out.startswith(f"{place}: {len(before)} files, ")
-    assert files(place) == before
+    assert capsys.readouterr().out.startswith(f"{cache_directory}: {len(before)} files, ")
+    assert files(cache_directory) == before
 
 
-def test_clean_removes_every_file(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert files(place)
-    count, size = cache.size(str(place))
-    assert (count, size) == (len(files(place)), sum(path.stat().st_size for path in files(place)))
+def test_clean_removes_every_file(
+    cache_directory: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert files(cache_directory)
+    count, size = cache.size(str(cache_directory))
+    assert (count, size) == (
+        len(files(cache_directory)),
+        sum(path.stat().st_size for path in files(cache_directory)),
+    )
     assert main(["cache", "clean"]) == 0
-    assert files(place) == []
+    assert files(cache_directory) == []
     assert capsys.readouterr().out.rstrip().endswith(" removed")
     assert main(["cache", "clean"]) == 0
     assert main(["check", "talker"]) == 0
 
 
-def test_clean_removes_whole_directories(place: Path) -> None:
+def test_clean_removes_whole_directories(cache_directory: Path) -> None:
     for tree in cache.TREES:
-        (place / tree / "abc" / "package").mkdir(parents=True)
-        (place / tree / "abc" / "package" / "file").write_text("text")
-    before = cache.size(str(place))
-    assert before == (len(files(place)), sum(path.stat().st_size for path in files(place)))
+        (cache_directory / tree / "abc" / "package").mkdir(parents=True)
+        (cache_directory / tree / "abc" / "package" / "file").write_text("text")
+    before = cache.size(str(cache_directory))
+    assert before == (
+        len(files(cache_directory)),
+        sum(path.stat().st_size for path in files(cache_directory)),
+    )
     assert main(["cache", "clean"]) == 0
-    assert not any((place / tree).exists() for tree in cache.TREES)
+    assert not any((cache_directory / tree).exists() for tree in cache.TREES)
 
 
-def test_clean_leaves_what_is_not_of_the_cache(place: Path) -> None:
-    held = place / "locks" / "held"
+def test_clean_keeps_files_of_other_programs(cache_directory: Path) -> None:
+    held = cache_directory / "locks" / "held"
     held.parent.mkdir()
     held.touch()
-    mine = place.parent / "mine"
+    mine = cache_directory.parent / "mine"
     mine.touch()
-    theirs = place.parent.parent / "theirs"
+    theirs = cache_directory.parent.parent / "theirs"
     theirs.mkdir()
     (theirs / "kept").touch()
-    os.symlink(theirs, place / "runs" / "link")
+    os.symlink(theirs, cache_directory / "runs" / "link")
     main(["cache", "clean"])
     assert held.exists()
     assert mine.exists()
     assert (theirs / "kept").exists()
 
 
-def test_every_kind_of_file_is_known(place: Path) -> None:
-    assert [path.name for path in place.iterdir() if not path.name.startswith(cache.KINDS)] == []
+def test_names_of_cache_files_have_known_prefixes(cache_directory: Path) -> None:
+    assert [
+        path.name for path in cache_directory.iterdir() if not path.name.startswith(cache.KINDS)
+    ] == []

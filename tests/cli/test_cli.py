@@ -1,4 +1,4 @@
-"""What a user types and sees: exit codes, reports, fixes."""
+"""The command line: exit codes, reports, fixes."""
 
 from __future__ import annotations
 
@@ -51,20 +51,20 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def flawed(package: Path) -> Path:
-    """Return the package with one flaw that is fixable and one that is not."""
+    """Return the package with one fixable finding and one that is not fixable."""
     (package / "package.xml").write_text(MANIFEST.format(description="TODO: Package description"))
     (package / "CMakeLists.txt").write_text(CMAKE_LISTS.format(project="listener"))
     return package
 
 
 @pytest.mark.usefixtures("package")
-def test_clean(capsys: pytest.CaptureFixture[str]) -> None:
+def test_clean_package_has_no_findings(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker"]) == 0
     assert capsys.readouterr().out == "1 package, 3 files for Jazzy: no findings\n"
 
 
 @pytest.mark.usefixtures("flawed")
-def test_found(capsys: pytest.CaptureFixture[str]) -> None:
+def test_findings_are_reported_with_exit_code_1(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check"]) == 1
     assert capsys.readouterr().out.splitlines() == [
         (
@@ -79,7 +79,7 @@ def test_found(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
-def test_json(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_report(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--format", "json", str(flawed)]) == 1
     report = json.loads(capsys.readouterr().out)
     assert report["diagnostics"][0] == {
@@ -132,12 +132,14 @@ def test_select_and_ignore(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.usefixtures("flawed")
-def test_one_file_of_a_package(capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_of_one_file_reports_only_its_findings(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "talker/package.xml"]) == 1
     assert "CM001" not in capsys.readouterr().out
 
 
-def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_of_file_outside_of_any_package(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     loose = package.parent / "node.py"
     loose.write_text("import os\n")
     assert main(["check", "node.py"]) == 1
@@ -166,7 +168,9 @@ def test_loose_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["rules", "--content", "nowhere"], "nowhere: no such directory, but --content or"),
     ],
 )
-def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:
+def test_user_errors_are_one_line_with_exit_code_2(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
     assert main(arguments) == 2
     error = capsys.readouterr().err
     assert error.startswith(f"ros2-scaffold: error: {message}")
@@ -186,7 +190,7 @@ def test_at_fault(capsys: pytest.CaptureFixture[str], arguments: list[str], mess
         (["add"], "the following arguments are required: KIND"),
     ],
 )
-def test_wrong_words_get_one_line(
+def test_invalid_arguments_get_one_line_with_suggestion(
     capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
 ) -> None:
     with pytest.raises(SystemExit) as exit_:
@@ -198,7 +202,7 @@ def test_wrong_words_get_one_line(
     assert error.count("\n") == 1
 
 
-def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_is_shown_without_a_verb(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="0"):
         main([])
     shown = capsys.readouterr()
@@ -207,7 +211,7 @@ def test_without_a_verb_the_help_is_shown(capsys: pytest.CaptureFixture[str]) ->
 
 
 @pytest.mark.parametrize("paths", [[], ["."], ["../talker/talker"]])
-def test_a_directory_in_a_package_is_the_package(
+def test_directory_within_a_package_stands_for_the_package(
     paths: list[str],
     flawed: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -241,7 +245,7 @@ def test_rules_are_selected_by_name_area_and_all(
     assert {one["code"] for one in found} == codes
 
 
-def test_a_prefix_lists_rules_as_select_takes_them(capsys: pytest.CaptureFixture[str]) -> None:
+def test_rules_verb_accepts_code_prefixes(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rules", "CM00"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 2
@@ -256,7 +260,7 @@ def test_a_prefix_lists_rules_as_select_takes_them(capsys: pytest.CaptureFixture
 
 
 @pytest.mark.usefixtures("package")
-def test_content_that_holds_nothing_is_refused(
+def test_content_directory_without_rules_or_templates_is_rejected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "own" / "rules" / "area").mkdir(parents=True)
@@ -269,7 +273,7 @@ def test_content_that_holds_nothing_is_refused(
     assert "own/rules/lost.py: a rule is in a directory of rules/" in capsys.readouterr().err
 
 
-def test_configuration_is_searched_from_what_is_checked(
+def test_configuration_is_searched_from_the_checked_path(
     flawed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nselect = ["LY"]\n')
@@ -283,7 +287,9 @@ def test_configuration_is_searched_from_what_is_checked(
     assert main(["check", str(flawed)]) == 1
 
 
-def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_configuration_file_of_the_project(
+    flawed: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (flawed.parent / "ros2-scaffold.toml").write_text('[check]\nignore = ["PX"]\n')
     assert main(["check"]) == 1
     assert "PX001" not in capsys.readouterr().out
@@ -291,7 +297,7 @@ def test_configuration_file(flawed: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "PX001" in capsys.readouterr().out
 
 
-def test_the_configuration_of_the_docs_is_accepted(
+def test_documented_configuration_is_valid(
     flawed: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     page = Path(__file__).parents[2] / "docs" / "configuration.md"
@@ -333,7 +339,7 @@ def test_broken_configuration(
     assert message in capsys.readouterr().err
 
 
-def test_an_undeclared_import_is_accepted_where_it_is(
+def test_noqa_on_the_import_accepts_an_undeclared_dependency(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "talker").mkdir()
@@ -369,7 +375,9 @@ def test_fix_style(package: Path) -> None:
     assert node.read_text() == '"""A test."""\n\nimport os\nimport sys\n\nprint(\'a\', os, sys)\n'
 
 
-def test_a_crashing_rule_of_the_user(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_crash_of_a_user_rule_is_reported(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     rule = package.parent / "mine" / "rules" / "cmake" / "crash.py"
     rule.parent.mkdir(parents=True)
     rule.write_text(
@@ -401,7 +409,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("verb", ["new", "add"])
-def test_the_help_of_what_generates_is_in_groups(
+def test_help_of_new_and_add_is_grouped(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
 ) -> None:
     monkeypatch.setenv("COLUMNS", "80")

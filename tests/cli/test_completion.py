@@ -1,4 +1,4 @@
-"""Tab completion, as the shells ask for it."""
+"""Tab completion, tested through the protocol of the shells."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ import pytest
 from scaffold.cli.main import main
 
 
-def offered(line: str) -> list[str]:
-    """Return what is offered after a line, by the protocol of argcomplete."""
+def completions(line: str) -> list[str]:
+    """Return the completions of a command line, through the protocol of argcomplete."""
     variables = {
         **os.environ,
         "_ARGCOMPLETE": "1",
@@ -61,27 +61,27 @@ def offered(line: str) -> list[str]:
         ("ros2-scaffold new talker --content /nowhere --topi", ["--topic"]),
     ],
 )
-def test_what_is_offered(line: str, expected: list[str]) -> None:
-    assert [word.strip() for word in offered(line)] == expected
+def test_completions(line: str, expected: list[str]) -> None:
+    assert [word.strip() for word in completions(line)] == expected
 
 
-def test_templates_of_a_team_are_offered_after_their_directory(tmp_path: Path) -> None:
+def test_user_templates_are_completed_after_content_flag(tmp_path: Path) -> None:
     extra = tmp_path / "team" / "templates" / "extras" / "citation"
     extra.mkdir(parents=True)
     (extra / "template.yaml").write_text(
         "summary: A citation\nquestions:\n  year_of_paper: { default: 2026, help: when }\n"
     )
     team = tmp_path / "team"
-    assert offered(f"ros2-scaffold new talker --content {tmp_path}/te") == [f"{team}/"]
-    assert offered(f"ros2-scaffold templates list {tmp_path}/te") == [f"{team}/"]
+    assert completions(f"ros2-scaffold new talker --content {tmp_path}/te") == [f"{team}/"]
+    assert completions(f"ros2-scaffold templates list {tmp_path}/te") == [f"{team}/"]
     for words in (f"new talker --content {team} --extras cit", f"add --content {team} cit"):
-        assert [word.strip() for word in offered(f"ros2-scaffold {words}")] == ["citation"]
-    flag = offered(f"ros2-scaffold add citation --content={team} --year")
+        assert [word.strip() for word in completions(f"ros2-scaffold {words}")] == ["citation"]
+    flag = completions(f"ros2-scaffold add citation --content={team} --year")
     assert [word.strip() for word in flag] == ["--year-of-paper"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_shells_accept_the_code(
+def test_completion_code_is_valid_in_each_shell(
     shell: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["completion", shell]) == 0

@@ -1,4 +1,4 @@
-"""Exit codes and the one line that goes with them, with real processes and real devices."""
+"""Exit codes and their one-line messages, with real processes and devices."""
 
 from __future__ import annotations
 
@@ -55,14 +55,14 @@ def shell(
     )
 
 
-def test_the_table_of_the_docs_has_every_code() -> None:
+def test_documentation_lists_every_exit_code() -> None:
     table = (ROOT / "docs" / "exit-codes.md").read_text()
     documented = {int(code) for code in re.findall(r"^\| (\d+) \|", table, re.MULTILINE)}
 
     assert documented == {value for name, value in vars(exit_codes).items() if name.isupper()}
 
 
-def test_the_codes_are_numbers_in_one_module_only() -> None:
+def test_exit_codes_are_defined_in_one_module() -> None:
     tree = [ast.parse(path.read_text()) for path in (ROOT / "scaffold" / "cli").glob("*.py")]
     returned = [
         node.value.value
@@ -95,7 +95,7 @@ def test_the_codes_are_numbers_in_one_module_only() -> None:
     ],
     ids=" ".join,
 )
-def test_a_full_device(package: Path, words: Sequence[str], unbuffered: str) -> None:
+def test_full_device_is_reported(package: Path, words: Sequence[str], unbuffered: str) -> None:
     run = shell(
         'tool "$@" > /dev/full', package, *words, variables={"PYTHONUNBUFFERED": unbuffered}
     )
@@ -106,7 +106,7 @@ def test_a_full_device(package: Path, words: Sequence[str], unbuffered: str) -> 
     assert "Exception" not in run.stderr
 
 
-def test_a_closed_output_is_said_before_anything_is_written(package: Path, tmp_path: Path) -> None:
+def test_closed_output_is_reported_before_writing_files(package: Path, tmp_path: Path) -> None:
     for words in (["check", str(package)], ["new", "made"], ["rules"], ["--version"]):
         run = shell('tool "$@" >&-', tmp_path, *words)
 
@@ -118,20 +118,20 @@ def test_a_closed_output_is_said_before_anything_is_written(package: Path, tmp_p
 
 
 @pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", ">&- 2>&-", "<&- >&- 2>&-"])
-def test_an_error_that_nobody_can_read_keeps_its_code(tmp_path: Path, where: str) -> None:
+def test_exit_code_is_kept_when_stderr_is_closed(tmp_path: Path, where: str) -> None:
     assert shell(f"tool check nowhere {where}", tmp_path).returncode == exit_codes.USAGE_ERROR
     assert shell(f"tool check --no-flag {where}", tmp_path).returncode == exit_codes.USAGE_ERROR
 
 
 @pytest.mark.parametrize("where", ["2>&-", "2>/dev/full", "<&-"])
-def test_a_verdict_does_not_depend_on_other_streams(package: Path, where: str) -> None:
+def test_exit_code_does_not_depend_on_stdin_and_stderr(package: Path, where: str) -> None:
     run = shell(f"tool check . {where}", package)
 
     assert run.returncode == exit_codes.FINDINGS
     assert "PX001" in run.stdout
 
 
-def test_no_file_is_opened_in_place_of_a_closed_stream(tmp_path: Path) -> None:
+def test_no_file_takes_the_descriptor_of_a_closed_stream(tmp_path: Path) -> None:
     run = shell("tool new made <&- 2>&-", tmp_path)
 
     assert run.returncode == exit_codes.CLEAN
@@ -144,7 +144,7 @@ def test_no_file_is_opened_in_place_of_a_closed_stream(tmp_path: Path) -> None:
     [["check", "."], ["rules"], ["interfaces"], ["--help"], ["new", "made", "--dry-run"]],
     ids=" ".join,
 )
-def test_a_broken_pipe_is_never_a_clean_end(
+def test_broken_pipe_is_never_exit_code_0(
     package: Path, tmp_path: Path, words: Sequence[str], unbuffered: str
 ) -> None:
     os.mkfifo(tmp_path / "pipe")
@@ -160,7 +160,7 @@ def test_a_broken_pipe_is_never_a_clean_end(
 
 
 @pytest.mark.parametrize("verb", sorted({*VERBS} - {"completion"}))
-def test_a_removed_directory(tmp_path: Path, verb: str) -> None:
+def test_removed_current_directory_is_reported(tmp_path: Path, verb: str) -> None:
     script = 'mkdir gone && cd gone && rmdir ../gone && tool "$@"'
     more = {"add": ["timer", "x"], "migrate": ["--to", "lyrical"], "new": ["made"]}.get(verb, [])
     run = shell(script, tmp_path, verb, *more)
@@ -170,14 +170,14 @@ def test_a_removed_directory(tmp_path: Path, verb: str) -> None:
 
 
 @pytest.mark.parametrize("home", [None, "/nonexistent", "/dev/null", ""])
-def test_a_home_that_cannot_be_used(package: Path, home: str | None) -> None:
+def test_unusable_home_is_silent(package: Path, home: str | None) -> None:
     variables = {"HOME": home, "XDG_CACHE_HOME": None, "XDG_CONFIG_HOME": None}
     run = shell("tool check .", package, variables=variables)
 
     assert (run.returncode, run.stderr) == (exit_codes.FINDINGS, "")
 
 
-def test_no_place_for_scratch_files_is_one_line_at_most(package: Path) -> None:
+def test_missing_temporary_directory_is_at_most_one_line(package: Path) -> None:
     run = shell("tool check .", package, variables={"TMPDIR": "/nonexistent"})
 
     assert (run.returncode, run.stderr) == (exit_codes.FINDINGS, "")
@@ -191,7 +191,9 @@ def test_no_place_for_scratch_files_is_one_line_at_most(package: Path) -> None:
         ("new", "listener"),
     ],
 )
-def test_a_read_only_file_system(words: Sequence[str], package: Path, tmp_path: Path) -> None:
+def test_read_only_file_system_is_reported(
+    words: Sequence[str], package: Path, tmp_path: Path
+) -> None:
     namespace = ["unshare", "--map-root-user", "--mount"]
     try:
         subprocess.run([*namespace, "mount", "-t", "tmpfs", "x", tmp_path], check=True)
@@ -218,14 +220,14 @@ def test_a_read_only_file_system(words: Sequence[str], package: Path, tmp_path: 
     assert run.returncode == exit_codes.USAGE_ERROR
 
 
-def test_an_encoding_that_lacks_letters(tmp_path: Path) -> None:
+def test_output_encoding_without_some_characters(tmp_path: Path) -> None:
     run = shell("tool check t\u00e4lker", tmp_path, variables={"PYTHONIOENCODING": "ascii"})
 
     assert run.stderr == "ros2-scaffold: error: t\\xe4lker: no such file or directory\n"
     assert run.returncode == exit_codes.USAGE_ERROR
 
 
-def test_control_c(tmp_path: Path) -> None:
+def test_control_c_ends_the_run_with_one_line(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "answers.yaml")
     run = subprocess.Popen(
         [*TOOL, "new", "made", "--answers", "answers.yaml"],
@@ -257,7 +259,9 @@ sys.meta_path.insert(0, Finder())
 """What Python imports at its start: it gets a signal when a certain module is imported."""
 
 
-def signaled(at: str, number: signal.Signals, where: Path) -> subprocess.CompletedProcess[str]:
+def run_with_signal(
+    at: str, number: signal.Signals, where: Path
+) -> subprocess.CompletedProcess[str]:
     (where / "sitecustomize.py").write_text(SIGNALS_ITSELF)
     return subprocess.run(
         [*TOOL, "check", "."],
@@ -288,15 +292,15 @@ IMPORTED = (
 
 @pytest.mark.parametrize("module", IMPORTED)
 def test_control_c_while_modules_are_imported(module: str, tmp_path: Path) -> None:
-    run = signaled(module, signal.SIGINT, tmp_path)
+    run = run_with_signal(module, signal.SIGINT, tmp_path)
 
     assert (run.stdout, run.stderr) == ("", "ros2-scaffold: interrupted\n")
     assert run.returncode == exit_codes.INTERRUPTED
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_other_signals_end_it_without_a_word(number: signal.Signals, tmp_path: Path) -> None:
-    run = signaled(IMPORTED[0], number, tmp_path)
+def test_other_signals_end_the_run_silently(number: signal.Signals, tmp_path: Path) -> None:
+    run = run_with_signal(IMPORTED[0], number, tmp_path)
 
     assert (run.returncode, run.stdout, run.stderr) == (-number, "", "")
 

@@ -1,4 +1,4 @@
-"""Whatever is typed: never a traceback, never an internal error."""
+"""Random command lines never cause a traceback or an internal error."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ TEXT = st.text(st.characters(exclude_characters="/\\~."), max_size=12)
 
 
 def flags() -> list[str]:
-    """Return the flags of all verbs, as the parser itself knows them."""
+    """Return the flags of all verbs, taken from the parser."""
     (verbs,) = [one for one in build_parser()._actions if one.dest == "verb"]  # noqa: SLF001
     assert isinstance(verbs, argparse._SubParsersAction)  # noqa: SLF001
     found: set[str] = set()

@@ -1,4 +1,4 @@
-"""``check --release`` reports what a release is refused for as errors."""
+"""``check --release`` reports findings that block a release as errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PLACEHOLDER, PIP, NAME = "PX001", "PX029", "PX022"
 
 @pytest.fixture(scope="module")
 def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a package that nothing is wrong with."""
+    """Return a generated package without findings."""
     top = tmp_path_factory.mktemp("generated")
     assert main(["new", "talker", "--destination-directory", str(top)]) == 0
     return top / "talker"
@@ -24,7 +24,7 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def package(generated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a package with flaws that only a release is refused for."""
+    """Return a package with findings that only block a release."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     copy = tmp_path / "talker"
     shutil.copytree(generated, copy)
@@ -47,7 +47,7 @@ def severities(capsys: pytest.CaptureFixture[str], *flags: str) -> Mapping[str, 
 
 
 @pytest.mark.usefixtures("package")
-def test_what_a_release_is_refused_for_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+def test_findings_that_block_a_release_are_errors(capsys: pytest.CaptureFixture[str]) -> None:
     usual = {PLACEHOLDER: "warning", PIP: "info", NAME: "warning"}
     assert severities(capsys) == usual
     assert severities(capsys, "--release") == dict.fromkeys(usual, "error")
@@ -55,13 +55,13 @@ def test_what_a_release_is_refused_for_is_an_error(capsys: pytest.CaptureFixture
 
 
 @pytest.mark.usefixtures("package")
-def test_the_exit_code_counts_them(capsys: pytest.CaptureFixture[str]) -> None:
+def test_release_errors_change_the_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--select", PIP]) == 0
     assert main(["check", "--select", PIP, "--release"]) == 1
     assert "1 error" in capsys.readouterr().out
 
 
-def test_a_severity_of_the_configuration_wins(
+def test_configured_severity_takes_precedence(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "ros2-scaffold.toml").write_text(f"[check.severity]\n{PLACEHOLDER} = 'info'\n")
@@ -69,14 +69,14 @@ def test_a_severity_of_the_configuration_wins(
     assert (found[PLACEHOLDER], found[PIP]) == ("info", "error")
 
 
-def test_a_package_that_is_ready_stays_clean(
+def test_releasable_package_has_no_findings(
     generated: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(generated)
     assert main(["check", "--release"]) == 0
 
 
-def test_the_page_of_a_rule_says_why(capsys: pytest.CaptureFixture[str]) -> None:
+def test_rule_page_explains_the_release_severity(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rules", PIP]) == 0
     page = capsys.readouterr().out
     assert "error with `--release`: a released package cannot depend on what pip installs" in page

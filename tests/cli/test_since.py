@@ -1,4 +1,4 @@
-"""``check --since`` reports what a change touches and what it breaks, and nothing older."""
+"""``check --since`` reports findings in changed files and those that it causes elsewhere."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def check(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, list[st
 
 
 @pytest.mark.usefixtures("workspace")
-def test_without_a_change_nothing_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_findings_without_a_change(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check"]) == 1
     assert check(capsys, "HEAD") == (
         0,
@@ -94,7 +94,7 @@ def test_changed_and_new_files_are_reported(
     ], "a changed file is reported whole"
 
 
-def test_what_a_change_breaks_elsewhere_is_reported(
+def test_findings_in_other_files_caused_by_a_change_are_reported(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     dependency = "  <exec_depend>second</exec_depend>\n  <test_depend"
@@ -107,9 +107,7 @@ def test_what_a_change_breaks_elsewhere_is_reported(
     assert lines[-1].startswith("2 packages, ")
 
 
-def test_a_new_package_and_a_removed_one(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_added_and_removed_packages(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.copytree(workspace / "third", workspace / "fourth")
     shutil.rmtree(workspace / "first")
     lines = check(capsys, "HEAD")[1]
@@ -117,7 +115,9 @@ def test_a_new_package_and_a_removed_one(
     assert lines[-1].startswith("2 packages, "), "the new one, and what depends on the removed one"
 
 
-def test_it_goes_with_a_baseline(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_since_and_baseline_can_be_combined(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (workspace / "third" / "third" / "old.py").write_text("import os\n\n")
     main(["check", "--write-baseline", "base.json"])
     (workspace / "third" / "third" / "old.py").write_text("import re\nimport os\n\n")
@@ -136,7 +136,7 @@ def test_it_goes_with_a_baseline(workspace: Path, capsys: pytest.CaptureFixture[
         (["--since", "HEAD", "--write-baseline", "a"], "omit --write-baseline"),
     ],
 )
-def test_mistakes_are_refused_in_one_line(
+def test_invalid_revisions_are_one_error_line(
     capsys: pytest.CaptureFixture[str], words: list[str], message: str
 ) -> None:
     capsys.readouterr()
@@ -145,7 +145,7 @@ def test_mistakes_are_refused_in_one_line(
     assert message in line
 
 
-def test_without_git(
+def test_since_without_git_is_an_error(
     workspace: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.rmtree(workspace / ".git")

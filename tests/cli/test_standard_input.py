@@ -1,4 +1,4 @@
-"""What an editor has not saved is checked in the place of its file."""
+"""Standard input replaces the content of a file, as editors check unsaved text."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def check(where: Path, text: str, *words: str) -> subprocess.CompletedProcess[st
     )
 
 
-def test_the_text_counts_and_not_the_file(package: Path) -> None:
+def test_standard_input_replaces_the_file(package: Path) -> None:
     words = ("--stdin-filename", "talker/node.py", "--format", "json", "--select", "PX020,F401")
     run = check(package, "import std_msgs\n", *words, "-")
     found = json.loads(run.stdout)["diagnostics"]
@@ -57,7 +57,7 @@ def test_the_text_counts_and_not_the_file(package: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["talker/new.py", "package.xml", "../loose.py"])
-def test_any_file_of_a_package_or_a_python_file(name: str, package: Path) -> None:
+def test_accepted_file_names(name: str, package: Path) -> None:
     text = MANIFEST.replace("rclpy", "rclpyy") if name == "package.xml" else "import os\n"
     run = check(package, text, "--stdin-filename", name)
     assert run.returncode == 1
@@ -74,7 +74,7 @@ def test_fixed_text_goes_to_standard_output_alone(package: Path) -> None:
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 
-def test_a_text_without_anything_to_fix_is_given_back(package: Path) -> None:
+def test_text_without_fixes_is_printed_unchanged(package: Path) -> None:
     text = "x = '\u00e4'\r\n"
     run = subprocess.run(
         [sys.executable, "-m", "scaffold", "check", "--fix", "--stdin-filename", "a.py"],
@@ -99,7 +99,9 @@ def test_a_text_without_anything_to_fix_is_given_back(package: Path) -> None:
         (("--stdin-filename", "/notes.txt"), "/notes.txt: belongs to no package and is not a Py"),
     ],
 )
-def test_mistakes_get_one_line(words: tuple[str, ...], message: str, package: Path) -> None:
+def test_invalid_usage_is_one_error_line(
+    words: tuple[str, ...], message: str, package: Path
+) -> None:
     run = check(package, "", *words)
     assert run.stderr.startswith(f"ros2-scaffold: error: {message}")
     assert run.stderr.count("\n") == 1

@@ -1,4 +1,4 @@
-"""The line of a terminal that says what is going on."""
+"""The status line that shows progress on a terminal."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from scaffold.cli.status_line import StatusLine
 
 
 class Screen(io.StringIO):
-    """A terminal that does not know its width."""
+    """A terminal of unknown width that records its output."""
 
     def isatty(self) -> bool:
         return True
 
     @property
     def drawn(self) -> list[str]:
-        """What was written after each erasure of the line."""
+        """The texts written between erasures of the line."""
         return self.getvalue().split("\r\033[K")[1:]
 
 
-def shown_on(patch: pytest.MonkeyPatch) -> Screen:
-    """Return the terminal that gets standard error until the end of the test."""
+def redirect_stderr(patch: pytest.MonkeyPatch) -> Screen:
+    """Redirect standard error to a terminal until the end of the test; return it."""
     screen = Screen()
     patch.setattr(sys, "stderr", screen)  # pytest sets its own one after each fixture
     return screen
 
 
-def test_a_long_line_is_cut_and_nothing_of_it_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = shown_on(monkeypatch)
+def test_long_line_is_cut_and_erased(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = redirect_stderr(monkeypatch)
     with StatusLine() as status:
         status.show("building " + "package_" * 40)
     line, last = screen.drawn
@@ -42,8 +42,8 @@ def test_a_long_line_is_cut_and_nothing_of_it_stays(monkeypatch: pytest.MonkeyPa
     assert last == ""
 
 
-def test_what_is_announced_stays_above_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = shown_on(monkeypatch)
+def test_announcements_stay_above_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = redirect_stderr(monkeypatch)
     with StatusLine() as status:
         status.show("building")
         status.announce("a \x1b[2J is shown")
@@ -52,8 +52,8 @@ def test_what_is_announced_stays_above_the_line(monkeypatch: pytest.MonkeyPatch)
     ]  # fmt: skip
 
 
-def test_it_says_for_how_long(monkeypatch: pytest.MonkeyPatch) -> None:
-    screen = shown_on(monkeypatch)
+def test_line_shows_elapsed_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    screen = redirect_stderr(monkeypatch)
     monkeypatch.setattr("scaffold.cli.status_line._PERIOD", 0.01)
     now = time.monotonic()
     monkeypatch.setattr("time.monotonic", lambda: now)
@@ -64,7 +64,7 @@ def test_it_says_for_how_long(monkeypatch: pytest.MonkeyPatch) -> None:
             time.sleep(0.01)
 
 
-def test_a_file_gets_what_is_announced_alone(capsys: pytest.CaptureFixture[str]) -> None:
+def test_file_gets_only_announcements(capsys: pytest.CaptureFixture[str]) -> None:
     with StatusLine() as status:
         status.show("building")
         status.announce("done")

@@ -1,4 +1,4 @@
-"""A language server, as editors start it, completes what `stubs` has written."""
+"""A language server, started like an editor does, completes names from `stubs`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ rclpy.create_node('talker').create_pub
 
 
 class LanguageServer:
-    """A server that speaks the language server protocol on its standard streams."""
+    """A client of a server that speaks the language server protocol on its standard streams."""
 
     def __init__(self, root: Path) -> None:
         program = Path(sys.executable).with_name("basedpyright-langserver")
@@ -49,7 +49,7 @@ class LanguageServer:
         self._process.communicate(timeout=30)
 
     def notify(self, method: str, **params: object) -> None:
-        """Send what needs no answer."""
+        """Send a notification."""
         self._send({"method": method, "params": params})
 
     def request(self, method: str, **params: object) -> Any:  # noqa: ANN401  JSON of any shape

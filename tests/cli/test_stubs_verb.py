@@ -1,4 +1,4 @@
-"""The verb `stubs`: what it writes, leaves alone and says."""
+"""The verb `stubs`: the files it writes and keeps, and its messages."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_stubs_of_libraries_and_interfaces_are_written(
     assert 'mypy needs `mypy_path = "typings"`' in capsys.readouterr().out
 
 
-def test_pyright_has_nothing_to_say_of_them_in_strict_projects(workspace: Path) -> None:
+def test_strict_pyright_has_no_findings_in_stubs(workspace: Path) -> None:
     main(["stubs"])
     (workspace / "pyrightconfig.json").write_text('{"typeCheckingMode": "strict"}')
     command = [sys.executable, "-m", "basedpyright", "typings/rclpy", "typings/ament_flake8"]
@@ -47,7 +47,7 @@ def test_pyright_has_nothing_to_say_of_them_in_strict_projects(workspace: Path) 
     assert done.returncode == 0, done.stdout
 
 
-def test_only_what_differs_is_written_again(
+def test_only_changed_stubs_are_rewritten(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["stubs"])
@@ -58,7 +58,7 @@ def test_only_what_differs_is_written_again(
     assert "is_low: bool" in (workspace / "typings/robot_interfaces/msg/_level.pyi").read_text()
 
 
-def test_stubs_of_removed_interfaces_go_and_those_of_users_stay(workspace: Path) -> None:
+def test_stubs_of_removed_interfaces_are_deleted_and_user_stubs_kept(workspace: Path) -> None:
     main(["stubs"])
     own = workspace / "typings/camera_driver/__init__.pyi"
     own.parent.mkdir()
@@ -69,7 +69,7 @@ def test_stubs_of_removed_interfaces_go_and_those_of_users_stay(workspace: Path)
     assert own.read_text() == "def grab() -> bytes: ...\n"
 
 
-def test_files_of_others_are_not_overwritten(
+def test_user_files_are_not_overwritten(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     own = workspace / "typings/rclpy/node.pyi"
@@ -83,7 +83,7 @@ def test_files_of_others_are_not_overwritten(
 
 
 @pytest.mark.parametrize("flag", ["--dry-run", "--diff"])
-def test_a_preview_writes_nothing(
+def test_preview_writes_nothing(
     workspace: Path, capsys: pytest.CaptureFixture[str], flag: str
 ) -> None:
     before = files(workspace)
@@ -93,7 +93,7 @@ def test_a_preview_writes_nothing(
     assert "would be written" in out or "+class Level(Message):" in out
 
 
-def test_another_directory_is_named_in_the_advice(
+def test_advice_names_the_chosen_directory(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["stubs", "--output", "build/types"]) == 0
@@ -101,7 +101,7 @@ def test_another_directory_is_named_in_the_advice(
     assert not (workspace / "typings").exists()
 
 
-def test_a_directory_that_is_not_there_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_directory_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["stubs", "nowhere"]) == 2
     assert "nowhere: no such directory" in capsys.readouterr().err
 
@@ -114,7 +114,7 @@ def test_a_file_in_place_of_the_directory_is_an_error(
     assert "typings: Not a directory" in capsys.readouterr().err
 
 
-def test_a_workspace_without_packages_gets_the_libraries(
+def test_library_stubs_are_written_without_any_package(
     tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     empty = tmp_path_factory.mktemp("empty")

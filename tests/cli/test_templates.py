@@ -1,4 +1,4 @@
-"""``templates``: what there is, and whether the templates of a team make right packages."""
+"""``templates``: listing, copying and testing templates, those of users included."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ needs_ros = pytest.mark.skipif(
 
 
 @pytest.fixture(autouse=True)
-def _own_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test."""
+def _isolated_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate tests from the user's settings."""
     for name in ("HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
 
@@ -47,21 +47,23 @@ def test_all_templates_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
         assert any(line.split() == [name, *one.summary.split()] for line in said.split("\n")), name
 
 
-def test_those_of_a_team(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_user_templates_are_listed(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "list", str(team)]) == 0
     assert capsys.readouterr().out == "extras:\n    citation  A citation file\n"
     assert main(["templates", "--content", str(team)]) == 0
     assert capsys.readouterr().out == "extras:\n    citation  A citation file\n"
 
 
-def test_good_ones(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_correct_template_passes(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "test", str(team)]) == 0
     assert capsys.readouterr().out == (
         "citation: plain, ament_cmake: ok\ncitation: plain, ament_python: ok\n2 examples, 0 wrong\n"
     )
 
 
-def test_one_that_makes_a_bad_package(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_template_of_a_package_with_findings_is_wrong(
+    team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     extra = team / "templates" / "extras" / "citation"
     (extra / "{{ package }}").mkdir()
     (extra / "{{ package }}" / "cite.py.jinja").write_text('{{ header }}\n\nX = "x"\n')
@@ -72,15 +74,15 @@ def test_one_that_makes_a_bad_package(team: Path, capsys: pytest.CaptureFixture[
     assert said.endswith("2 examples, 2 wrong\n")
 
 
-def test_one_that_cannot_be_rendered(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_template_that_cannot_be_rendered_is_wrong(
+    team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (team / "templates" / "extras" / "citation" / "CITATION.cff.jinja").write_text("{{ who }}\n")
     assert main(["templates", "test", str(team)]) == 1
     assert "    template 'citation/CITATION.cff.jinja'" in capsys.readouterr().out
 
 
-def test_an_example_that_answers_nothing_is_wrong(
-    team: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_example_with_unknown_answer_is_wrong(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().replace("cited_package", "cited_package, year_of_papr: 2020"))
     assert main(["templates", "test", str(team)]) == 1
@@ -93,7 +95,7 @@ def test_an_example_that_answers_nothing_is_wrong(
     ]
 
 
-def test_an_example_without_its_own_template_is_wrong(
+def test_example_that_does_not_use_its_template_is_wrong(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["templates", "copy", "timer", str(tmp_path), "--name", "watchdog"]) == 0
@@ -108,7 +110,7 @@ def test_an_example_without_its_own_template_is_wrong(
     assert said[where + 1] == ("    example 'several, ament_python': has no watchdog, but timer")
 
 
-def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_template_without_examples_is_wrong(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().partition("examples:")[0])
     assert main(["templates", "test", str(team)]) == 1
@@ -117,14 +119,16 @@ def test_one_without_examples(team: Path, capsys: pytest.CaptureFixture[str]) ->
     assert said.out == "0 examples, 0 wrong\n"
 
 
-def test_a_directory_without_templates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_directory_without_templates_is_an_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["templates", "test", str(tmp_path)]) == 2
     assert "it has no directory 'templates'" in capsys.readouterr().err
 
 
 @pytest.mark.build
 @needs_ros
-def test_building(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_build_flag_builds_the_examples(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["templates", "test", str(team), "--build"]) == 0
     said = capsys.readouterr().out
     assert "citation: plain, ament_cmake: built\n" in said
@@ -145,7 +149,7 @@ def test_building(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "nothing" in said
 
 
-def test_one_file_of_a_template_is_overridden(tmp_path: Path) -> None:
+def test_single_file_of_a_template_can_be_overridden(tmp_path: Path) -> None:
     own = tmp_path / "team" / "templates" / "package"
     own.mkdir(parents=True)
     (own / "README.md.jinja").write_text("# {{ package }} of our team\n")
@@ -167,7 +171,7 @@ def test_one_file_of_a_template_is_overridden(tmp_path: Path) -> None:
         ("node", "templates are in package and build_types, nodes, interfaces, programs, extras"),
     ],
 )
-def test_what_overrides_nothing_is_refused(
+def test_override_of_unknown_template_is_rejected(
     directory: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     place = tmp_path / "templates" / directory
@@ -188,7 +192,7 @@ def test_what_overrides_nothing_is_refused(
         ("target", "a variable"),
     ],
 )
-def test_a_question_that_shadows_one_of_ours_is_named(
+def test_question_that_shadows_a_built_in_one_is_rejected(
     team: Path, capsys: pytest.CaptureFixture[str], question: str, shadowed: str
 ) -> None:
     manifest = team / "templates" / "extras" / "citation" / "template.yaml"
@@ -202,7 +206,9 @@ def test_a_question_that_shadows_one_of_ours_is_named(
     assert not (team / "cited").exists()
 
 
-def test_the_questions_of_content_are_flags(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_questions_of_user_templates_are_flags(
+    team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     maintainer = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
     words = ("--year-of-paper", "2030", "--extras", "citation", "--content", str(team))
     place = ("--destination-directory", str(team))
@@ -214,7 +220,7 @@ def test_the_questions_of_content_are_flags(team: Path, capsys: pytest.CaptureFi
     assert "--year-of-paper" in capsys.readouterr().out
 
 
-def test_a_template_of_ours_is_copied_to_start_from(
+def test_built_in_template_can_be_copied(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     team = tmp_path / "team"

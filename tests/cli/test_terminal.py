@@ -1,4 +1,4 @@
-"""What reaches a terminal: foreign text is shown and never obeyed, through one module."""
+"""Terminal output: control characters in foreign text are escaped, in one module."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ WRITERS = {
 """The modules that mention standard output or error, and why they may."""
 
 
-def test_what_a_terminal_might_obey_is_spelled_out() -> None:
+def test_control_characters_are_escaped() -> None:
     for number in range(sys.maxunicode + 1):
         character = chr(number)
         if unicodedata.category(character) in {"Cc", "Cf", "Cs", "Zl", "Zp"}:
@@ -44,17 +44,17 @@ def test_what_a_terminal_might_obey_is_spelled_out() -> None:
                 assert character not in printable_lines(f"a{character}b"), hex(number)
 
 
-def test_letters_of_every_language_stay() -> None:
+def test_letters_of_every_language_are_kept() -> None:
     text = "Größe 速度 скорость سرعة ⚙ 'a\"b'"
 
     assert printable(text) == text
 
 
-def test_a_byte_that_is_no_text_is_shown_as_such() -> None:
+def test_undecodable_byte_is_escaped() -> None:
     assert printable("caf\udce9") == "caf\\xe9"
 
 
-def test_json_holds_no_character_that_a_terminal_obeys() -> None:
+def test_json_has_no_control_characters() -> None:
     text = json_text({TRICKS: "\x7f"})
 
     assert printable_lines(text) == text
@@ -65,13 +65,13 @@ def test_every_module_writes_through_the_terminal_module() -> None:
     mentions = {
         path.relative_to(ROOT).as_posix()
         for path in (ROOT / "scaffold").rglob("*.py")
-        if any(_is_direct(node) for node in ast.walk(ast.parse(path.read_text())))
+        if any(_is_direct_output(node) for node in ast.walk(ast.parse(path.read_text())))
     }
 
     assert mentions <= set(WRITERS), "write with scaffold.cli.terminal instead"
 
 
-def _is_direct(node: ast.AST) -> bool:
+def _is_direct_output(node: ast.AST) -> bool:
     match node:
         case ast.Call(func=ast.Name(id="print")):
             return True
@@ -92,7 +92,7 @@ def _shown(capsys: pytest.CaptureFixture[str]) -> str:
     return text
 
 
-def test_names_of_files_and_messages_in_a_report(
+def test_escapes_in_file_names_and_messages_of_a_report(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = _package(tmp_path)
@@ -108,7 +108,7 @@ def test_names_of_files_and_messages_in_a_report(
     assert "\\u202e" in _shown(capsys)
 
 
-def test_keys_of_a_record(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_escapes_in_keys_of_a_record(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     package = _package(tmp_path)
     record = package / ".ros2-scaffold.json"
     entries = json.loads(record.read_text())
@@ -121,7 +121,7 @@ def test_keys_of_a_record(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "note: the templates no longer ask for key\\x1b]0;owned\\x07" in _shown(capsys)
 
 
-def test_an_argument_in_an_error(capsys: pytest.CaptureFixture[str]) -> None:
+def test_escapes_in_arguments_quoted_by_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["check", "--format", TRICKS])
     assert "\\x1b]0;owned\\x07" in _shown(capsys)
@@ -130,7 +130,7 @@ def test_an_argument_in_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     assert "\\x1b]0;owned\\x07" in _shown(capsys)
 
 
-def test_summaries_of_the_templates_of_a_team(
+def test_escapes_in_summaries_of_user_templates(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     template = tmp_path / "templates" / "extras" / "odd"
@@ -142,7 +142,9 @@ def test_summaries_of_the_templates_of_a_team(
     assert "\\x1b]0;owned\\x07" in _shown(capsys)
 
 
-def test_definitions_of_interfaces(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_escapes_in_interface_definitions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     where = ["--destination-directory", str(tmp_path)]
     assert main(["new", "odd_msgs", "--add", "message:Odd fields='string s'", *where]) == 0
     definition = tmp_path / "odd_msgs" / "msg" / "Odd.msg"

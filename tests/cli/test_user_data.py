@@ -1,4 +1,4 @@
-"""Files that users write by hand: what is wrong in them is one line with the file and the line."""
+"""Files written by users: an error is one message with file and line."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("name", BROKEN)
-def test_yaml_that_is_refused(name: str, tmp_path: Path) -> None:
+def test_broken_yaml_is_rejected_with_its_line(name: str, tmp_path: Path) -> None:
     text, line, reason = BROKEN[name]
     path = tmp_path / "answers.yaml"
     path.write_text(text)
@@ -52,7 +52,7 @@ def test_yaml_that_is_refused(name: str, tmp_path: Path) -> None:
     assert len(str(caught.value).splitlines()) == 1
 
 
-def test_yaml_that_is_not_utf_8(tmp_path: Path) -> None:
+def test_yaml_in_other_encodings_is_rejected(tmp_path: Path) -> None:
     path = tmp_path / "answers.yaml"
     path.write_bytes(b"a: 1\nb: caf\xe9\n")
 
@@ -60,7 +60,7 @@ def test_yaml_that_is_not_utf_8(tmp_path: Path) -> None:
         yaml_file.read(str(path))
 
 
-def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+def test_too_large_file_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "answers.yaml"
     with path.open("wb") as file:
         file.truncate(1 << 40)
@@ -86,7 +86,7 @@ def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
         ("=", "="),
     ],
 )
-def test_yaml_that_is_read(text: str, value: object, tmp_path: Path) -> None:
+def test_yaml_scalars(text: str, value: object, tmp_path: Path) -> None:
     path = tmp_path / "answers.yaml"
     path.write_text(f"\ufeff1: {text}\n")
 
@@ -101,7 +101,7 @@ ODD = (
 
 
 @pytest.mark.parametrize("question", ["package", "license", "rate", "dependencies", "add", "qos"])
-def test_odd_answers_are_the_users(
+def test_odd_answers_are_user_errors(
     question: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for number, odd in enumerate(ODD):
@@ -140,7 +140,7 @@ def test_odd_answers_are_the_users(
         ("build_types", "[5]"),
     ],
 )
-def test_odd_values_of_a_template_are_its_authors(
+def test_odd_values_in_a_template_are_user_errors(
     key: str, value: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     template = tmp_path / "content" / "templates" / "extras" / "odd"
@@ -177,7 +177,7 @@ def test_odd_values_of_a_template_are_its_authors(
         (b"a." * 5000 + b"a = 1\n", ""),
     ],
 )
-def test_odd_configuration(
+def test_odd_configuration_is_a_user_error(
     data: bytes, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
@@ -203,7 +203,7 @@ def test_odd_configuration(
     ],
     ids=str,
 )
-def test_a_record_that_was_edited(
+def test_edited_record_is_a_user_error(
     change: dict[str, object], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["new", "talker", "--destination-directory", str(tmp_path)]) == 0

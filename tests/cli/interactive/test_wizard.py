@@ -1,4 +1,4 @@
-"""The questions of `new` on a terminal: a real one, with somebody typing."""
+"""The interactive questions of `new`, answered on a real pseudo-terminal."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ SHELLS = ("bash", "zsh", "fish")
 
 
 @pytest.fixture(autouse=True)
-def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test, and its files are its own."""
+def _isolated_directories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate a test from the user's settings, in a directory of its own."""
     for name in ("HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
@@ -37,7 +37,7 @@ def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 class Terminal:
-    """`new` on a terminal, and somebody who types."""
+    """A run of `new` on a pseudo-terminal, with methods to type and to read."""
 
     def __init__(self, *arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> None:
         self.child = pexpect.spawn(
@@ -59,7 +59,7 @@ class Terminal:
         self.child.expect_exact(text)
 
     def end(self) -> tuple[str, int]:
-        """Wait for the end; return what was said last, and the exit code."""
+        """Wait for the end; return the last output and the exit code."""
         self.child.expect(pexpect.EOF)
         self.child.close()
         return self.child.before.replace("\r\n", "\n"), self.child.exitstatus
@@ -67,7 +67,7 @@ class Terminal:
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., Terminal]]:
-    """Start `new` with arguments, on a terminal of some size; end it."""
+    """Return a function that starts `new` on a terminal of a given size; end it afterwards."""
     started: list[Terminal] = []
 
     def begin(*arguments: str, size: tuple[int, int] = (40, 100), **more: str) -> Terminal:
@@ -85,8 +85,8 @@ def terminal(start: Callable[..., Terminal]) -> Terminal:
     return start()
 
 
-def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
-    """Answer what comes before the extras."""
+def answer_publisher_questions(terminal: Terminal, then: str = ENTER) -> None:
+    """Answer the questions before the extras, for a publisher."""
     terminal.answer("Name of the new package:", "talker" + ENTER)
     terminal.answer("Build system:", DOWN + ENTER)
     terminal.answer("What is in the package?", "publisher" + ENTER)
@@ -98,8 +98,8 @@ def through_the_publisher(terminal: Terminal, then: str = ENTER) -> None:
     terminal.answer("What else is in the package?", then)
 
 
-def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
-    """Answer what comes after the parts; return what is said at the end."""
+def answer_remaining_questions(terminal: Terminal, mail: str = "ada@example.com") -> str:
+    """Answer the questions after the parts; return the last output."""
     terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", "Speaks" + ENTER)
     terminal.answer("License of the package:", ENTER)
@@ -111,11 +111,11 @@ def rest(terminal: Terminal, mail: str = "ada@example.com") -> str:
     return said
 
 
-def test_the_command_that_is_shown_does_the_same(
+def test_shown_command_creates_the_same_package(
     terminal: Terminal, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    through_the_publisher(terminal)
-    said = rest(terminal)
+    answer_publisher_questions(terminal)
+    said = answer_remaining_questions(terminal)
     command = command_in(said)
     assert shlex.split(command) == [
         "ros2-scaffold",
@@ -136,7 +136,7 @@ def test_the_command_that_is_shown_does_the_same(
     capsys.readouterr()
 
 
-def test_interfaces_and_programs_are_asked_for(
+def test_questions_for_interfaces_and_programs(
     start: Callable[..., Terminal], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     terminal = start("--build-type", "ament_cmake")
@@ -152,7 +152,7 @@ def test_interfaces_and_programs_are_asked_for(
     terminal.answer("no match for 'timer'", "\x15cpp_sets" + ENTER)
     terminal.answer("Name of the", ENTER)
     terminal.answer("What else is in the package?", ENTER)
-    command = command_in(rest(terminal))
+    command = command_in(answer_remaining_questions(terminal))
     assert_same(command, tmp_path / "robot_interfaces")
     capsys.readouterr()
 
@@ -170,7 +170,7 @@ def assert_same(command: str, made: Path) -> None:
     assert {path.relative_to(made): path.read_bytes() for path in made.rglob("*.*")} == asked
 
 
-def test_answers_are_judged_while_they_are_typed(terminal: Terminal) -> None:
+def test_answers_are_validated_while_typing(terminal: Terminal) -> None:
     terminal.answer("Name of the new package:", "Talker" + ENTER)
     terminal.says("must be lower-case words")
     terminal.answer("Name of the new package:", "\x15std_msgs" + ENTER)
@@ -191,7 +191,7 @@ def test_message_types_are_completed(terminal: Terminal) -> None:
 
 @pytest.mark.parametrize("key", ["\x03", "\x04"], ids=["interrupted", "closed"])
 @pytest.mark.parametrize("questions", [0, 1, 8])
-def test_interrupted_nothing_is_written(
+def test_interrupted_run_writes_nothing(
     terminal: Terminal, tmp_path: Path, questions: int, key: str
 ) -> None:
     asked = ["new package:", "Build system:", "What is in", "Name of the node", "Topic to"]
@@ -205,7 +205,7 @@ def test_interrupted_nothing_is_written(
 
 
 @pytest.mark.parametrize("size", [(10, 40), (24, 60)])
-def test_what_is_wrong_is_said_in_full(
+def test_validation_message_is_shown_in_full(
     start: Callable[..., Terminal], size: tuple[int, int]
 ) -> None:
     terminal = start(size=size)
@@ -222,21 +222,21 @@ def test_what_is_wrong_is_said_in_full(
     )
 
 
-def test_what_matches_nothing_chooses_nothing(terminal: Terminal) -> None:
+def test_text_without_a_match_selects_nothing(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", "pyton")
     terminal.answer("no match for 'pyton'", ENTER + "\x15setuptools" + ENTER)
     terminal.says("Build system: ament_python")
 
 
-def test_a_name_that_is_typed_in_full_comes_first(terminal: Terminal) -> None:
+def test_exact_match_is_listed_first(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker_msgs" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "service" + ENTER)
     terminal.says("Name of the new type")
 
 
-def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: Path) -> None:
+def test_existing_directory_is_rejected_immediately(terminal: Terminal, tmp_path: Path) -> None:
     (tmp_path / "talker").mkdir()
     terminal.answer("new package:", "talker" + ENTER)
     terminal.says("talker already exists")
@@ -244,7 +244,7 @@ def test_a_place_that_is_taken_is_refused_at_once(terminal: Terminal, tmp_path: 
     terminal.says("Build system:")
 
 
-def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) -> None:
+def test_conflicting_parts_are_asked_for_again(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
@@ -264,8 +264,8 @@ def test_parts_that_contradict_each_other_are_asked_again(terminal: Terminal) ->
     terminal.says("the package already has minimal_timer")
 
 
-def test_the_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
-    through_the_publisher(terminal, "subscriber" + ENTER)
+def test_type_of_a_topic_is_asked_once(terminal: Terminal) -> None:
+    answer_publisher_questions(terminal, "subscriber" + ENTER)
     terminal.answer("Name of the node", ENTER)
     terminal.answer("Topic to subscribe to", "\x15/chatter" + ENTER)
     terminal.says("sensor_msgs/msg/Temperature")
@@ -276,7 +276,7 @@ def test_pasted_lines_are_one_answer(terminal: Terminal) -> None:
     terminal.says("'tal ker'")
 
 
-def test_somebody_may_go_back_and_answer_again(terminal: Terminal) -> None:
+def test_going_back_to_an_earlier_question(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "timer" + ENTER)
@@ -297,19 +297,19 @@ def test_somebody_may_go_back_and_answer_again(terminal: Terminal) -> None:
     terminal.answer("Messages per second", ENTER)
     terminal.answer("Quality of service", ENTER)
     terminal.answer("What else is in the package?", ENTER)
-    words = shlex.split(command_in(rest(terminal)))
+    words = shlex.split(command_in(answer_remaining_questions(terminal)))
     assert words[words.index("--add") + 1] == (
         "publisher:minimal_publisher topic=chatter message_type=LaserScan"
     )
 
 
-def test_before_the_first_question_there_is_no_other(terminal: Terminal) -> None:
+def test_going_back_from_the_first_question_does_nothing(terminal: Terminal) -> None:
     terminal.answer("new package:", BACK)
     terminal.answer("new package:", "talker" + ENTER)
     terminal.says("Build system:")
 
 
-def test_the_quality_of_service_is_chosen_from_a_menu(terminal: Terminal) -> None:
+def test_qos_is_chosen_from_a_menu(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.answer("What is in the package?", "publisher_subscriber" + ENTER)
@@ -324,14 +324,14 @@ def test_the_quality_of_service_is_chosen_from_a_menu(terminal: Terminal) -> Non
     terminal.says("neither a depth")
     terminal.answer("Depth, profile or settings:", "\x15best_effort,depth=1" + ENTER)
     terminal.answer("What else is in the package?", ENTER)
-    words = shlex.split(command_in(rest(terminal)))
+    words = shlex.split(command_in(answer_remaining_questions(terminal)))
     assert words[words.index("--add") + 1].split()[1:] == [
         "qos=sensor_data",
         "input_qos=best_effort,depth=1",
     ]
 
 
-def test_kinds_are_grouped(terminal: Terminal) -> None:
+def test_kinds_are_listed_in_groups(terminal: Terminal) -> None:
     terminal.answer("new package:", "talker" + ENTER)
     terminal.answer("Build system:", ENTER)
     terminal.says("What is in the package?")
@@ -341,8 +341,8 @@ def test_kinds_are_grouped(terminal: Terminal) -> None:
         terminal.says(heading_or_kind)
 
 
-def test_the_files_are_shown_before_they_are_written(terminal: Terminal, tmp_path: Path) -> None:
-    through_the_publisher(terminal)
+def test_files_are_previewed_before_writing(terminal: Terminal, tmp_path: Path) -> None:
+    answer_publisher_questions(terminal)
     terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", ENTER)
     terminal.answer("License of the package:", ENTER)
@@ -358,7 +358,7 @@ def test_the_files_are_shown_before_they_are_written(terminal: Terminal, tmp_pat
     assert "eve@example.com" in (tmp_path / "talker" / "package.xml").read_text()
 
 
-def test_after_the_preview_nothing_need_be_written(start: Callable[..., Terminal]) -> None:
+def test_stop_after_the_preview_writes_nothing(start: Callable[..., Terminal]) -> None:
     known = ("--node-kind", "timer", "--maintainer-name", "Ada", "--maintainer-email", "a@x.org")
     terminal = start(*known, "--description", "Ticks", "--extras", "ci", "--license", "MIT")
     terminal.answer("new package:", "talker" + ENTER)
@@ -369,11 +369,11 @@ def test_after_the_preview_nothing_need_be_written(start: Callable[..., Terminal
     assert not os.path.exists("talker")
 
 
-def test_without_a_description_the_one_that_is_shown_is_written(
+def test_empty_description_gives_the_shown_default(
     start: Callable[..., Terminal], tmp_path: Path
 ) -> None:
     terminal = start(size=(40, 200))
-    through_the_publisher(terminal)
+    answer_publisher_questions(terminal)
     terminal.answer("What else to add:", ENTER)
     terminal.says("default: A ROS 2 package with the publisher node speaker")
     terminal.child.send(ENTER)
@@ -386,7 +386,7 @@ def test_without_a_description_the_one_that_is_shown_is_written(
     assert "<description>A ROS 2 package with the publisher node speaker</description>" in manifest
 
 
-def test_without_a_cursor_choices_are_answered_by_name(
+def test_dumb_terminal_takes_choices_by_name(
     start: Callable[..., Terminal], tmp_path: Path
 ) -> None:
     terminal = start(TERM="dumb")
@@ -412,7 +412,7 @@ def test_without_a_cursor_choices_are_answered_by_name(
     assert (tmp_path / "talker" / "launch" / "talker.launch.py").exists()
 
 
-def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Terminal]) -> None:
+def test_unencodable_characters_are_escaped(start: Callable[..., Terminal]) -> None:
     known = ("--node-kind", "timer", "--maintainer-name", "Zo\xeb", "--maintainer-email", "z@x.org")
     terminal = start(*known, "--description", "Ticks", PYTHONIOENCODING="ascii:strict")
     terminal.answer("new package:", "talker" + ENTER)
@@ -425,11 +425,9 @@ def test_what_a_terminal_cannot_show_is_spelled_out(start: Callable[..., Termina
     assert "--maintainer-name 'Zo\\xeb'" in said
 
 
-def test_the_command_has_what_was_given_before(
-    start: Callable[..., Terminal], tmp_path: Path
-) -> None:
+def test_shown_command_includes_given_flags(start: Callable[..., Terminal], tmp_path: Path) -> None:
     terminal = start("--destination-directory", "a b", "--license", "MIT", "--qos", "latched")
-    through_the_publisher(terminal)
+    answer_publisher_questions(terminal)
     terminal.answer("What else to add:", ENTER)
     terminal.answer("What the package is for", "-x `y` $z \"a\" 'b' \\\\ !" + ENTER)
     terminal.answer("Who maintains the package:", "\x15O'Brien" + ENTER)
@@ -452,7 +450,7 @@ def test_the_command_has_what_was_given_before(
 
 
 @pytest.mark.parametrize("shell", SHELLS)
-def test_shells_read_quoted_words_as_they_are(shell: str) -> None:
+def test_quoted_words_survive_each_shell(shell: str) -> None:
     if shutil.which(shell) is None:
         pytest.skip(f"{shell} is not installed")
     words = [
@@ -486,6 +484,6 @@ def test_shells_read_quoted_words_as_they_are(shell: str) -> None:
     assert done.stdout.decode().split("\0")[:-1] == words
 
 
-def test_without_a_terminal_the_name_is_needed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_name_is_required_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new"]) == 2
     assert "PACKAGE is required: the name of the new package" in capsys.readouterr().err
