@@ -82,7 +82,9 @@ def test_template_that_cannot_be_rendered_is_wrong(
     assert "    template 'citation/CITATION.cff.jinja'" in capsys.readouterr().out
 
 
-def test_example_with_unknown_answer_is_wrong(team: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_example_with_unknown_answer_is_wrong(
+    team: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = team / "templates" / "extras" / "citation" / "template.yaml"
     path.write_text(path.read_text().replace("cited_package", "cited_package, year_of_papr: 2020"))
     assert main(["templates", "test", str(team)]) == 1
@@ -95,7 +97,7 @@ def test_example_with_unknown_answer_is_wrong(team: Path, capsys: pytest.Capture
     ]
 
 
-def test_example_that_does_not_use_its_template_is_wrong(
+def test_example_without_its_template_is_wrong(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["templates", "copy", "timer", str(tmp_path), "--name", "watchdog"]) == 0

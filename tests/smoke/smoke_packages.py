@@ -1,4 +1,4 @@
-"""Small ROS 2 packages for the tests of ``smoke``: good ones, and one for each kind of trouble."""
+"""Small ROS 2 packages for the tests of ``smoke``: good ones, and one for each kind of failure."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def talker(
     wait: str = "rclpy.spin(node)",
     handled: str = "(KeyboardInterrupt, ExternalShutdownException)",
 ) -> str:
-    """Return the source of a node that publishes at 10 Hz, unless the holes say otherwise."""
+    """Return the source of a node that publishes at 10 Hz, with the given replacements."""
     holes = {"begin": begin, "tick": tick, "wait": wait}
     filled = {name: indent(dedent(code), " " * 8) for name, code in holes.items()}
     return TALKER.format(

@@ -1,4 +1,4 @@
-"""Running ``smoke`` as users do, and seeing what it leaves behind."""
+"""Helpers to run ``smoke`` as users do, and to find what it leaves behind."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def command_line(*arguments: str | Path) -> list[str]:
 
 
 def variables(tmp: Path, **more: str) -> dict[str, str]:
-    """Return variables by which the processes of a test can be told from all others."""
+    """Return environment variables that identify the processes of a test."""
     return {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp), **more}
 
 
@@ -48,7 +48,7 @@ def pids_of(tmp: Path) -> list[int]:
 
 
 def processes_of(tmp: Path) -> list[str]:
-    """Return their command lines."""
+    """Return the command lines of these processes."""
     commands = []
     for pid in pids_of(tmp):
         try:
@@ -60,7 +60,7 @@ def processes_of(tmp: Path) -> list[str]:
 
 
 def wait_until(condition: Callable[[], bool]) -> None:
-    """Wait for something to happen."""
+    """Wait until a condition holds."""
     deadline = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < deadline, "it did not happen"
@@ -68,7 +68,7 @@ def wait_until(condition: Callable[[], bool]) -> None:
 
 
 def executables_of(package: Path, root: Path, *flags: str) -> list[dict[str, Any]]:
-    """Run the bad executables of a package; return their reports, as nothing else is left of them.
+    """Run the executables of a package; return their reports, and fail if processes are left.
 
     Args:
         package: Its directory.

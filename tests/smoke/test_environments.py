@@ -1,4 +1,4 @@
-"""Environments that are asked for, and what an environment lacks."""
+"""Selecting an environment with a flag, and messages about missing parts."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from tests.smoke.smoke_runs import NEEDS_ROS
         ("/nowhere", "there is no /nowhere/setup.bash; use a directory, or one of "),
     ],
 )
-def test_an_environment_that_is_asked_for_and_is_not_there(
+def test_missing_requested_environment_is_an_error(
     wanted: str, reason: str, tmp_path: Path
 ) -> None:
     (tmp_path / "jazzy").mkdir()
@@ -40,12 +40,12 @@ def test_an_environment_that_is_asked_for_and_is_not_there(
 
 
 @NEEDS_ROS
-def test_wheels_that_are_asked_for_go_before_what_is_sourced(tmp_path: Path) -> None:
+def test_requested_wheels_take_precedence_over_sourced_environment(tmp_path: Path) -> None:
     variables = {"PATH": os.environ["PATH"], "AMENT_PREFIX_PATH": str(tmp_path)}
     assert environment.select(variables, forced="wheels").kind == "wheels"
 
 
-def test_what_an_environment_lacks_is_named_with_the_way_to_get_it(tmp_path: Path) -> None:
+def test_missing_programs_are_named_with_install_commands(tmp_path: Path) -> None:
     index = tmp_path / "ros" / "share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
     (index / "rclpy").touch()

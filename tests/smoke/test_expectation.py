@@ -1,4 +1,4 @@
-"""What ``smoke`` reads in a source, and how it compares that with what it has seen."""
+"""Expectations that ``smoke`` derives from sources, and their comparison with observations."""
 
 from __future__ import annotations
 
@@ -123,7 +123,9 @@ def tick(self):
         ),
     ],
 )  # fmt: skip
-def test_rate_and_certainty(init: str, methods: str, rate: float | None, publishes: str) -> None:
+def test_rate_and_certainty_of_publications(
+    init: str, methods: str, rate: float | None, publishes: str
+) -> None:
     certain, never = publishes == "certain", publishes == "never"
     found = expectations(node(init, methods))["run"]
     (publication,) = found.publications
@@ -143,13 +145,13 @@ def test_rate_and_certainty(init: str, methods: str, rate: float | None, publish
         ("/words", ", namespace='/deep'", "/words"),
     ],
 )
-def test_full_name(name: str, arguments: str, topic: str) -> None:
+def test_full_name_of_topics(name: str, arguments: str, topic: str) -> None:
     source = talker(name).replace("('talker')", f"('talker'{arguments})")
     assert [one.topic for one in expectations(python(source))["run"].publications] == [topic]
 
 
 @pytest.mark.parametrize("arguments", [", namespace=unknown()", ", cli_args=[]", ", **options"])
-def test_name_that_cannot_be_told(arguments: str) -> None:
+def test_unknown_node_name_gives_no_expectation(arguments: str) -> None:
     source = talker("words").replace("('talker')", f"('talker'{arguments})")
     assert expectations(python(source))["run"].publications == ()
 
@@ -158,13 +160,13 @@ def test_name_that_cannot_be_told(arguments: str) -> None:
     "words",
     ["['--ros-args', '-r', '__ns:=/moved']", "'--ros-args -r words:=/others'.split()"],
 )
-def test_program_that_gives_itself_arguments_may_have_any_names(words: str) -> None:
+def test_program_with_own_ros_arguments_gives_no_names(words: str) -> None:
     source = talker("words").replace("rclpy.init(args=args)", f"rclpy.init(args={words})")
     found = expectations(python(source))["run"]
     assert (found.publications, found.is_node) == ((), True)
 
 
-def test_only_nodes_that_are_made_count() -> None:
+def test_node_class_that_is_not_instantiated_is_ignored() -> None:
     package = node("", main="rclpy.spin(Other())")
     assert expectations(package)["run"].publications == ()
 
@@ -186,12 +188,14 @@ def test_node_of_another_module() -> None:
     ],
     ids=["also at the start", "before spin", "after spin"],
 )  # fmt: skip
-def test_start_and_end(init: str, main: str, rate: float | None, certain: bool) -> None:
+def test_publications_in_constructor_and_main(
+    init: str, main: str, rate: float | None, certain: bool
+) -> None:
     one = expectations(node(init, TICK, main))["run"].publications[0]
     assert (one.rate_hz, one.certain, one.never) == (rate, certain, False)
 
 
-def test_attribute_that_is_none_at_first() -> None:
+def test_publisher_attribute_initialized_with_none() -> None:
     init = """\
         self.late = None
         self.late = self.create_publisher(String, 'late', 10)
@@ -213,7 +217,7 @@ def test_program_without_rclpy_is_no_node() -> None:
 
 
 @pytest.mark.parametrize(("guard", "runs_nothing"), [(True, False), (False, True)])
-def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:
+def test_script_that_never_calls_main_runs_nothing(guard: bool, runs_nothing: bool) -> None:
     source = talker("/words")
     script = source if guard else source.partition("\n\nif __name__")[0] + "\n"
     package = Package.of(
@@ -239,7 +243,7 @@ def test_script_that_calls_nothing(guard: bool, runs_nothing: bool) -> None:
         ("install(FILES run.py DESTINATION lib/demo)", []),
     ],
 )
-def test_programs_that_ros2_run_has_to_find(lines: str, names: list[str]) -> None:
+def test_programs_expected_by_ros2_run(lines: str, names: list[str]) -> None:
     package = Package.of(
         {
             "package.xml": MANIFEST.format(name="demo", build_type="ament_cmake", buildtool=""),
@@ -272,7 +276,7 @@ TIMER = "self.create_timer(0.5, self.tick)"
     ],
     ids=["always", "leaves at once", "may leave", "condition", "no timer", "relay"],
 )
-def test_program_that_ends_before_its_timer_has_published(
+def test_program_that_ends_before_its_timer_fires(
     init: str, methods: str, rate: float | None
 ) -> None:
     expectation = expectations(node(init, methods))["run"]
@@ -322,26 +326,28 @@ def expecting(
         (None, seen(1, None, 0.0, 5.0), None),
     ],
 )
-def test_rate(rate: float | None, observation: Observation, problem: str | None) -> None:
+def test_observed_rate_is_compared(
+    rate: float | None, observation: Observation, problem: str | None
+) -> None:
     problems, notes = compare(expecting(rate), observation, 5.5)
     message = f"talker.py publishes {STRING}" + (f" at {rate:g} Hz" if rate else "")
     assert list(map(str, problems)) == ([f"{problem}: {message}"] if problem else [])
     assert notes == []
 
 
-def test_messages_that_come_at_once() -> None:
+def test_bursts_of_several_publishers() -> None:
     assert compare(expecting(3.0), seen(9, 3.4, 2.4), 3.0)[0] != []
     assert compare(expecting(3.0, sources=2), seen(9, 3.4, 2.4), 3.0)[0] == []
 
 
-def test_publisher_that_is_not_used() -> None:
+def test_unused_publisher_is_reported() -> None:
     unused = Expectation((Publication("/words", STRING, None, never=True),), source="talker.py")
     problems, _ = compare(unused, seen(0, None, 0.0), 5.0)
     assert list(map(str, problems)) == ["no message on /words: no running code calls publish()"]
     assert compare(unused, Observation(), 1.0, finished=True) == ([], [])
 
 
-def test_silence() -> None:
+def test_missing_messages_are_reported() -> None:
     problems, notes = compare(expecting(10.0), seen(0, None, 0.0), 9.0)
     assert list(map(str, problems)) == [
         f"no message on /words within 9.0 s: talker.py publishes {STRING} at 10 Hz"
@@ -357,7 +363,7 @@ def test_silence() -> None:
     )
 
 
-def test_timers_that_stand_still_without_a_clock() -> None:
+def test_timers_do_not_fire_without_sim_time_clock() -> None:
     parameters = {"/talker": {"use_sim_time": True}, "/other": None}
     silent = replace(seen(0, None, 0.0), parameters=parameters)
     (problem,), _ = compare(expecting(10.0), silent, 9.0)
@@ -367,7 +373,7 @@ def test_timers_that_stand_still_without_a_clock() -> None:
     assert "clock" not in problem.message
 
 
-def test_nodes_of_the_same_name() -> None:
+def test_nodes_with_the_same_name() -> None:
     _, (note,) = compare(Expectation(), Observation(nodes=("/one",), doubled=("/one",)), 5.0)
     assert note.startswith("several nodes are named /one: ")
 
@@ -392,7 +398,7 @@ if self.pub:
 """
 
 
-def test_services_and_actions_that_are_offered() -> None:
+def test_missing_services_and_actions_are_reported() -> None:
     package = node(OFFERS, TICK + "def late(self):\n    self.create_service(SetBool, 'late', None)")
     text = package.source("demo/run.py").text.replace(
         "import String\n",
@@ -428,7 +434,7 @@ def test_several_types_and_unreadable_messages() -> None:
     ]
 
 
-def test_finished_program() -> None:
+def test_program_that_exits_by_itself() -> None:
     problems, _ = compare(expecting(10.0), seen(20, 10.0, 1.9), 2.0, finished=True)
     assert problems == []
     problems, _ = compare(expecting(10.0), Observation(), 0.3, finished=True)

@@ -1,4 +1,4 @@
-"""Interface packages that the ROS wheels lack: generated from the bundle, built, remembered."""
+"""Interface packages missing from the ROS wheels: generated from the bundle, built, cached."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ COMMON = (
 )
 
 
-def test_packages_that_have_to_be_built() -> None:
+def test_dependency_closure_of_missing_packages() -> None:
     bundle = Bundle()
     assert bundle.closure(["ackermann_msgs", "rclpy"], ["std_msgs"]) == ["ackermann_msgs"]
     assert bundle.closure(["ackermann_msgs"], ["ackermann_msgs"]) == []
@@ -40,7 +40,7 @@ def test_packages_that_have_to_be_built() -> None:
     assert set(COMMON).isdisjoint(needed)
 
 
-def test_sources_of_a_package(tmp_path: Path) -> None:
+def test_generated_sources_of_an_interface_package(tmp_path: Path) -> None:
     Bundle().write("example_interfaces", tmp_path / "example_interfaces", complete=True)
     package = Package.at(str(tmp_path / "example_interfaces"))
     assert package.name == "example_interfaces"
@@ -50,7 +50,7 @@ def test_sources_of_a_package(tmp_path: Path) -> None:
     assert package.source("srv/AddTwoInts.srv").text.startswith("int64 a\nint64 b\n---\nint64 sum")
 
 
-def needing(*names: str) -> Package:
+def package_depending_on(*names: str) -> Package:
     depends = "".join(f"<depend>{name}</depend>" for name in names)
     return Package.of({"package.xml": f"<package><name>demo</name>{depends}</package>"})
 
@@ -78,31 +78,34 @@ def wheels(prefix: Path, kind: str = "wheels") -> Environment:
     return Environment(kind, str(prefix), "rmw", "/nowhere/python3", "/nowhere/colcon", names)
 
 
-def test_other_environments_are_left_alone(tmp_path: Path) -> None:
+def test_interfaces_are_only_built_for_wheels(tmp_path: Path) -> None:
     environment = wheels(tmp_path, "sourced")
-    assert provided(environment, needing("nav2_msgs"), tmp_path) == (environment, [])
+    assert provided(environment, package_depending_on("nav2_msgs"), tmp_path) == (environment, [])
 
 
-def test_package_that_needs_nothing_more(tmp_path: Path) -> None:
+def test_nothing_is_built_without_missing_interfaces(tmp_path: Path) -> None:
     index = tmp_path / "share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
     (index / "std_msgs").touch()
     environment = wheels(tmp_path)
-    assert provided(environment, needing("std_msgs", "rclpy"), tmp_path) == (environment, [])
+    assert provided(environment, package_depending_on("std_msgs", "rclpy"), tmp_path) == (
+        environment,
+        [],
+    )
 
 
-def test_without_generators_it_is_said_what_to_do(tmp_path: Path) -> None:
+def test_missing_generators_are_reported_with_a_fix(tmp_path: Path) -> None:
     (tmp_path / "share/ament_index/resource_index/packages").mkdir(parents=True)
     for name in (*COMMON, "service_msgs"):
         (tmp_path / "share/ament_index/resource_index/packages" / name).touch()
-    _, (line,) = provided(wheels(tmp_path), needing("ackermann_msgs"), tmp_path)
+    _, (line,) = provided(wheels(tmp_path), package_depending_on("ackermann_msgs"), tmp_path)
     assert line.startswith(
         "ackermann_msgs: not among the ROS wheels, and not built: the interface generators are "
         "missing; run: "
     )
 
 
-def test_what_was_built_before_is_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_build_is_reused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     index = tmp_path / "share/ament_index/resource_index/packages"
     index.mkdir(parents=True)
@@ -112,14 +115,14 @@ def test_what_was_built_before_is_used(tmp_path: Path, monkeypatch: pytest.Monke
     assert place is not None
     modules = place / "ackermann_msgs/lib/python3.12/site-packages"
     modules.mkdir(parents=True)
-    result, announced = provided(wheels(tmp_path), needing("ackermann_msgs"), tmp_path)
+    result, announced = provided(wheels(tmp_path), package_depending_on("ackermann_msgs"), tmp_path)
     assert announced == []
     assert result.variables["AMENT_PREFIX_PATH"] == f"{place}/ackermann_msgs:{tmp_path}"
     assert result.variables["LD_LIBRARY_PATH"] == f"{place}/ackermann_msgs/lib"
     assert result.variables["PYTHONPATH"] == str(modules)
 
 
-def test_only_what_interfaces_are_made_from_has_the_part_of_c_plus_plus(
+def test_cpp_is_only_generated_for_dependencies_of_interfaces(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
@@ -133,7 +136,7 @@ def test_only_what_interfaces_are_made_from_has_the_part_of_c_plus_plus(
         (place / name).mkdir(parents=True)
     manifest = "<package><name>made</name><depend>ackermann_msgs</depend></package>"
     made = Package.of({"package.xml": manifest, "msg/Made.msg": "bool it\n"})
-    result, announced = provided(wheels(tmp_path), needing("std_srvs"), tmp_path, made)
+    result, announced = provided(wheels(tmp_path), package_depending_on("std_srvs"), tmp_path, made)
     assert announced == []
     found = result.variables["AMENT_PREFIX_PATH"].split(os.pathsep)
     assert [os.path.basename(prefix) for prefix in found[:2]] == ["std_srvs", "ackermann_msgs"]
@@ -155,7 +158,7 @@ target_link_libraries(demo imported)
 
 @pytest.mark.skipif(not (shutil.which("cmake") and shutil.which("cc")), reason="no C compiler")
 @pytest.mark.parametrize("is_included", [False, True])
-def test_directories_of_another_machine_do_not_stop_cmake(
+def test_include_directories_of_another_machine_are_tolerated(
     tmp_path: Path, *, is_included: bool
 ) -> None:
     (tmp_path / "CMakeLists.txt").write_text(PROJECT)
@@ -178,7 +181,7 @@ def test_directories_of_another_machine_do_not_stop_cmake(
 @pytest.mark.skipif(not HAS_GENERATORS, reason="no generators of interfaces")
 @pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler")
 @pytest.mark.skipif(os.path.exists("/opt/ros"), reason="there is a ROS 2 installation")
-def test_node_with_messages_that_the_wheels_lack(tmp_path: Path) -> None:
+def test_node_with_messages_missing_from_the_wheels(tmp_path: Path) -> None:
     source = (
         talker("/drive")
         .replace("from std_msgs.msg import String", "from ackermann_msgs.msg import AckermannDrive")

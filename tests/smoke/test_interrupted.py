@@ -1,4 +1,4 @@
-"""A run that ends early: it reports what was seen until then."""
+"""An interrupted run reports what was observed so far."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def written(form: str) -> str:
     return out.getvalue()
 
 
-def test_text_says_what_was_not_done() -> None:
+def test_text_lists_packages_that_were_not_run() -> None:
     lines = written("text").splitlines()
     assert "  talker: interrupted" in lines
     assert "unbuilt: not built yet" in lines
@@ -47,7 +47,7 @@ def test_text_says_what_was_not_done() -> None:
     assert lines[-1].startswith("3 packages, 1 executable: unbuilt not built; talker interrupted")
 
 
-def test_json_says_what_was_not_done() -> None:
+def test_json_lists_packages_that_were_not_run() -> None:
     data = json.loads(written("json"))
     assert (data["ok"], data["ended_early"]) == (False, "interrupted by SIGINT")
     assert [package["build"]["interrupted"] for package in data["packages"]] == [
@@ -59,20 +59,20 @@ def test_json_says_what_was_not_done() -> None:
     assert executable["topics"][0]["name"] == "/chatter"
 
 
-def test_junit_counts_what_was_not_done_as_errors() -> None:
+def test_junit_counts_packages_that_were_not_run_as_errors() -> None:
     text = written("junit")
     assert 'errors="2"' in text
     assert "interrupted before the build" in text
 
 
-def test_github_annotates_the_end() -> None:
+def test_github_annotates_the_interruption() -> None:
     assert written("github").startswith(
         "::error title=smoke ended early::interrupted by SIGINT\n::stop-commands::"
     )
     assert "| `unbuilt` | | not built yet |" in github.job_summary(EARLY)
 
 
-def test_the_page_says_what_was_not_done() -> None:
+def test_html_lists_packages_that_were_not_run() -> None:
     page = html.page(EARLY)
     assert "Ended early: interrupted by SIGINT" in page
     assert "Not built yet" in page
@@ -81,7 +81,7 @@ def test_the_page_says_what_was_not_done() -> None:
 
 @NEEDS_ROS
 @pytest.mark.build
-def test_an_interrupted_run_reports_what_it_has_seen(tmp_path: Path) -> None:
+def test_interrupted_run_reports_its_observations(tmp_path: Path) -> None:
     heard = tmp_path / "heard"
     tick = f"if self.count == 15:\n    open({str(heard)!r}, 'a').close()\n"
     package = python_package(tmp_path, "good_py", {"talker": talker("/numbers", tick=tick)})

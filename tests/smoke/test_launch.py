@@ -1,4 +1,4 @@
-"""Launch files of packages: which there are, what their nodes do, what is missing to run them."""
+"""Launch files of packages: which are run, how their nodes behave, what is missing to run them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from tests.smoke.smoke_runs import NEEDS_ROS, command_line, variables
 HAS_LAUNCH = find_spec("launch_ros") is not None
 
 
-def test_launch_files_are_those_that_are_installed(tmp_path: Path) -> None:
+def test_only_installed_launch_files_are_run(tmp_path: Path) -> None:
     share = tmp_path / "share" / "robot"
     for name in ("launch/b.launch.py", "launch/a_launch.xml", "launch/c.launch.yaml", "x.py"):
         (share / name).parent.mkdir(parents=True, exist_ok=True)
@@ -40,8 +40,8 @@ def test_launch_files_are_those_that_are_installed(tmp_path: Path) -> None:
     assert launching.groups("absent", "python3", prefixes) == []
 
 
-def test_what_nodes_below_launch_do_wrong(tmp_path: Path) -> None:
-    """What ends after launch was interrupted has not died."""
+def test_failures_of_nodes_started_by_launch(tmp_path: Path) -> None:
+    """A node that ends after launch was interrupted has not died."""
     (tmp_path / "err").touch()
     (tmp_path / "out").write_text(
         "[ERROR] [talker-1]: process has died [pid 7, exit code 1, cmd '/x/talker'].\n"
@@ -62,7 +62,7 @@ def test_what_nodes_below_launch_do_wrong(tmp_path: Path) -> None:
 
 @NEEDS_ROS
 @pytest.mark.skipif(HAS_LAUNCH, reason="launch_ros is there")
-def test_without_launch_the_way_to_get_it_is_named(tmp_path: Path) -> None:
+def test_missing_launch_is_reported_with_a_fix(tmp_path: Path) -> None:
     ros = environment.select(os.environ, forced="wheels")
     with pytest.raises(EnvironmentMissingError, match="lacks launch_ros; there is no wheel") as no:
         launching.require(ros, [], Origin("test"))

@@ -1,4 +1,4 @@
-"""Managed nodes: led through their states, observed while they are active."""
+"""Managed nodes: taken through their states and observed while active."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def main(args=None):
 
 @pytest.fixture(scope="module")
 def executables(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Any]]:
-    """Run one that obeys, one that cannot be activated, and one that is to stay inactive."""
+    """Run a node that obeys, one that fails to activate, and one that is to stay inactive."""
     root = tmp_path_factory.mktemp("managed")
     modules = {
         "obeys": MANAGED.format(name="obeys", outcome="SUCCESS"),
@@ -90,7 +90,7 @@ def steps(executable: dict[str, Any]) -> list[tuple[str, str, str]]:
 
 @NEEDS_ROS
 @pytest.mark.build
-def test_a_managed_node_is_led_through_all_states(
+def test_managed_node_goes_through_all_states(
     executables: dict[str, dict[str, Any]],
 ) -> None:
     obeys = executables["obeys"]
@@ -108,7 +108,7 @@ def test_a_managed_node_is_led_through_all_states(
 
 @NEEDS_ROS
 @pytest.mark.build
-def test_a_transition_that_fails_is_a_problem(executables: dict[str, dict[str, Any]]) -> None:
+def test_failed_transition_is_a_problem(executables: dict[str, dict[str, Any]]) -> None:
     refuses = executables["refuses"]
     assert steps(refuses)[1] == ("activate", "inactive", "inactive")
     assert len(refuses["transitions"]) == len(("configure", "activate"))
@@ -118,7 +118,7 @@ def test_a_transition_that_fails_is_a_problem(executables: dict[str, dict[str, A
 
 @NEEDS_ROS
 @pytest.mark.build
-def test_smoke_yaml_names_the_transitions(executables: dict[str, dict[str, Any]]) -> None:
+def test_smoke_yaml_sets_the_transitions(executables: dict[str, dict[str, Any]]) -> None:
     assert steps(executables["waits"]) == [("configure", "unconfigured", "inactive")]
     assert executables["waits"]["problems"] == []
 
@@ -130,7 +130,7 @@ def test_transitions_before_and_after_the_observation() -> None:
     assert Scenario(transitions=()).transitions_up == ()
 
 
-def test_a_transition_without_an_answer_is_a_problem() -> None:
+def test_unanswered_transition_is_a_problem() -> None:
     failed = Transition("/a", "cleanup", "inactive", "unknown", 1.0, "it does not answer")
     (problem,) = problems([failed, Transition("/a", "activate", "inactive", "active", 0.1)])
     assert problem.message == "/a does not clean up from inactive: it does not answer"

@@ -1,4 +1,4 @@
-"""What the observer measures: figures in bounded memory, and all there is to see of a node."""
+"""The measurements of the observer: statistics in bounded memory, and the interfaces of a node."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def main(args=None):
 # -- figures
 
 
-def test_spread_of_numbers() -> None:
+def test_spread_statistics() -> None:
     values = [3.0, 1.0, 4.0, 1.0, 5.0]
     spread = Spread()
     assert spread.as_data() is None
@@ -102,7 +102,7 @@ def test_spread_of_numbers() -> None:
     }
 
 
-def test_rates_of_few_messages_are_all_kept() -> None:
+def test_all_rates_of_few_messages_are_kept() -> None:
     moments = Moments()
     for moment in (10.0, 10.5, 11.0, 11.1):
         moments.add(moment)
@@ -132,7 +132,7 @@ def test_stamp_of_a_header(data: bytes, time: float | None) -> None:
     assert stamp(data) == time
 
 
-def info(sent: float, number: int) -> dict[str, int]:
+def message_info(sent: float, number: int) -> dict[str, int]:
     nanoseconds = int(sent * 1e9)
     return {
         "source_timestamp": nanoseconds,
@@ -142,11 +142,11 @@ def info(sent: float, number: int) -> dict[str, int]:
 
 
 @needs_messages
-def test_topic_with_lost_messages() -> None:
+def test_lost_messages_are_counted() -> None:
     kind = messages.find_type("std_msgs/msg/Header")
     topic = Topic()
     for number in (1, 2, 4):
-        topic.take(bytes(20 * number), info(1000.0 + number, number), kind)
+        topic.take(bytes(20 * number), message_info(1000.0 + number, number), kind)
     data = topic.as_report(publishers=1)
     assert (data["count"], data["lost"], data["bytes"]) == (3, 1, 140)
     assert topic.as_report(publishers=2)["lost"] is None
@@ -158,22 +158,22 @@ def test_topic_with_lost_messages() -> None:
 
 
 @needs_messages
-def test_queue_of_large_messages_is_shorter_once_they_wait(
+def test_queue_depth_shrinks_for_late_large_messages(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     kind = messages.find_type("std_msgs/msg/UInt8MultiArray")
     monkeypatch.setattr("time.time", lambda: 1000.0)
     in_time, late = Topic(), Topic()
-    in_time.take(bytes(QUEUE_BYTES // 4), info(999.9, 1), kind)
+    in_time.take(bytes(QUEUE_BYTES // 4), message_info(999.9, 1), kind)
     assert in_time.fitting_depth() == QUEUE_DEPTH
-    late.take(bytes(QUEUE_BYTES // 4), info(990.0, 1), kind)
+    late.take(bytes(QUEUE_BYTES // 4), message_info(990.0, 1), kind)
     assert late.fitting_depth() == 4
-    late.take(bytes(2 * QUEUE_BYTES), info(990.0, 2), kind)
+    late.take(bytes(2 * QUEUE_BYTES), message_info(990.0, 2), kind)
     assert late.fitting_depth() == 1
 
 
 class Reading:
-    """What a field is looked for in."""
+    """A message whose field is read."""
 
     def __init__(self, value: object) -> None:
         self.inner = [self]
@@ -184,7 +184,7 @@ class Reading:
     ("values", "least", "greatest"),
     [((2.0, 1.0, 3.0), 1.0, 3.0), ((1.0, float("nan")), None, None), (("a", "b"), None, None)],
 )
-def test_values_of_a_field(
+def test_least_and_greatest_value_of_a_field(
     values: tuple[object, ...], least: float | None, greatest: float | None
 ) -> None:
     field = Field("inner[0].value")
@@ -195,14 +195,14 @@ def test_values_of_a_field(
     assert (data["count"], data["changes"]) == (len(values), len(values) - 1)
 
 
-def test_field_that_is_not_there() -> None:
+def test_missing_field() -> None:
     field = Field("inner[1]")
     field.take(Reading(1))
     assert (field.as_data()["count"], field.as_data()["error"]) == (0, "no field 'inner[1]'")
 
 
 @needs_messages
-def test_message_is_made_of_plain_data() -> None:
+def test_message_is_filled_from_plain_data() -> None:
     data = {"layout": {"dim": [{"label": "x", "size": 2}]}, "data": [1, 2.5]}
     message = fill(messages.find_type("std_msgs/msg/Float32MultiArray")(), data)
     assert messages.as_data(message) == {
@@ -222,7 +222,7 @@ def test_message_is_made_of_plain_data() -> None:
         ({"data": 2**70}, "'data' cannot be "),
     ],
 )
-def test_message_that_cannot_be_made(values: dict[str, object], reason: str) -> None:
+def test_data_that_does_not_fit_the_message(values: dict[str, object], reason: str) -> None:
     with pytest.raises(ValueError, match=re.escape(reason)):
         fill(messages.find_type("std_msgs/msg/Int32")(), values)
 
@@ -255,12 +255,12 @@ OBSERVATION = Observation(
         ),
     ),
     parameters={"/sensor": {"frame_id": "front", "use_sim_time": False}, "/deaf": None},
-    log=Log({"error": 1, "info": 3}, (LogLine("error", "sensor", "not calibrated", 5.0),)),
+    log=Log({"error": 1, "message_info": 3}, (LogLine("error", "sensor", "not calibrated", 5.0),)),
     usage=Usage(1.0, 12.3, 70_000_000, 71_000_000),
 )  # fmt: skip
 
 
-def test_text_has_one_line_for_a_topic_and_the_first_error() -> None:
+def test_text_has_one_line_per_topic_and_the_first_error() -> None:
     out = StringIO()
     report(smoke_of(OBSERVATION), "text", out)
     assert out.getvalue().splitlines()[3:7] == [
@@ -271,7 +271,7 @@ def test_text_has_one_line_for_a_topic_and_the_first_error() -> None:
     ]
 
 
-def test_verbose_text_shows_all_figures() -> None:
+def test_verbose_text_shows_all_measurements() -> None:
     out = StringIO()
     report(smoke_of(OBSERVATION), "text", out, verbose=True)
     assert out.getvalue().splitlines()[6:17] == [
@@ -282,7 +282,7 @@ def test_verbose_text_shows_all_figures() -> None:
         "      publisher of /sensor: best effort, volatile, keep last 3, deadline 2 s",
         '    parameter frame_id = "front"',
         "    parameters of /deaf: no answer",
-        "    logged 1 error, 3 info",
+        "    logged 1 error, 3 message_info",
         "      ERROR sensor: not calibrated",
         "    memory 70.0 MB, at most 71.0 MB, 12 % of a core",
         "",
@@ -294,7 +294,7 @@ def test_verbose_text_shows_all_figures() -> None:
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_all_there_is_to_see_of_a_node(tmp_path: Path) -> None:
+def test_all_interfaces_of_a_node_are_observed(tmp_path: Path) -> None:
     package = python_package(tmp_path, "observed", {"sensor": SENSOR})
     done = subprocess.run(
         command_line(package, "--duration", "3", "--format", "json"),

@@ -49,7 +49,7 @@ BINARIES = os.path.join(sys.prefix, "bin")
 
 
 @needs_wheels
-def test_wheels_get_an_environment_made_from_nothing(tmp_path: Path) -> None:
+def test_environment_of_wheels_inherits_nothing(tmp_path: Path) -> None:
     user = {
         "HOME": "/home/user", "LC_ALL": "C.UTF-8", "PATH": "/usr/bin", "PYTHONPATH": "/elsewhere",
         "RMW_IMPLEMENTATION": "rmw_no_such_thing", "ROS_DOMAIN_ID": "5", "LD_PRELOAD": "x.so",
@@ -68,7 +68,7 @@ def test_wheels_get_an_environment_made_from_nothing(tmp_path: Path) -> None:
 
 
 @needs_wheels
-def test_sourced_environment_comes_first(tmp_path: Path) -> None:
+def test_sourced_environment_takes_precedence(tmp_path: Path) -> None:
     user = {
         "PATH": f"{BINARIES}:/usr/bin:/bin", "AMENT_PREFIX_PATH": sys.prefix, "MINE": "kept",
         "ROS_STATIC_PEERS": "10.0.0.1", "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
@@ -107,7 +107,7 @@ def test_installation_is_sourced(tmp_path: Path) -> None:
 
 
 @needs_wheels
-def test_what_is_not_taken_is_told(tmp_path: Path) -> None:
+def test_unusable_environments_are_noted(tmp_path: Path) -> None:
     (tmp_path / "jazzy").mkdir()
     (tmp_path / "jazzy" / "setup.bash").write_text("echo no such file >&2; exit 3\n")
     user = {"PATH": str(tmp_path), "AMENT_PREFIX_PATH": "/nowhere"}
@@ -119,7 +119,7 @@ def test_what_is_not_taken_is_told(tmp_path: Path) -> None:
     assert installed == f"{tmp_path}/jazzy/setup.bash cannot be sourced: no such file"
 
 
-def test_no_environment_at_all(tmp_path: Path) -> None:
+def test_no_environment_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(EnvironmentMissingError) as caught:
         environment.select({"PATH": "/usr/bin"}, installed=tmp_path, own_prefix=str(tmp_path))
     assert str(caught.value) == (
@@ -132,28 +132,28 @@ def test_no_environment_at_all(tmp_path: Path) -> None:
 # -- domains
 
 
-def test_domains_are_given_once() -> None:
+def test_reserved_domains_are_distinct() -> None:
     with domain.reserved() as one, domain.reserved() as other:
         assert one != other
         assert {one, other} <= set(range(1, 102))
 
 
-def test_domains_of_other_tests_are_not_given() -> None:
+def test_domains_reserved_by_other_processes_are_skipped() -> None:
     coordinator = pytest.importorskip("domain_coordinator")
     with ExitStack() as stack:
         others = {stack.enter_context(coordinator.domain_id()) for _ in range(90)}
         assert stack.enter_context(domain.reserved()) not in others
 
 
-def test_domain_whose_ports_are_taken_is_busy() -> None:
+def test_domain_with_ports_in_use_is_skipped() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         other.bind(("127.0.0.1", 0))
         port = other.getsockname()[1]
         assert (port - 7400) // 250 in domain.domains_in_use()
 
 
-def test_domain_that_a_process_is_in() -> None:
-    """What tells are the two ports of a participant."""
+def test_domain_of_a_process() -> None:
+    """It follows from the two ports of a participant."""
     with domain.reserved() as number, ExitStack() as stack:
         first = 7400 + 250 * number + 12
         for port in (0, first, first + 1):
@@ -164,7 +164,7 @@ def test_domain_that_a_process_is_in() -> None:
         assert number not in domain.domains_of([1, 2**30])
 
 
-def test_all_domains_are_in_use(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_when_all_domains_are_in_use(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(domain, "domains_in_use", lambda: set(range(1, 102)))
     with pytest.raises(EnvironmentMissingError, match="all ROS domains"), domain.reserved():
         pass
@@ -173,12 +173,12 @@ def test_all_domains_are_in_use(monkeypatch: pytest.MonkeyPatch) -> None:
 # -- processes
 
 
-def asynchronously(run: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
+def run_async(run: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
     return asyncio.run(run())
 
 
 async def started(code: str, directory: Path, mark: str) -> process.Running:
-    """Start a Python program and wait until it has said something."""
+    """Start a Python program and wait for its first output."""
     command = [sys.executable, "-u", "-S", "-c", code]
     running = await process.start(command, dict(os.environ), directory, Origin(mark))
     while not output.read(running.out):
@@ -195,7 +195,7 @@ def test_signal_that_is_obeyed(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    stop, code = asynchronously(run)
+    stop, code = run_async(run)
     assert (stop.sent, stop.was_ignored, code) == (("SIGINT",), False, -2)
 
 
@@ -214,12 +214,12 @@ def test_signal_that_is_ignored(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    stop, exit_code = asynchronously(run)
+    stop, exit_code = run_async(run)
     assert (stop.sent, exit_code) == (("SIGINT", "SIGINT", "SIGTERM"), -15)
     assert (stop.was_ignored, stop.was_missed) == (True, False)
 
 
-def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
+def test_second_signal_is_obeyed(tmp_path: Path) -> None:
     code = (
         "import signal, time\n"
         "def once(number, frame): signal.signal(number, signal.SIG_DFL)\n"
@@ -235,12 +235,12 @@ def test_signal_that_is_obeyed_the_second_time(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    stop = asynchronously(run)
+    stop = run_async(run)
     assert (stop.sent, stop.was_missed) == (("SIGTERM", "SIGTERM"), True)
 
 
-def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
-    """What was there before is left alone, whoever used it, as is what LTTng makes for all."""
+def test_leftover_shared_memory_is_found(tmp_path: Path) -> None:
+    """Segments that existed before are kept, as are those that LTTng shares."""
     code = (
         "import mmap, os, sys\n"
         "def map(path):\n"
@@ -270,7 +270,7 @@ def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
 
     there.touch()
     try:
-        assert asynchronously(run) == [str(new)]
+        assert run_async(run) == [str(new)]
         assert there.exists()
         assert of_all.exists()
         assert not new.exists()
@@ -279,7 +279,7 @@ def test_shared_memory_that_is_left_behind(tmp_path: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
+def test_sweep_finds_orphaned_processes(tmp_path: Path) -> None:
     mark = f"test-{os.getpid()}"
     code = (
         "import subprocess, sys\n"
@@ -299,7 +299,7 @@ def test_sweep_finds_what_has_left_its_parent(tmp_path: Path) -> None:
         finally:
             await running.close()
 
-    assert [one.endswith("time.sleep(600)") for one in asynchronously(run)] == [True]
+    assert [one.endswith("time.sleep(600)") for one in run_async(run)] == [True]
     assert marks.marked(mark) == {}
 
 
@@ -349,7 +349,7 @@ more noise
 """
 
 
-def test_traceback() -> None:
+def test_last_traceback_is_found() -> None:
     trace = output.traceback(CHAINED)
     assert trace is not None
     assert output.exception(trace) == "ValueError: second"
@@ -366,7 +366,7 @@ def test_traceback() -> None:
     assert output.traceback("nothing of the kind") is None
 
 
-def test_traceback_that_python_ignores_is_none() -> None:
+def test_ignored_exception_is_no_traceback() -> None:
     ignored = (
         "Exception ignored in: <function Future.__del__ at 0x7f327814e0c0>\n"
         "Traceback (most recent call last):\n"
@@ -379,7 +379,7 @@ def test_traceback_that_python_ignores_is_none() -> None:
     assert output.exception(trace) == "ValueError: second"
 
 
-def test_traceback_of_who_only_called_is_left_out() -> None:
+def test_traceback_of_the_caller_is_omitted() -> None:
     text = (
         "Traceback (most recent call last):\n"
         '  File "setup.py", line 1, in <module>\n'
@@ -429,7 +429,7 @@ def test_warnings_of_a_build() -> None:
     ]
 
 
-def test_complaints_of_colcon() -> None:
+def test_warnings_of_colcon_about_a_package() -> None:
     text = (
         "[0.2s] WARNING:colcon.colcon_core.x:Failed to parse in '/ws/demo': Error:\n"
         "Package version is wrong\n"
@@ -442,7 +442,7 @@ def test_complaints_of_colcon() -> None:
     ]
 
 
-def test_error_without_a_traceback() -> None:
+def test_error_message_without_a_traceback() -> None:
     text = '  File "talker.py", line 3\n    print x\n    ^^^^^^^\nSyntaxError: invalid\n'
     assert output.named_error(text) == "SyntaxError: invalid"
     assert output.named_error("usage: talker\ntalker: error: no argument\n") is None
@@ -494,7 +494,7 @@ Traceback (most recent call last):
         ("terminate called after throwing an instance of 'std::bad_alloc'\n", None),
     ],
 )
-def test_missing_arguments(text: str, reason: str | None) -> None:
+def test_missing_arguments_are_recognized(text: str, reason: str | None) -> None:
     assert output.missing_arguments(text) == reason
 
 
@@ -512,7 +512,7 @@ def test_long_output_is_cut(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(find_spec("std_msgs") is None, reason="no ROS messages")
-def test_message_as_data() -> None:
+def test_message_as_plain_data() -> None:
     message = messages.find_type("std_msgs/msg/Float32MultiArray")()
     message.data = [0.1, float("nan"), float("-inf"), 1e30] + [1.0] * 20
     dimension = messages.find_type("std_msgs/msg/MultiArrayDimension")
@@ -540,7 +540,7 @@ def test_message_as_data() -> None:
         ("UInt8MultiArray", b"\x00\xff", [0, 255]),
     ],
 )
-def test_field_as_data(kind: str, given: object, shown: object) -> None:
+def test_field_as_plain_data(kind: str, given: object, shown: object) -> None:
     message = messages.find_type(f"std_msgs/msg/{kind}")()
     message.data = given
     assert messages.as_data(message)["data"] == shown
@@ -549,7 +549,7 @@ def test_field_as_data(kind: str, given: object, shown: object) -> None:
 # -- hostile output
 
 
-def test_no_line_of_a_build_takes_long(tmp_path: Path) -> None:
+def test_build_output_is_parsed_in_linear_time(tmp_path: Path) -> None:
     """Each of these took minutes to hours while a pattern was quadratic."""
     size = output.READ_BYTES
     assert output.warnings("x" * size) == []
@@ -564,7 +564,7 @@ def test_no_line_of_a_build_takes_long(tmp_path: Path) -> None:
     assert trial.is_late_call(error + "the context is invalid")
 
 
-def test_repeats_of_colcon_are_left_out() -> None:
+def test_repeated_stderr_of_colcon_is_removed() -> None:
     console = "before\n--- stderr: demo\nerror: of demo\n---\nafter\n--- stderr: cut off\n"
     assert build.without_repeats(console) == "before\nafter\n--- stderr: cut off\n"
 
@@ -572,7 +572,7 @@ def test_repeats_of_colcon_are_left_out() -> None:
 ESCAPES = "\x1b]0;title\x07 \x00 \u202eevil \x9b31m"
 
 
-def test_report_neutralizes_escapes() -> None:
+def test_report_escapes_control_characters() -> None:
     executable = Executable(
         f"run{ESCAPES}",
         Observation(

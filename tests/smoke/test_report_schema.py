@@ -67,9 +67,9 @@ REPORT = Smoke(
 )
 
 
-def test_a_report_with_everything_is_valid() -> None:
+def test_full_report_is_valid() -> None:
     jsonschema.Draft7Validator.check_schema(schema())
-    jsonschema.validate(_lists(as_data(REPORT)), schema())
+    jsonschema.validate(_as_from_json(as_data(REPORT)), schema())
 
 
 @pytest.mark.parametrize(
@@ -82,8 +82,8 @@ def test_a_report_with_everything_is_valid() -> None:
         (("packages", 0, "tests", "cases", 0, "outcome"), "flaky"),
     ],
 )
-def test_a_report_with_another_value_is_not_valid(path: tuple[Any, ...], value: object) -> None:
-    data = deepcopy(_lists(as_data(REPORT)))
+def test_report_with_wrong_value_is_invalid(path: tuple[Any, ...], value: object) -> None:
+    data = deepcopy(_as_from_json(as_data(REPORT)))
     holder = data
     for step in path[:-1]:
         holder = holder[step]
@@ -92,14 +92,14 @@ def test_a_report_with_another_value_is_not_valid(path: tuple[Any, ...], value: 
         jsonschema.validate(data, schema())
 
 
-def test_the_schema_in_the_documentation_is_current(tmp_path: Path) -> None:
+def test_documented_schema_is_up_to_date(tmp_path: Path) -> None:
     document_smoke_report.main(tmp_path)
     name = "smoke-report.schema.json"
     assert (tmp_path / name).read_text() == (document_smoke_report.DOCS / name).read_text()
 
 
-def _lists(value: Any) -> Any:  # noqa: ANN401  JSON
-    """Return data as it is once it has been read from JSON."""
+def _as_from_json(value: Any) -> Any:  # noqa: ANN401  JSON
+    """Return data as JSON would give it back, with lists for tuples."""
     if isinstance(value, dict):
-        return {key: _lists(item) for key, item in value.items()}
-    return [*map(_lists, value)] if isinstance(value, (list, tuple)) else value
+        return {key: _as_from_json(item) for key, item in value.items()}
+    return [*map(_as_from_json, value)] if isinstance(value, (list, tuple)) else value

@@ -1,4 +1,4 @@
-"""Reports of smoke runs for CI and for people: JUnit, GitHub, and the page."""
+"""Reports of smoke runs: JUnit, GitHub and HTML."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def written(result: Smoke, form: str) -> str:
 # -- JUnit
 
 
-def test_colcon_reads_a_case_for_the_build_and_each_executable(tmp_path: Path) -> None:
+def test_junit_has_a_case_for_the_build_and_each_executable(tmp_path: Path) -> None:
     result = smoke_of(executable("talker"), executable("crasher", PROBLEM))
     (tmp_path / "smoke.xunit.xml").write_text(written(result, "junit"))
     code, output = test_result(tmp_path, "--verbose")
@@ -99,7 +99,7 @@ def test_colcon_reads_a_case_for_the_build_and_each_executable(tmp_path: Path) -
     assert "crashed at start: 100 %" in output
 
 
-def test_colcon_reads_a_build_that_failed(tmp_path: Path) -> None:
+def test_junit_of_a_failed_build(tmp_path: Path) -> None:
     result = smoke_of(build=Build(ok=False, errors=("CMake Error",)))
     (tmp_path / "smoke.xunit.xml").write_text(written(result, "junit"))
     code, output = test_result(tmp_path, "--verbose")
@@ -107,7 +107,7 @@ def test_colcon_reads_a_build_that_failed(tmp_path: Path) -> None:
     assert "CMake Error" in output
 
 
-def test_junit_holds_times_files_and_what_was_seen() -> None:
+def test_junit_has_times_files_and_observations() -> None:
     root = read(written(smoke_of(executable("talker", text=HOSTILE)), "junit"))
     build, talker = root.iter("testcase")
     assert (build.get("name"), build.get("time")) == ("smoke build", "1.500")
@@ -128,7 +128,7 @@ def test_problems_are_annotations_at_their_source() -> None:
     )
 
 
-def test_output_of_executables_is_no_command() -> None:
+def test_output_of_executables_cannot_inject_workflow_commands() -> None:
     lines = written(smoke_of(executable("crasher", PROBLEM)), "github").splitlines()
     token = lines[1].removeprefix("::stop-commands::")
     assert re.fullmatch("[0-9a-f]{64}", token)
@@ -137,7 +137,7 @@ def test_output_of_executables_is_no_command() -> None:
     assert len(forged) == 1
 
 
-def test_summary_of_a_job_is_a_table_without_markup_of_others() -> None:
+def test_job_summary_is_a_table_with_escaped_text() -> None:
     hostile = executable(HOSTILE, Problem(f"| {HOSTILE}"), text=HOSTILE)
     summary = github.job_summary(smoke_of(executable("talker"), hostile))
     assert "| `demo` | `talker` | ok | `/text` 4 messages, 10.00 Hz |" in summary
@@ -148,12 +148,12 @@ def test_summary_of_a_job_is_a_table_without_markup_of_others() -> None:
 # -- the page
 
 
-def page_of(result: Smoke) -> lxml_html.HtmlElement:
+def parsed_page(result: Smoke) -> lxml_html.HtmlElement:
     return lxml_html.document_fromstring(html.page(result))
 
 
-def test_page_shows_plot_graph_tables_and_texts() -> None:
-    page = page_of(smoke_of(executable("talker"), executable("crasher", PROBLEM)))
+def test_page_has_plot_graph_tables_and_texts() -> None:
+    page = parsed_page(smoke_of(executable("talker"), executable("crasher", PROBLEM)))
     assert [item.text_content() for item in page.xpath("//h1")] == ["Smoke test: not ok"]
     assert [item.text_content() for item in page.xpath("//h3")] == ["talker: ok", "crasher: not ok"]
     assert len(page.xpath("//polyline")) == 2
@@ -169,7 +169,7 @@ def test_page_shows_plot_graph_tables_and_texts() -> None:
 
 
 def test_page_is_accessible_and_needs_no_network() -> None:
-    page = page_of(smoke_of(executable("talker")))
+    page = parsed_page(smoke_of(executable("talker")))
     assert page.xpath("/html/@lang") == ["en"]
     assert page.xpath("//meta[@name='viewport']")
     assert all(item.get("scope") for item in page.xpath("//th"))
@@ -185,14 +185,14 @@ def test_page_is_accessible_and_needs_no_network() -> None:
     assert "prefers-color-scheme: dark" in html.page(smoke_of())
 
 
-def test_nothing_of_others_becomes_markup() -> None:
+def test_foreign_text_is_escaped_in_html() -> None:
     hostile = executable(HOSTILE, Problem(HOSTILE, (HOSTILE,)), text=HOSTILE)
     build = Build(ok=True, warnings=(HOSTILE,))
     result = smoke_of(hostile, build=build)
     result = replace(result, notes=(HOSTILE,), environment={**ENVIRONMENT, "prefix": HOSTILE})
-    page = page_of(result)
+    page = parsed_page(result)
     assert page.xpath("//script|//img|//@onerror") == []
-    plain = page_of(smoke_of(executable("plain", Problem("p", ("o",))), build=Build(ok=True)))
+    plain = parsed_page(smoke_of(executable("plain", Problem("p", ("o",))), build=Build(ok=True)))
     assert len(page.xpath("//article//*")) == len(plain.xpath("//article//*"))
     assert "\x1b" not in html.page(result)
 
@@ -203,7 +203,7 @@ def browser() -> str | None:
 
 
 @pytest.mark.skipif(browser() is None, reason="no headless browser: install chromium")
-def test_a_browser_shows_the_page(tmp_path: Path) -> None:
+def test_browser_renders_the_page(tmp_path: Path) -> None:
     path = html.write(smoke_of(executable(HOSTILE, Problem(HOSTILE), text=HOSTILE)), str(tmp_path))
     done = subprocess.run(
         [
@@ -224,7 +224,7 @@ def test_a_browser_shows_the_page(tmp_path: Path) -> None:
 # -- pictures
 
 
-def test_graph_has_layers_from_left_to_right() -> None:
+def test_graph_is_layered_from_left_to_right() -> None:
     seen = Observation(
         nodes=("/camera", "/filter"),
         topics=(topic("/image", by="/camera", to="/filter"), topic("/clean", by="/filter")),
@@ -238,14 +238,14 @@ def test_graph_has_layers_from_left_to_right() -> None:
     )  # fmt: skip
 
 
-def test_graph_of_a_circle() -> None:
+def test_graph_with_a_cycle() -> None:
     seen = Observation(nodes=("/loop",), topics=(topic("/echo", by="/loop", to="/loop"),))
     picture = graph.of_observation(seen)
     assert picture is not None
     assert (len(picture.boxes), len(picture.arrows)) == (2, 2)
 
 
-def test_graph_of_many_topics_is_bounded() -> None:
+def test_graph_size_is_bounded() -> None:
     seen = Observation(
         nodes=("/talker",), topics=tuple(topic(f"/t{number}") for number in range(100))
     )
@@ -254,12 +254,12 @@ def test_graph_of_many_topics_is_bounded() -> None:
     assert (len(picture.boxes), picture.left_out) == (graph.MOST_BOXES, 101 - graph.MOST_BOXES)
 
 
-def test_graph_of_nothing() -> None:
+def test_empty_graph() -> None:
     assert graph.of_observation(Observation()) is None
 
 
 @pytest.mark.parametrize("hertz", [1e-7, 0.5, 10.0, 9999.0])
-def test_plot_stays_inside_of_its_axes(hertz: float) -> None:
+def test_plot_stays_within_its_axes(hertz: float) -> None:
     line = plot.of_topic(replace(topic("/t"), rates=((1.0, hertz), (2.0, hertz / 2))))
     assert line is not None
     for point in line.points.split():
@@ -279,7 +279,7 @@ def test_plot_stays_inside_of_its_axes(hertz: float) -> None:
         ("--output-file", "--output-file {}/x: there is no directory '{}'; create it"),
     ],
 )
-def test_place_of_a_report_is_looked_at_before_the_work(
+def test_output_paths_are_validated_before_the_run(
     flag: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "file"

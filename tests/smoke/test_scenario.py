@@ -1,4 +1,4 @@
-"""``smoke.yaml``: what an author expects of executables, and the mistakes in the file."""
+"""``smoke.yaml``: expectations of the author, and errors in the file."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def read(text: str, *executables: str) -> dict[str, Scenario]:
     return scenarios(Package.of({"package.xml": "<package/>", "smoke.yaml": text}), executables)
 
 
-def test_everything_that_can_be_said() -> None:
+def test_all_keys_are_read() -> None:
     result = read(FULL)
     assert result["talker"] == Scenario(
         arguments=("--fast", "3"),
@@ -86,14 +86,14 @@ def test_everything_that_can_be_said() -> None:
     assert result["plain"] == Scenario(duration=2.0)
 
 
-def test_command_of_a_scenario() -> None:
+def test_command_line_of_a_scenario() -> None:
     assert read(FULL)["talker"].command() == [
         "--fast", "3", "--ros-args", "-p", "rate:=10.0", "-p", "wheel.left:=true",
         "-p", 'wheel.names:=["a", "b"]',
     ]  # fmt: skip
 
 
-def test_package_without_a_file_says_nothing() -> None:
+def test_package_without_smoke_yaml_has_no_scenarios() -> None:
     assert scenarios(Package.of({"package.xml": "<package/>"}), ()) == {}
     assert read("") == {}
 
@@ -146,13 +146,13 @@ def test_package_without_a_file_says_nothing() -> None:
         ),
     ],
 )
-def test_mistake_is_one_line_with_its_place(text: str, message: str) -> None:
+def test_invalid_file_is_one_error_with_its_position(text: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         read(text, "talker", "listener")
     assert str(caught.value).endswith(f"smoke.yaml:{message}")
 
 
-def test_mistake_is_reported_before_the_build(
+def test_invalid_file_is_reported_before_the_build(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = python_package(tmp_path, "demo", {"once": ONCE})
@@ -164,7 +164,7 @@ def test_mistake_is_reported_before_the_build(
     )
 
 
-def test_author_goes_before_the_source() -> None:
+def test_smoke_yaml_overrides_expectations_from_the_source() -> None:
     derived = Expectation(
         (
             Publication("/chatter", "std_msgs/msg/String", 10.0, timer_hz=10.0),
@@ -232,7 +232,7 @@ def field(first: object, last: object, changes: int) -> FieldFigures:
         ),
     ],
 )
-def test_values_of_a_field(
+def test_expected_values_of_a_field(
     expected: FieldExpectation, seen: FieldFigures | None, problem: str | None
 ) -> None:
     scenario = Scenario(topics=(TopicExpectation("/t", fields=(expected,)),))
@@ -251,7 +251,7 @@ def test_values_of_a_field(
         ({"a": [1]}, Answer({"a": [1, 2]}), " returned a: [1, 2]: smoke.yaml expects [1]"),
     ],
 )
-def test_answer_of_a_service(
+def test_expected_response_of_a_service(
     expected: dict[str, object], answer: Answer, problem: str | None
 ) -> None:
     scenario = Scenario(calls=(Call("service", "/add", "demo/srv/Add", answer=expected),))
@@ -328,7 +328,7 @@ executables:
 """
 
 
-def smoked(package: Path, tmp_path: Path) -> list[dict[str, object]]:
+def smoke_report(package: Path, tmp_path: Path) -> list[dict[str, object]]:
     done = subprocess.run(
         command_line(package, "--duration", "2", "--format", "json"),
         env=variables(tmp_path),
@@ -343,16 +343,16 @@ def smoked(package: Path, tmp_path: Path) -> list[dict[str, object]]:
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_node_that_does_what_its_author_expects(tmp_path: Path) -> None:
+def test_node_that_meets_its_expectations(tmp_path: Path) -> None:
     package = python_package(tmp_path, "demo", {"server": SERVER, "talker": talker("/t")})
     write(package, {"smoke.yaml": GOOD})
-    (server,) = smoked(package, tmp_path)
+    (server,) = smoke_report(package, tmp_path)
     assert (server["name"], server["problems"]) == ("server", [])
 
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_node_that_does_something_else(tmp_path: Path) -> None:
+def test_node_that_misses_its_expectations(tmp_path: Path) -> None:
     package = python_package(tmp_path, "demo", {"server": SERVER})
     text = (
         GOOD.replace("exit_code: 3", "exit_code: 0")
@@ -363,7 +363,7 @@ def test_node_that_does_something_else(tmp_path: Path) -> None:
         .replace("  talker: {skip: true}\n", "")
     )
     write(package, {"smoke.yaml": text})
-    (server,) = smoked(package, tmp_path)
+    (server,) = smoke_report(package, tmp_path)
     expected = (
         "does not stop cleanly on SIGINT, exit code 3, but smoke.yaml expects 0",
         ": smoke.yaml expects std_msgs/msg/String at 30 Hz",
@@ -378,7 +378,7 @@ def test_node_that_does_something_else(tmp_path: Path) -> None:
         assert any(text in problem for problem in found), text
 
 
-def test_example_in_the_documentation_is_a_scenario() -> None:
+def test_documented_example_is_valid() -> None:
     page = Path(__file__).parents[2].joinpath("docs", "smoke.md").read_text(encoding="utf-8")
     text = page.partition("```yaml\n")[2].partition("```")[0]
     result = read(text, "driver", "calibrate")

@@ -1,4 +1,4 @@
-"""Parts of a workspace: packages by name, with what they need, and since a commit."""
+"""Selection of packages: by name, with their dependencies, and since a commit."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def selected(workspace: Path, *words: str) -> tuple[list[str], list[str] | None]
     return [item.name for item in packages], None if names is None else sorted(names)
 
 
-def test_everything(workspace: Path) -> None:
+def test_all_packages_by_default(workspace: Path) -> None:
     assert selected(workspace) == (["base", "middle", "other", "top"], None)
 
 
@@ -56,12 +56,12 @@ def test_packages_by_name_are_run_and_their_dependencies_built(workspace: Path) 
     assert selected(workspace, *words) == (["base", "middle", "other"], ["middle", "other"])
 
 
-def test_packages_up_to_one_are_run(workspace: Path) -> None:
+def test_packages_up_to(workspace: Path) -> None:
     every = ["base", "middle", "top"]
     assert selected(workspace, "--packages-up-to", "top") == (every, every)
 
 
-def test_packages_that_need_each_other() -> None:
+def test_circular_dependencies() -> None:
     text = "<package><name>{}</name><depend>{}</depend></package>"
     pair = [Package.of({"package.xml": text.format(*names)}) for names in ("ab", "ba")]
     assert with_dependencies(pair, {"a"}) == {"a", "b"}
@@ -80,7 +80,7 @@ def test_packages_since_a_commit_and_what_depends_on_them(workspace: Path) -> No
     ("name", "hint"),
     [("midle", "did you mean 'middle'?"), ("x", "there are base, middle, other, top")],
 )
-def test_package_that_is_not_there(
+def test_unknown_package_is_an_error(
     workspace: Path, name: str, hint: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["smoke", str(workspace), "--packages-select", name]) == 2
@@ -91,7 +91,7 @@ def test_package_that_is_not_there(
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_dependency_is_built_and_not_run_unless_the_environment_cannot(workspace: Path) -> None:
+def test_dependency_is_built_but_not_run(workspace: Path) -> None:
     native = cmake_package(workspace / "src", "native", {})
     add_dependency(native, "moveit_core")
     lists = (native / "CMakeLists.txt").read_text()

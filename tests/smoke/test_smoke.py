@@ -38,7 +38,7 @@ TIMEOUT = 20.0
 
 @pytest.fixture(scope="session")
 def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a directory of packages: good ones, and one for each way to fail."""
+    """Return a directory of packages: good ones, and one for each kind of failure."""
     root = tmp_path_factory.mktemp("sources")
     python_package(root, "good_py", GOOD)
     cmake_package(root, "good_cmake", {"talker": talker("numbers")})
@@ -58,17 +58,17 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def listing(sources: Path) -> dict[str, bytes]:
-    """Return what the sources were before anything was done with them."""
+def original_sources(sources: Path) -> dict[str, bytes]:
+    """Return the content of the sources before the runs."""
     return {str(path): path.read_bytes() for path in sorted(sources.rglob("*")) if path.is_file()}
 
 
 @pytest.fixture(scope="session")
 def packages(
-    sources: Path, listing: dict[str, bytes], tmp_path_factory: pytest.TempPathFactory
+    sources: Path, original_sources: dict[str, bytes], tmp_path_factory: pytest.TempPathFactory
 ) -> dict[str, Result]:
     """Return the reports on all packages, by name, of one run."""
-    assert listing
+    assert original_sources
     before = shared_memory.segments()
     tmp = tmp_path_factory.mktemp("scratch")
     with pytest.MonkeyPatch.context() as patch:
@@ -86,7 +86,7 @@ def packages(
 
 
 def is_about_10(rate: float) -> bool:
-    """Tell whether it is that of the talkers, as exactly as a busy machine can be."""
+    """Tell whether a rate is that of the talkers, with tolerance for a busy machine."""
     return 5.0 < rate < 20.0
 
 
@@ -95,8 +95,8 @@ def executable(packages: dict[str, Result], package: str, name: str) -> Result:
     return next(one for one in found if one["name"] == name)
 
 
-def bad(packages: dict[str, Result], name: str) -> tuple[Result, str]:
-    """Return an executable that is not in order, and its only problem."""
+def failed_executable(packages: dict[str, Result], name: str) -> tuple[Result, str]:
+    """Return the report of a failed executable, and its only problem."""
     found = executable(packages, "bad_py", name)
     assert not found["ok"]
     (problem,) = found["problems"]
@@ -104,7 +104,9 @@ def bad(packages: dict[str, Result], name: str) -> tuple[Result, str]:
 
 
 @pytest.mark.parametrize(("package", "name"), [("good_py", "talker"), ("good_cmake", "talker.py")])
-def test_good_publisher(packages: dict[str, Result], package: str, name: str) -> None:
+def test_good_publisher_has_no_problems(
+    packages: dict[str, Result], package: str, name: str
+) -> None:
     assert packages[package]["build"]["ok"]
     assert packages[package]["build"]["warnings"] == []
     found = executable(packages, package, name)
@@ -122,7 +124,7 @@ def test_good_publisher(packages: dict[str, Result], package: str, name: str) ->
     assert found["stop"]["traceback"] is None
 
 
-def test_schema(packages: dict[str, Result]) -> None:
+def test_keys_of_the_report(packages: dict[str, Result]) -> None:
     package = packages["good_py"]
     assert set(package) == {
         "name", "dependency", "worker", "build", "executables", "together", "launches", "tests",
@@ -165,7 +167,7 @@ def test_program_that_is_no_node(packages: dict[str, Result]) -> None:
 
 
 def test_crash_at_start(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "crashes")
+    found, problem = failed_executable(packages, "crashes")
     assert problem.splitlines()[0] == (
         "crashed at start, exit code 1: RuntimeError: no configuration found"
     )
@@ -173,48 +175,48 @@ def test_crash_at_start(packages: dict[str, Result]) -> None:
     assert (found["nodes"], found["stop"]["exit_code"]) == ([], 1)
 
 
-def test_crash_later(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "crashes_later")
+def test_crash_after_start(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "crashes_later")
     assert problem.splitlines()[0].endswith("s, exit code 1: ValueError: the counter is worn out")
     assert problem.startswith("crashed after ")
     assert found["nodes"] == ["/talker"]
     assert 1 <= found["topics"][0]["count"] <= 8
 
 
-def test_hangs_before_there_is_a_node(packages: dict[str, Result]) -> None:
-    _, problem = bad(packages, "hangs")
+def test_program_that_hangs_before_creating_a_node(packages: dict[str, Result]) -> None:
+    _, problem = failed_executable(packages, "hangs")
     lines = problem.splitlines()
     assert lines[:2] == [f"hangs: no node appeared within {TIMEOUT:g} s", "waiting for the device"]
     assert "    threading.Event().wait()" in lines
 
 
-def test_ignores_signals(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "ignores")
+def test_program_that_ignores_signals(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "ignores")
     assert problem == "ignored SIGINT: still running after 5 s, SIGKILL ended it"
     assert (found["stop"]["signal"], found["stop"]["exit_code"]) == ("SIGKILL", -9)
 
 
-def test_leaves_a_process(packages: dict[str, Result]) -> None:
-    _, problem = bad(packages, "parent")
+def test_program_that_leaves_a_process(packages: dict[str, Result]) -> None:
+    _, problem = failed_executable(packages, "parent")
     assert problem.startswith("leaves a process running: ")
     assert problem.endswith("-c import time; time.sleep(600)")
 
 
-def test_never_publishes(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "silent")
+def test_node_that_never_publishes(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "silent")
     assert problem == "no message on /silent: no running code calls publish()"
     assert found["topics"][0]["count"] == 0
 
 
-def test_wrong_rate(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "slow")
+def test_node_with_wrong_rate(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "slow")
     # How slow the machine is decides whether the rate or the count is reported.
     assert problem.startswith(("/slow comes at ", "only "))
     assert problem.endswith(": bad_py/slow.py publishes std_msgs/msg/String at 10 Hz")
     assert (found["topics"][0]["rate_hz"] or 0) < 6.0
 
 
-def test_rate_that_is_wrong_once(packages: dict[str, Result]) -> None:
+def test_wrong_rate_in_one_of_two_runs_is_a_note(packages: dict[str, Result]) -> None:
     found = executable(packages, "bad_py", "late_once")
     assert (found["ok"], found["problems"]) == (True, [])
     (note,) = found["notes"]
@@ -225,8 +227,8 @@ def test_rate_that_is_wrong_once(packages: dict[str, Result]) -> None:
     assert is_about_10(found["topics"][0]["rate_hz"])
 
 
-def test_traceback_at_stop(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "traceback")
+def test_traceback_on_shutdown(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "traceback")
     assert problem.splitlines()[0] == (
         "does not stop cleanly on SIGINT, killed by SIGINT: KeyboardInterrupt"
     )
@@ -235,13 +237,13 @@ def test_traceback_at_stop(packages: dict[str, Result]) -> None:
 
 
 def test_node_that_is_not_spun(packages: dict[str, Result]) -> None:
-    _, problem = bad(packages, "unspun")
+    _, problem = failed_executable(packages, "unspun")
     assert problem.startswith("exited by itself after ")
     assert "before a message on /unspun: bad_py/unspun.py publishes" in problem
 
 
-def test_node_that_leaves_before_it_has_published(packages: dict[str, Result]) -> None:
-    found, problem = bad(packages, "leaves")
+def test_node_that_exits_before_publishing(packages: dict[str, Result]) -> None:
+    found, problem = failed_executable(packages, "leaves")
     assert problem.startswith("exited by itself after ")
     assert problem.endswith(
         "before a message on /leaves: bad_py/leaves.py publishes std_msgs/msg/String at 2 Hz"
@@ -249,7 +251,7 @@ def test_node_that_leaves_before_it_has_published(packages: dict[str, Result]) -
     assert (found["stop"]["signal"], found["stop"]["exit_code"]) == (None, 0)
 
 
-def test_does_not_build(packages: dict[str, Result]) -> None:
+def test_package_that_does_not_build(packages: dict[str, Result]) -> None:
     for name, first, some in (
         ("unbuilt_cmake", "CMake Error at CMakeLists.txt:5 (find_package):", "no_such_package"),
         ("unbuilt_py", "Traceback (most recent call last):", "No module named 'no_such_module'"),
@@ -261,7 +263,7 @@ def test_does_not_build(packages: dict[str, Result]) -> None:
         assert packages[name]["executables"] == []
 
 
-def test_dependency_does_not_build(packages: dict[str, Result]) -> None:
+def test_package_with_failed_dependency(packages: dict[str, Result]) -> None:
     assert packages["dependent"]["build"] == {
         "ok": False,
         "interrupted": False,
@@ -279,14 +281,14 @@ def test_package_that_colcon_ignores(tmp_path: Path) -> None:
     assert result.packages[0].build.errors == ("not built: colcon does not find the package",)
 
 
-def test_build_that_takes_too_long(sources: Path) -> None:
+def test_build_timeout(sources: Path) -> None:
     found = packages_of(targets.find([str(sources / "good_py")]))
     result = smoke(found, Options(build_timeout=0.1))
     assert not result.ok
     assert result.packages[0].build.errors[-1] == "the build did not finish within 0.1 s"
 
 
-def test_executable_that_ros2_run_does_not_find(packages: dict[str, Result]) -> None:
+def test_executable_not_found_by_ros2_run(packages: dict[str, Result]) -> None:
     found = executable(packages, "uninstalled", "once")
     assert found["problems"] == [
         "ros2 run does not find it: it is declared, but not in lib/uninstalled"
@@ -295,15 +297,15 @@ def test_executable_that_ros2_run_does_not_find(packages: dict[str, Result]) -> 
 
 
 def test_sources_are_not_changed(
-    packages: dict[str, Result], sources: Path, listing: dict[str, bytes]
+    packages: dict[str, Result], sources: Path, original_sources: dict[str, bytes]
 ) -> None:
     assert packages
-    assert listing == {
+    assert original_sources == {
         str(path): path.read_bytes() for path in sorted(sources.rglob("*")) if path.is_file()
     }
 
 
-def test_command_line(sources: Path, tmp_path: Path) -> None:
+def test_json_report_from_the_command_line(sources: Path, tmp_path: Path) -> None:
     workspace = tmp_path / "workspace"
     done = subprocess.run(
         command_line(
@@ -330,7 +332,7 @@ def test_command_line(sources: Path, tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["workspace"]
 
 
-def test_text(sources: Path, tmp_path: Path) -> None:
+def test_text_report(sources: Path, tmp_path: Path) -> None:
     done = subprocess.run(
         command_line(sources / "good_cmake", sources / "unbuilt_py", "--duration", "1", "--keep"),
         env=variables(tmp_path),
@@ -360,7 +362,9 @@ def test_text(sources: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
 )
-def test_interrupted(sources: Path, tmp_path: Path, number: signal.Signals, code: int) -> None:
+def test_interrupted_while_running(
+    sources: Path, tmp_path: Path, number: signal.Signals, code: int
+) -> None:
     with subprocess.Popen(
         command_line(sources / "good_py", "--duration", "300"),
         env=variables(tmp_path),
@@ -392,7 +396,7 @@ def test_interrupted_during_the_build(sources: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(Path("/opt/ros").exists(), reason="there is a ROS 2 installation")
-def test_without_ros(sources: Path, tmp_path: Path) -> None:
+def test_error_without_ros(sources: Path, tmp_path: Path) -> None:
     python = tmp_path / "bare" / "bin" / "python"
     venv.create(tmp_path / "bare", symlinks=True)
     done = subprocess.run(

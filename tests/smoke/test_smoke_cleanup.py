@@ -1,4 +1,4 @@
-"""``smoke`` leaves nothing: no process, no shared memory, no directory, however it is ended."""
+"""``smoke`` cleans up processes, shared memory and directories, however it ends."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ signal.pause()
 def run_supervised(
     code: str, directory: Path, use: Callable[[process.Running], Coroutine[Any, Any, Any]]
 ) -> Any:  # noqa: ANN401  whatever the function returns
-    """Run a Python program below a supervisor; return what a function makes of it."""
+    """Run a Python program under a supervisor; return the result of a function of it."""
 
     async def run() -> Any:  # noqa: ANN401  likewise
         command = [sys.executable, "-u", "-S", "-c", code]
@@ -88,14 +88,14 @@ def run_supervised(
     return asyncio.run(run())
 
 
-async def until_it_writes(running: process.Running) -> None:
+async def wait_for_output(running: process.Running) -> None:
     while not output.read(running.out):
         assert running.exit_code is None, output.read(running.err)
         await asyncio.sleep(0.01)
 
 
 def has_ended(entry: Path) -> bool:
-    """Tell whether the process of an entry in /proc has ended, also if nobody has noticed yet."""
+    """Tell whether the process of an entry in /proc has ended, zombies included."""
     try:
         return (entry / "stat").read_text().rpartition(")")[2].split()[0] in {"Z", "X"}
     except (FileNotFoundError, ProcessLookupError):
@@ -105,7 +105,7 @@ def has_ended(entry: Path) -> bool:
 # -- processes
 
 
-def test_detached_process_is_found_and_ended(tmp_path: Path) -> None:
+def test_detached_process_is_killed(tmp_path: Path) -> None:
     async def use(running: process.Running) -> list[str]:
         assert await running.ended_within(PATIENCE)
         return await running.finish(grace=0.1)
@@ -113,11 +113,11 @@ def test_detached_process_is_found_and_ended(tmp_path: Path) -> None:
     assert run_supervised(DETACHED, tmp_path, use) == ["sleep 612"]
 
 
-def test_processes_that_fork_all_the_time_are_ended(tmp_path: Path) -> None:
+def test_fork_bomb_is_killed(tmp_path: Path) -> None:
     children: list[Path] = []
 
     async def use(running: process.Running) -> None:
-        await until_it_writes(running)
+        await wait_for_output(running)
         children.append(Path("/proc", str(running.group)))
 
     run_supervised(STUBBORN, tmp_path, use)
@@ -125,7 +125,7 @@ def test_processes_that_fork_all_the_time_are_ended(tmp_path: Path) -> None:
     assert marks.marked(f"test-{os.getpid()}") == {}
 
 
-def test_program_that_kills_its_supervisor(tmp_path: Path) -> None:
+def test_program_that_kills_its_supervisor_is_cleaned_up(tmp_path: Path) -> None:
     async def use(running: process.Running) -> bool:
         assert await running.ended_within(PATIENCE)
         await running.finish()
@@ -152,7 +152,7 @@ def test_program_that_cannot_be_started(tmp_path: Path) -> None:
         asyncio.run(start("script"))
 
 
-def test_endless_output_takes_little_space(tmp_path: Path) -> None:
+def test_endless_output_is_bounded(tmp_path: Path) -> None:
     blocks, size = 400, 2**20
     code = f"import sys\nfor _ in range({blocks}): sys.stdout.write('x' * {size})\nprint('\\nend')"
 
@@ -168,7 +168,7 @@ def test_endless_output_takes_little_space(tmp_path: Path) -> None:
     run_supervised(code, tmp_path, use)
 
 
-def test_short_command_leaves_nothing() -> None:
+def test_short_command_is_cleaned_up() -> None:
     code = f"print('out', flush=True)\n{DETACHED}"
     origin = Origin(f"test-{os.getpid()}")
     command = [sys.executable, "-S", "-c", code]
@@ -184,14 +184,14 @@ def test_short_command_leaves_nothing() -> None:
 
 @pytest.fixture
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return the directory of the ledgers, which is empty; scratch directories are elsewhere."""
+    """Return the empty directory of the ledgers; scratch directories are elsewhere."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     return tmp_path / "state" / "ros2-scaffold" / "smoke"
 
 
-def abandon(state: Path, mark: str, *lines: dict[str, object]) -> Path:
-    """Write a ledger that nobody holds."""
+def write_orphaned_ledger(state: Path, mark: str, *lines: dict[str, object]) -> Path:
+    """Write a ledger without a living owner."""
     state.mkdir(parents=True, exist_ok=True)
     path = state / f"{mark}.jsonl"
     path.write_text("".join(json.dumps(line) + "\n" for line in lines))
@@ -207,7 +207,7 @@ def scratch_of(parent: Path, mark: str, marker: str | None = None) -> Path:
 
 
 def first_line(state: Path, scratch: Path | None) -> dict[str, object]:
-    """Return the first line as a run of today writes it."""
+    """Return the first line of a ledger as a current run writes it."""
     with ledger.opened("other", scratch) as path:
         assert path is not None
         line: dict[str, object] = json.loads(path.read_text())
@@ -228,14 +228,14 @@ def test_run_removes_its_ledger_and_its_directory(state: Path, tmp_path: Path) -
     assert [path.name for path in tmp_path.iterdir()] == ["state"]
 
 
-def test_directory_of_a_dead_run_is_removed(state: Path, tmp_path: Path) -> None:
+def test_directory_of_killed_run_is_removed(state: Path, tmp_path: Path) -> None:
     mark = "0" * 32
     scratch = scratch_of(tmp_path, mark)
     outside = tmp_path / "outside"
     outside.mkdir()
     (outside / "kept").touch()
     (scratch / "link").symlink_to(outside)
-    path = abandon(state, mark, {"place": "another boot", "scratch": str(scratch)})
+    path = write_orphaned_ledger(state, mark, {"place": "another boot", "scratch": str(scratch)})
     leftovers.sweep()
     assert not scratch.exists()
     assert not path.exists()
@@ -243,9 +243,7 @@ def test_directory_of_a_dead_run_is_removed(state: Path, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("trouble", ["other marker", "other name", "link"])
-def test_directory_that_is_not_provably_ours_is_kept(
-    state: Path, tmp_path: Path, trouble: str
-) -> None:
+def test_directory_of_unknown_origin_is_kept(state: Path, tmp_path: Path, trouble: str) -> None:
     mark = "1" * 32
     scratch = scratch_of(tmp_path, mark, marker="2" * 32 if trouble == "other marker" else None)
     if trouble == "other name":
@@ -253,12 +251,12 @@ def test_directory_that_is_not_provably_ours_is_kept(
     elif trouble == "link":
         real = scratch.rename(tmp_path / "real")
         scratch.symlink_to(real)
-    abandon(state, mark, {"place": "another boot", "scratch": str(scratch)})
+    write_orphaned_ledger(state, mark, {"place": "another boot", "scratch": str(scratch)})
     leftovers.sweep()
     assert (scratch / "below" / "file").exists()
 
 
-def test_process_of_a_dead_run_is_ended(state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_process_of_killed_run_is_killed(state: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(leftovers, "_PATIENCE", 0.1)
     line = first_line(state, None)
     with subprocess.Popen(["sleep", "600"]) as ours, subprocess.Popen(["sleep", "600"]) as other:
@@ -267,7 +265,7 @@ def test_process_of_a_dead_run_is_ended(state: Path, monkeypatch: pytest.MonkeyP
             listed = table.of_pid(one.pid)
             assert listed is not None
             entries.append((one.pid, listed.started + shift))
-        path = abandon(state, "3" * 32, line, {"processes": entries})
+        path = write_orphaned_ledger(state, "3" * 32, line, {"processes": entries})
         leftovers.sweep()
         assert ours.wait(PATIENCE) == -signal.SIGKILL
         assert other.poll() is None
@@ -275,7 +273,7 @@ def test_process_of_a_dead_run_is_ended(state: Path, monkeypatch: pytest.MonkeyP
     assert not path.exists()
 
 
-def test_damaged_ledgers_harm_nobody(state: Path) -> None:
+def test_damaged_ledgers_are_ignored(state: Path) -> None:
     state.mkdir(parents=True)
     (state / "a.jsonl").write_bytes(b'{"place": 1}\n[]\nnull\n{"processes": [["x"]]}\n\x80{')
     (state / "b.new").touch()
@@ -285,7 +283,7 @@ def test_damaged_ledgers_harm_nobody(state: Path) -> None:
     assert sorted(path.name for path in state.iterdir()) == ["c.jsonl", "d.jsonl"]
 
 
-def test_without_a_place_for_the_ledger(state: Path) -> None:
+def test_run_without_a_writable_ledger_directory(state: Path) -> None:
     state.parent.mkdir(parents=True)
     state.touch()
     leftovers.sweep()
@@ -297,7 +295,7 @@ def test_without_a_place_for_the_ledger(state: Path) -> None:
 # -- two runs in one workspace
 
 
-def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
+def test_locked_workspace_is_an_error(tmp_path: Path) -> None:
     told: list[str] = []
     with (
         locked(tmp_path, 0.0, told.append),
@@ -314,7 +312,7 @@ def test_workspace_in_use_is_refused(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_workspace_is_waited_for(tmp_path: Path) -> None:
+def test_lock_of_workspace_is_waited_for(tmp_path: Path) -> None:
     is_waiting = threading.Event()
     is_held = threading.Event()
 
@@ -331,7 +329,7 @@ def test_workspace_is_waited_for(tmp_path: Path) -> None:
     holder.join()
 
 
-def test_workspace_that_cannot_be_one(tmp_path: Path) -> None:
+def test_file_as_workspace_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with (
         pytest.raises(InputError, match="cannot be used as a workspace"),
@@ -352,7 +350,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def run(package: Path, tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Start a run that lasts until it is ended."""
+    """Start a run that lasts until a test ends it."""
     (tmp_path / "tmp").mkdir()
     with subprocess.Popen(
         command_line(package, "--duration", "300"),
@@ -377,13 +375,13 @@ def domains_of(pids: Iterable[int]) -> set[int]:
 
 
 def is_shared(segment: str, domains: set[int]) -> bool:
-    """Tell whether processes in other domains use it as well: the port of none of these."""
+    """Tell whether a segment is a port of another domain, which other processes may use."""
     port = re.fullmatch(r"fastrtps_port(\d+)", segment)
     return port is not None and (int(port[1]) - 7400) // 250 not in domains
 
 
 def segments_in_use(tmp: Path) -> set[str]:
-    """Wait until the node and its observer talk; return the shared memory that they alone use."""
+    """Wait until node and observer communicate; return the shared memory that only they use."""
     in_use: set[str] = set()
 
     def talk() -> bool:
@@ -398,15 +396,15 @@ def segments_in_use(tmp: Path) -> set[str]:
     return in_use
 
 
-def left_of(segments: set[str]) -> set[str]:
-    """Return those of the segments that are left, and that nobody else uses."""
+def remaining_segments(segments: set[str]) -> set[str]:
+    """Return the remaining segments that no other process uses."""
     return (segments & shared_memory.segments()) - shared_memory.used_by_anybody()
 
 
 @pytest.mark.build
 @NEEDS_ROS
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_interrupted_run_leaves_nothing(
+def test_interrupted_run_is_cleaned_up(
     run: subprocess.Popen[str], tmp_path: Path, number: signal.Signals
 ) -> None:
     tmp = tmp_path / "tmp"
@@ -416,14 +414,14 @@ def test_interrupted_run_leaves_nothing(
     assert f"\nended early: interrupted by {number.name}\n" in report
     assert said == f"ros2-scaffold: interrupted by {number.name}\n"
     assert run.returncode == 128 + number
-    assert (processes_of(tmp), list(tmp.iterdir()), left_of(segments)) == ([], [], set())
+    assert (processes_of(tmp), list(tmp.iterdir()), remaining_segments(segments)) == ([], [], set())
     assert list(tmp_path.glob("state/*/*/*")) == []
 
 
 @pytest.mark.build
 @NEEDS_ROS
 @pytest.mark.parametrize("all_at_once", [False, True], ids=["smoke", "all its processes"])
-def test_next_run_removes_what_a_killed_run_has_left(
+def test_next_run_cleans_up_after_a_killed_run(
     run: subprocess.Popen[str],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -441,11 +439,11 @@ def test_next_run_removes_what_a_killed_run_has_left(
     run.kill()
     run.wait()
     wait_until(lambda: processes_of(tmp) == [])
-    assert (left_of(segments) != set()) == all_at_once
+    assert (remaining_segments(segments) != set()) == all_at_once
     assert len(list(tmp.iterdir())) == 1
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     leftovers.sweep()
-    assert (list(tmp.iterdir()), left_of(segments)) == ([], set())
+    assert (list(tmp.iterdir()), remaining_segments(segments)) == ([], set())
 
 
 @pytest.mark.build
@@ -459,11 +457,11 @@ def test_closed_terminal_ends_the_run(package: Path, tmp_path: Path) -> None:
     with suppress(pexpect.ExceptionPexpect):  # it does not wait for the end
         terminal.close(force=False)
     wait_until(lambda: processes_of(tmp_path) == [])
-    assert (list(tmp_path.iterdir()), left_of(segments)) == ([], set())
+    assert (list(tmp_path.iterdir()), remaining_segments(segments)) == ([], set())
 
 
 @pytest.mark.build
-def test_interrupted_while_it_looks_for_ros(package: Path, tmp_path: Path) -> None:
+def test_interrupted_while_searching_for_ros(package: Path, tmp_path: Path) -> None:
     (tmp_path / "bin").mkdir()
     for name in ("python3", "colcon"):
         (tmp_path / "bin" / name).write_text("#!/bin/sh\nsleep 600 & wait\n")
@@ -489,7 +487,7 @@ def _text(directory: Path) -> str:
 
 
 @NEEDS_ROS
-def test_a_signal_while_it_cleans_up_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_signal_during_cleanup_is_delayed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scratch").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "scratch"))
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))

@@ -1,4 +1,4 @@
-"""``smoke --test``: what ``colcon test`` finds is part of the result."""
+"""``smoke --test``: the results of ``colcon test`` are part of the report."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ line 2</failure></testcase>
 """
 
 
-def test_cases_of_a_file() -> None:
+def test_cases_are_read_from_junit() -> None:
     assert list(read(XML)) == [
         TestCase("demo.flake8.D100", "failed", ("D100 missing", "line 1", "line 2")),
         TestCase("demo.good", "passed"),
@@ -46,7 +46,7 @@ def test_cases_of_a_file() -> None:
         b'<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]><testsuite>&b;</testsuite>',
     ],
 )
-def test_file_that_holds_no_cases(data: bytes) -> None:
+def test_file_without_cases(data: bytes) -> None:
     assert list(read(data)) == []
 
 
@@ -61,7 +61,7 @@ def written(tests: Tests, form: str) -> str:
     return out.getvalue()
 
 
-def test_a_failed_test_fails_the_package() -> None:
+def test_failed_test_fails_the_package() -> None:
     tests = Tests(tuple(read(XML)))
     assert not smoke_of(tests).ok
     lines = written(tests, "text").splitlines()
@@ -71,19 +71,19 @@ def test_a_failed_test_fails_the_package() -> None:
     assert "title=demo: demo.bad failed::boom" in written(tests, "github").replace("%3A", ":")
 
 
-def test_tests_that_pass_are_counted() -> None:
+def test_passed_tests_are_counted() -> None:
     tests = Tests((TestCase("a", "passed"),))
     assert smoke_of(tests).ok
     assert "  1 test: ok" in written(tests, "text").splitlines()
 
 
-def test_colcon_that_fails_by_itself() -> None:
+def test_failure_of_colcon_itself() -> None:
     tests = Tests((), "the tests did not finish within 5 s")
     assert not smoke_of(tests).ok
     assert "    problem: the tests did not finish within 5 s" in written(tests, "text").splitlines()
 
 
-def test_cases_are_part_of_the_suite(tmp_path: Path) -> None:
+def test_cases_are_part_of_the_junit_suite(tmp_path: Path) -> None:
     (tmp_path / "smoke.xunit.xml").write_text(written(Tests(tuple(read(XML))), "junit"))
     code, output = test_result(tmp_path, "--verbose")
     assert (code, "5 tests, 0 errors, 2 failures, 1 skipped" in output) == (1, True)

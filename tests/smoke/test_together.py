@@ -1,4 +1,4 @@
-"""``smoke --together``: nodes of a package in one domain, and what keeps them from connecting."""
+"""``smoke --together``: nodes of a package in one domain, and why they do not connect."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.smoke.smoke_runs import NEEDS_ROS, command_line, processes_of, variab
 STRING = "std_msgs/msg/String"
 
 
-def quality(**changes: object) -> dict[str, Any]:
+def qos(**changes: object) -> dict[str, Any]:
     return {
         "reliability": "reliable", "durability": "volatile", "history": "unknown", "depth": 0,
         "deadline": None, "lifespan": None, "liveliness": "automatic", **changes,
@@ -36,11 +36,11 @@ def topic(name: str, *endpoints: Endpoint) -> Topic:
 
 
 def publisher(kind: str = STRING, **changes: object) -> Endpoint:
-    return Endpoint("publisher", "/talker", kind, quality(**changes))
+    return Endpoint("publisher", "/talker", kind, qos(**changes))
 
 
 def subscription(kind: str = STRING, **changes: object) -> Endpoint:
-    return Endpoint("subscription", "/listener", kind, quality(**changes))
+    return Endpoint("subscription", "/listener", kind, qos(**changes))
 
 
 @pytest.mark.parametrize(
@@ -77,13 +77,15 @@ def subscription(kind: str = STRING, **changes: object) -> Endpoint:
         ),
     ],
 )
-def test_quality_of_service(offered: Endpoint, wanted: Endpoint, reason: str | None) -> None:
+def test_incompatible_qos_is_reported(
+    offered: Endpoint, wanted: Endpoint, reason: str | None
+) -> None:
     found = [str(item) for item in connections(Observation(topics=(topic("/t", offered, wanted),)))]
     expected = f"/t: /listener receives nothing from /talker: {reason}"
     assert found == ([expected] if reason else [])
 
 
-def test_names_that_differ_by_a_slip() -> None:
+def test_misspelled_topic_is_reported() -> None:
     seen = Observation(topics=(topic("/chatter", publisher()), topic("/chater", subscription())))
     assert [str(item) for item in connections(seen)] == [
         (
@@ -96,7 +98,7 @@ def test_names_that_differ_by_a_slip() -> None:
 @pytest.mark.parametrize(
     "other", [topic("/input", subscription()), topic("/chater", subscription("std_msgs/msg/Bool"))]
 )
-def test_topics_that_are_for_others(other: Topic) -> None:
+def test_topics_of_other_packages_are_not_reported(other: Topic) -> None:
     assert list(connections(Observation(topics=(topic("/chatter", publisher()), other)))) == []
 
 
@@ -113,7 +115,7 @@ LISTENER = talker(
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_nodes_of_a_package_that_do_not_connect(tmp_path: Path) -> None:
+def test_unconnected_nodes_of_a_package(tmp_path: Path) -> None:
     modules = {"talker": talker("/numbers"), "listener": LISTENER, "once": ONCE}
     package = python_package(tmp_path / "src", "pair", modules)
     done = subprocess.run(
@@ -155,8 +157,8 @@ from multiprocessing import resource_tracker, shared_memory""",
 
 @pytest.mark.build
 @NEEDS_ROS
-def test_what_nodes_together_leave_behind_is_named(tmp_path: Path) -> None:
-    """As of each of them alone: a process, and the shared memory of one that was killed."""
+def test_leftovers_of_nodes_run_together_are_reported(tmp_path: Path) -> None:
+    """A process, and the shared memory of a killed node."""
     modules = {"keeps": KEEPS, "parent": PARENT, "ignores": IGNORES_SIGINT}
     package = python_package(tmp_path / "src", "litter", modules)
     tmp = tmp_path / "tmp"
