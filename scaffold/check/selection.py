@@ -61,7 +61,7 @@ def area_prefixes(rules: Iterable[type[Rule]]) -> dict[str, str]:
         rules: Those of content directories; rules of the engine itself are in no area.
     """
     return {
-        rule.__module__.split(".")[-2]: rule.code[:2]
+        rule.__module__.split(".")[1]: rule.code[:2]
         for rule in rules
         if not rule.__module__.startswith("scaffold.")
     }

@@ -14,7 +14,7 @@ from scaffold.check.fixes.fixer import splice
 from scaffold.check.rules import registry
 from scaffold.check.rules.renamed_codes import renamed_codes
 from scaffold.check.rules.rule import Example, Rule
-from scaffold.check.selection import Selection
+from scaffold.check.selection import Selection, area_prefixes
 from scaffold.check.session import Session, all_rules
 from scaffold.configuration import content
 from scaffold.diagnostic import Diagnostic, Severity
@@ -120,6 +120,20 @@ def test_roots_with_equal_file_names_do_not_mix(tmp_path: Path) -> None:
     )
     rules = registry.load([str(tmp_path / "a"), str(tmp_path / "b")])
     assert [rule.code for rule in rules] == ["CM001", "CM002", "CM003"]
+
+
+def test_area_may_have_subdirectories(tmp_path: Path) -> None:
+    write_rule(tmp_path, "flaw_a", "CM001", "flaw-a")
+    area = tmp_path / "cmake"
+    (area / "install").mkdir()
+    (area / "install" / "_names.py").write_text("CODE = 'CM002'\n")
+    (area / "install" / "flaw_b.py").write_text(
+        "from ._names import CODE\n"
+        + RULE.format(name="B", code="CM002", rule="flaw-b").replace('"CM002"', "CODE")
+    )
+    rules = registry.load([str(tmp_path)])
+    assert [rule.code for rule in rules] == ["CM001", "CM002"]
+    assert area_prefixes(rules) == {"cmake": "CM"}
 
 
 def test_a_crash_is_a_diagnostic_and_the_others_run() -> None:

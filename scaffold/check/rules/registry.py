@@ -1,4 +1,4 @@
-"""Loads rule files: each file in ``rules/<area>/`` is a rule, without registration."""
+"""Loads rule files: each file below ``rules/<area>/`` is a rule, without registration."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
         prefix = f"scaffold_content_{digest(os.fsencode(os.path.abspath(root)))[:8]}"
         files = _rule_files(root)
         codes = rule_bytecode.codes(root, [path for _, path in files], _compile)
-        for (area, path), code in zip(files, codes, strict=True):
-            rule = _load_file(prefix, area, path, code)
+        for (names, path), code in zip(files, codes, strict=True):
+            rule = _load_file((prefix, *names), path, code)
             other = taken.get(rule.code) or taken.get(rule.name)
             if other is not None:
                 where = sys.modules[other.__module__].__file__
@@ -44,21 +44,21 @@ def load(roots: Sequence[str]) -> list[type[Rule]]:
     return [rules[code] for code in sorted(rules)]
 
 
-def _rule_files(root: str) -> list[tuple[str, str]]:
-    result: list[tuple[str, str]] = []
-    with os.scandir(root) as areas:
-        names = {entry.name: entry.is_dir() for entry in areas}
-    directories = sorted(name for name, is_directory in names.items() if is_directory)
-    for name in sorted(names.keys() - directories):
-        if name.endswith(".py") and not name.startswith("_"):
-            path = os.path.join(root, name)
-            raise ContentError(f"{path}: a rule is in a directory of rules/, that of its area")
-    for area in directories:
-        result += [
-            (area, os.path.join(root, area, name))
-            for name in sorted(os.listdir(os.path.join(root, area)))
-            if name.endswith(".py") and not name.startswith("_")
-        ]
+def _rule_files(root: str) -> list[tuple[tuple[str, ...], str]]:
+    """Return the rule files, each with the names of its directories, the area first."""
+    result: list[tuple[tuple[str, ...], str]] = []
+    pending: list[tuple[str, ...]] = [()]
+    for names in pending:
+        with os.scandir(os.path.join(root, *names)) as entries:
+            found = sorted(entries, key=lambda entry: entry.name)
+        for entry in found:
+            if entry.is_dir():
+                pending.append((*names, entry.name))
+            elif entry.name.endswith(".py") and not entry.name.startswith("_"):
+                if not names:
+                    where = f"{entry.path}: a rule is in a directory of rules/, that of its area"
+                    raise ContentError(where)
+                result.append((names, entry.path))
     return result
 
 
@@ -72,14 +72,17 @@ def _compile(path: str) -> CodeType:
     return code
 
 
-def _load_file(prefix: str, area: str, path: str, code: CodeType) -> type[Rule]:
+def _load_file(names: Sequence[str], path: str, code: CodeType) -> type[Rule]:
     stem = os.path.basename(path)[:-3]
-    parent = f"{prefix}.{area}"
-    for package, directory in ((prefix, os.path.dirname(os.path.dirname(path))), (parent, "")):
+    parent = ".".join(names)
+    directory = os.path.dirname(path)
+    for count in range(len(names), 0, -1):
+        package = ".".join(names[:count])
         if package not in sys.modules:
             module = ModuleType(package)
-            module.__path__ = [directory or os.path.dirname(path)]
+            module.__path__ = [directory]
             sys.modules[package] = module
+        directory = os.path.dirname(directory)
     name = f"{parent}.{stem}"
     module = ModuleType(name)
     module.__file__ = path
