@@ -25,7 +25,7 @@ TraceFunction = Callable[[FrameType, str, Any], Any]
 
 ROOT = Path(__file__).parents[2]
 RULES = registry.load(content.roots("rules"))
-FILES = [path for root in content.roots("rules") for path in sorted(Path(root).glob("*/*.py"))]
+FILES = [path for root in content.roots("rules") for path in sorted(Path(root).glob("*/**/*.py"))]
 """Rules, and what those of an area share."""
 CASES = [
     pytest.param(rule, example, id=f"{rule.code}-{example.title}")
@@ -81,8 +81,7 @@ def test_page_is_current(rule: type[Rule]) -> None:
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
 def test_code_begins_with_the_letters_of_its_area(rule: type[Rule]) -> None:
-    area = rule.__module__.split(".")[-2]
-    assert rule.code.startswith(AREAS[area])
+    assert rule.code.startswith(AREAS[_area(rule)])
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
@@ -123,12 +122,12 @@ def test_examples_can_be_suppressed() -> None:
 @pytest.mark.parametrize("area", AREAS)
 def test_every_message_is_shown_by_an_example(area: str) -> None:
     """Each statement of a rule that writes a message is executed by one of its examples."""
-    rules = [rule for rule in RULES if rule.__module__.split(".")[-2] == area]
-    directory = Path(_file_of(rules[0])).parent
+    rules = [rule for rule in RULES if _area(rule) == area]
+    (directory,) = {Path(root, area) for root in content.roots("rules")}
     executed = {place for rule in rules for place in _lines_executed(rule, directory)}
     unshown = [
         f"{path.stem}: {text}"
-        for path in sorted(directory.glob("*.py"))
+        for path in sorted(directory.rglob("*.py"))
         for line, text in _message_lines(path)
         if (str(path), line) not in executed
     ]
@@ -178,6 +177,10 @@ def _message_lines(path: Path) -> Iterator[tuple[int, str]]:
 
 def _is_docstring(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+
+
+def _area(rule: type[Rule]) -> str:
+    return rule.__module__.split(".")[1]
 
 
 def _file_of(rule: type[Rule]) -> str:
