@@ -1,4 +1,4 @@
-"""The check of a draft, with rules that a second process has loaded, and without."""
+"""The check of a draft, with rules loaded ahead in a second process and without."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def process() -> Iterator[RuleProcess]:
 
 
 def made(*, is_faulty: bool = False, distro: str = "jazzy") -> Draft:
-    """Return a draft; a faulty one has a defect of style, and one that a rule finds."""
+    """Return a draft; a faulty one has a style finding and a rule finding."""
     roots = content.roots("templates")
     answers = {"maintainer_name": "Ada", "maintainer_email": "ada@example.com"}
     answers |= {"package": "pack", "distro": distro}
@@ -48,12 +48,12 @@ def made(*, is_faulty: bool = False, distro: str = "jazzy") -> Draft:
     return result._replace(rendered=rendered)
 
 
-def test_processes_find_nothing_in_a_good_draft(process: RuleProcess) -> None:
+def test_good_draft_has_no_findings(process: RuleProcess) -> None:
     assert Check(made(), process).end() == []
 
 
 @pytest.mark.parametrize("distro", ["jazzy", "humble,jazzy"])
-def test_findings_are_those_of_one_process(process: RuleProcess, distro: str) -> None:
+def test_findings_equal_those_of_a_single_process(process: RuleProcess, distro: str) -> None:
     faulty = made(is_faulty=True, distro=distro)
     alone = checking.defects(faulty, registry.load(content.roots("rules")))
     together = Check(faulty, process).end()
@@ -61,7 +61,7 @@ def test_findings_are_those_of_one_process(process: RuleProcess, distro: str) ->
     assert {item.code[:2] for item in alone} >= {"E2", "ND"}
 
 
-def test_a_killed_process_changes_nothing(process: RuleProcess) -> None:
+def test_killed_rule_process_does_not_change_findings(process: RuleProcess) -> None:
     faulty = made(is_faulty=True)
     expected = Check(faulty).end()
     check = Check(faulty, process)
@@ -69,14 +69,14 @@ def test_a_killed_process_changes_nothing(process: RuleProcess) -> None:
     assert check.end() == expected != []
 
 
-def test_no_process_beside_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_process_is_forked_while_threads_run(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("threading.active_count", lambda: 2)
     with checking.ahead() as process:
         assert process is None
 
 
 @pytest.mark.parametrize("words", [["pack"], ["no good name"], ["--unknown"]])
-def test_new_leaves_no_process_behind(tmp_path: Path, words: list[str]) -> None:
+def test_new_leaves_no_process_running(tmp_path: Path, words: list[str]) -> None:
     command = [sys.executable, "-m", "scaffold", "new", *words, "--maintainer-name", "Ada"]
     command += ["--maintainer-email", "ada@example.com"]
     with subprocess.Popen(
@@ -93,7 +93,7 @@ def test_new_leaves_no_process_behind(tmp_path: Path, words: list[str]) -> None:
         os.killpg(run.pid, 0)
 
 
-def test_an_interrupted_new_leaves_no_process_behind(tmp_path: Path) -> None:
+def test_interrupted_new_leaves_no_process_running(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "scaffold", "new", "pack"]
     with subprocess.Popen(command, cwd=tmp_path, start_new_session=True) as run:
         time.sleep(0.1)

@@ -1,4 +1,4 @@
-"""Dependencies that a user names: misspelt ones are refused before anything is rendered."""
+"""Dependencies given by the user: misspelled ones are rejected before rendering."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from tests.model.workspace.test_rosdep import write_cache
 
 
 @pytest.fixture(autouse=True)
-def _bare_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _no_ros_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
     monkeypatch.setenv("ROS_HOME", str(tmp_path / "ros_home"))
 
 
-def refusal(name: str, directory: Path) -> str:
+def error_of(name: str, directory: Path) -> str:
     with pytest.raises(InputError) as caught:
         list(notes([name], "--dependencies", str(directory)))
     return str(caught.value)
@@ -35,30 +35,30 @@ def refusal(name: str, directory: Path) -> str:
         ("sensor_msg", "sensor_msgs"),
     ],
 )
-def test_a_slip_is_refused(name: str, meant: str, tmp_path: Path) -> None:
-    message = refusal(name, tmp_path)
+def test_misspelled_dependency_is_rejected(name: str, meant: str, tmp_path: Path) -> None:
+    message = error_of(name, tmp_path)
 
     assert message.startswith(f"--dependencies: there is no package or rosdep key {name!r}; did")
     assert repr(meant) in message
 
 
 @pytest.mark.parametrize("name", ["rclpy", "std_msgs", "python3-numpy", "cv_bridge"])
-def test_what_everybody_knows(name: str, tmp_path: Path) -> None:
+def test_known_dependencies_are_accepted(name: str, tmp_path: Path) -> None:
     assert list(notes([name], "--dependencies", str(tmp_path))) == []
 
 
 @pytest.mark.parametrize("name", ["turtlebot4_msgs", "acme_tools", "python3-pip", "libxyz-dev"])
-def test_what_nobody_knows_is_a_note(name: str, tmp_path: Path) -> None:
+def test_unknown_dependency_is_noted(name: str, tmp_path: Path) -> None:
     (line,) = notes([name], "--dependencies", str(tmp_path))
 
     assert line.startswith(f"{name!r} is not a package of the workspace")
 
 
-def test_a_package_of_ros_1_has_an_heir(tmp_path: Path) -> None:
-    assert refusal("rospy", tmp_path).endswith("is from ROS 1; ROS 2 has rclpy instead")
+def test_ros_1_package_is_rejected_with_its_successor(tmp_path: Path) -> None:
+    assert error_of("rospy", tmp_path).endswith("is from ROS 1; ROS 2 has rclpy instead")
 
 
-def test_a_package_of_the_workspace_is_known(tmp_path: Path) -> None:
+def test_package_of_the_workspace_is_accepted(tmp_path: Path) -> None:
     assert main(["new", "rclpyy", "--destination-directory", str(tmp_path)]) == 0
 
     assert list(notes(["rclpyy"], "--dependencies", str(tmp_path))) == []
@@ -66,7 +66,7 @@ def test_a_package_of_the_workspace_is_known(tmp_path: Path) -> None:
     assert main([*words, "--destination-directory", str(tmp_path)]) == 0
 
 
-def test_an_installed_package_is_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_installed_package_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     share = tmp_path / "install" / "share" / "rclpyy"
     share.mkdir(parents=True)
     (share / "package.xml").write_text("<package/>")
@@ -75,14 +75,16 @@ def test_an_installed_package_is_known(tmp_path: Path, monkeypatch: pytest.Monke
     assert list(notes(["rclpyy"], "--dependencies", str(tmp_path))) == []
 
 
-def test_the_cache_of_rosdep_decides(tmp_path: Path) -> None:
+def test_rosdep_cache_takes_precedence(tmp_path: Path) -> None:
     write_cache(tmp_path / "ros_home")
 
     assert list(notes(["python3-serial"], "--dependencies", str(tmp_path))) == []
-    assert "there is no package or rosdep key 'acme_tools'" in refusal("acme_tools", tmp_path)
+    assert "there is no package or rosdep key 'acme_tools'" in error_of("acme_tools", tmp_path)
 
 
-def test_nothing_is_written_for_a_slip(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_nothing_is_written_for_a_misspelled_dependency(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     words = ["new", "talker", "--dependencies", "rclpyy", "std_msgs"]
 
     assert main([*words, "--destination-directory", str(tmp_path)]) == 2

@@ -1,4 +1,4 @@
-"""What is generated for each distribution of ROS 2, and for several at once."""
+"""Packages generated for each distribution of ROS 2, and for several at once."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RECORD = ".ros2-scaffold.json"
 
 
 @pytest.fixture(autouse=True)
-def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _empty_directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
@@ -31,12 +31,12 @@ def new(*arguments: str, package: str = "robot") -> int:
 
 
 def targets() -> object:
-    """Return what the record of the package says that it is for."""
+    """Return the distributions in the record of the package."""
     return json.loads(Path("robot", RECORD).read_text())["answers"]["distro"]
 
 
 def checked_for(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[str]:
-    """Check the package; return the distributions, and what is wrong."""
+    """Check the package; return its distributions and the messages of findings."""
     capsys.readouterr()
     main(["check", "robot", "--no-types", "--format", "json", *arguments])
     report = json.loads(capsys.readouterr().out)
@@ -50,7 +50,7 @@ def checked_for(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[str
         (",".join(ORDER), ("lifecycle", "parameters")),
     ],
 )
-def test_every_kind_is_clean_on_its_distribution(
+def test_every_kind_of_node_is_clean_on_each_distribution(
     tmp_path: Path, distro: str, kinds: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
     build_type = BUILD_TYPES[len(distro) % 2]
@@ -74,12 +74,12 @@ def test_interfaces_and_programs_are_clean_on_each_distribution(
     assert checked_for(capsys) == [distro]
 
 
-def test_profiles_have_the_same_facts_for_templates() -> None:
+def test_profiles_define_the_same_template_variables() -> None:
     facts = [{*distributions.named(name).profile["templates"]} for name in ORDER]
     assert all(names == facts[0] for names in facts)
 
 
-def test_each_distribution_gets_what_its_own_tool_writes() -> None:
+def test_each_distribution_follows_its_own_ros2_pkg_create() -> None:
     written = {}
     for name in ORDER:
         package = f"robot_{name}"
@@ -98,7 +98,7 @@ def test_each_distribution_gets_what_its_own_tool_writes() -> None:
     }
 
 
-def test_nodes_of_several_distributions_start_as_on_the_oldest() -> None:
+def test_nodes_for_several_distributions_use_the_oldest_api() -> None:
     assert new("--distro", "kilted,jazzy") == 0
     assert targets() == ["jazzy", "kilted"]
     assert "rclpy.try_shutdown()" in Path("robot", PUBLISHER).read_text()
@@ -112,7 +112,7 @@ def test_ci_runs_on_all_distributions() -> None:
     assert job["container"] == "ros:${{ matrix.distro }}"
 
 
-def test_containers_are_for_the_oldest_distribution_and_can_be_for_each() -> None:
+def test_container_image_defaults_to_the_oldest_distribution() -> None:
     assert new("--distro", "humble,lyrical", "--extras", "dockerfile", "devcontainer") == 0
     dockerfile = Path("robot/Dockerfile").read_text()
     assert (
@@ -129,7 +129,7 @@ def test_containers_are_for_the_oldest_distribution_and_can_be_for_each() -> Non
         assert "humble" not in text.replace("ARG ROS_DISTRO=humble", "")
 
 
-def test_the_readme_of_one_distribution_names_no_other() -> None:
+def test_readme_names_only_the_target_distribution() -> None:
     assert new("--extras", "dockerfile", "devcontainer") == 0
     readme = Path("robot/README.md").read_text()
     assert "ROS_DISTRO" not in readme
@@ -155,7 +155,7 @@ def test_the_readme_of_one_distribution_names_no_other() -> None:
         ),
     ],
 )
-def test_flag_configuration_and_shell_say_what_a_package_is_for(
+def test_distribution_comes_from_flag_configuration_or_shell(
     variables: dict[str, str],
     configuration: str,
     flags: list[str],
@@ -186,7 +186,7 @@ def test_flag_configuration_and_shell_say_what_a_package_is_for(
         ),
     ],
 )
-def test_a_shell_that_says_what_a_package_is_for_is_named(
+def test_distribution_taken_from_the_shell_is_noted(
     shell: str,
     flags: list[str],
     expected: str,
@@ -200,14 +200,14 @@ def test_a_shell_that_says_what_a_package_is_for_is_named(
     assert ("made for" in written) == bool(expected)
 
 
-def test_an_unknown_distribution_is_refused_with_the_nearest_name(
+def test_unknown_distribution_is_rejected_with_a_suggestion(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert new("--distro", "jazy") == 2
     assert "no distribution 'jazy'; did you mean 'jazzy'?" in capsys.readouterr().err
 
 
-def test_what_no_code_can_serve_is_refused_with_the_line(
+def test_incompatible_distributions_are_rejected_with_the_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     type_ = "lifecycle_msgs/msg/TransitionEvent"
@@ -217,14 +217,14 @@ def test_what_no_code_can_serve_is_refused_with_the_line(
     assert not Path("robot").exists()
 
 
-def test_messages_are_those_of_the_distribution(capsys: pytest.CaptureFixture[str]) -> None:
+def test_message_types_depend_on_the_distribution(capsys: pytest.CaptureFixture[str]) -> None:
     pose = ("--message-type", "geometry_msgs/msg/Pose2D")
     assert new("--distro", "lyrical", *pose) == 2
     assert "Pose2D" in capsys.readouterr().err
     assert new("--distro", "jazzy", *pose) == 0
 
 
-def test_add_follows_the_record_and_nothing_else(
+def test_add_uses_the_distribution_of_the_record(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert new("--distro", "kilted") == 0
@@ -257,7 +257,7 @@ def test_update_moves_a_package_to_another_distribution(
     assert targets() == ["lyrical"]
 
 
-def test_check_takes_the_target_from_the_record_unless_it_is_named(
+def test_check_uses_the_distribution_of_the_record_by_default(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert new("--distro", "kilted") == 0
@@ -267,7 +267,7 @@ def test_check_takes_the_target_from_the_record_unless_it_is_named(
     assert checked_for(capsys) == ["lyrical"]
 
 
-def test_a_changed_record_is_noticed_by_the_next_check(
+def test_changed_record_invalidates_the_cache(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert new() == 0
@@ -277,7 +277,7 @@ def test_a_changed_record_is_noticed_by_the_next_check(
     assert checked_for(capsys) == ["humble"]
 
 
-def test_a_record_without_distributions_is_of_a_package_for_the_default(
+def test_record_without_distributions_means_the_default(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert new() == 0
@@ -288,7 +288,7 @@ def test_a_record_without_distributions_is_of_a_package_for_the_default(
     assert "up to date" in capsys.readouterr().out
 
 
-def test_packages_for_different_distributions_are_checked_each_for_its_own(
+def test_each_package_is_checked_for_its_own_distribution(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert new("--distro", "kilted") == 0

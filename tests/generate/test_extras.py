@@ -1,4 +1,4 @@
-"""What a package may have besides its parts: launch file, CI, pre-commit, container, .gitignore."""
+"""Extras of a package: launch file, CI, pre-commit, container, .gitignore and others."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def make(**answers: object) -> dict[str, str]:
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
 @pytest.mark.parametrize("comments", ["brief", "tutorial"])
-def test_all_extras_together(build_type: str, comments: str) -> None:
+def test_all_extras_in_one_package(build_type: str, comments: str) -> None:
     files = make(package="talker", build_type=build_type, comments=comments, extras=list(EXTRAS))
     assert {
         ".devcontainer/devcontainer.json",
@@ -57,7 +57,7 @@ def test_all_extras_together(build_type: str, comments: str) -> None:
     } < set(files)
 
 
-def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
+def test_launch_file_starts_every_node_with_its_parameters() -> None:
     files = make(
         package="conversation",
         extras="launch",
@@ -83,7 +83,7 @@ def test_the_launch_file_starts_every_node_with_its_parameters() -> None:
     assert "    config\n    launch\n  DESTINATION share/${PROJECT_NAME}" in files["CMakeLists.txt"]
 
 
-def test_the_launch_file_configures_and_activates_managed_nodes() -> None:
+def test_launch_file_configures_and_activates_managed_nodes() -> None:
     files = make(package="robot", extras="launch", add=["lifecycle:laser", "timer:clock"])
     text = files["launch/robot.launch.py"]
     _, managed, other = re.split(r"(?:Lifecycle)?Node\(\n", text)
@@ -93,7 +93,7 @@ def test_the_launch_file_configures_and_activates_managed_nodes() -> None:
     assert "namespace=LaunchConfiguration('namespace')," in managed
 
 
-def test_what_a_manager_leads_does_not_start_by_itself() -> None:
+def test_node_with_a_lifecycle_manager_is_not_autostarted() -> None:
     files = make(
         package="robot",
         extras="launch",
@@ -104,7 +104,7 @@ def test_what_a_manager_leads_does_not_start_by_itself() -> None:
     assert "node_names: ['laser']" in files["config/robot.yaml"]
 
 
-def test_a_manager_leads_the_managed_nodes_of_its_package() -> None:
+def test_lifecycle_manager_manages_all_managed_nodes() -> None:
     parts = ["lifecycle:laser", "lifecycle:camera"]
     files = make(package="robot", extras="launch", add=[*parts, "lifecycle_manager:manager"])
     assert "autostart=" not in files["launch/robot.launch.py"]
@@ -122,7 +122,7 @@ def test_a_manager_leads_the_managed_nodes_of_its_package() -> None:
 
 @pytest.mark.parametrize("kind", ["publisher", "timer", "service_client", "action_server"])
 @pytest.mark.parametrize("rate", ["10.0", "2.0"])
-def test_another_rate_in_the_readme_is_not_the_default(kind: str, rate: str) -> None:
+def test_rate_in_readme_example_differs_from_the_default(kind: str, rate: str) -> None:
     readme = make(package="robot", add=[f"{kind}:worker rate={rate}"])["README.md"]
     (other,) = re.findall(r"-p rate:=(\S+)", readme)
     assert float(other) != float(rate)
@@ -140,13 +140,13 @@ def test_long_names_fit_on_their_lines() -> None:
             )
 
 
-def test_a_package_without_nodes_has_nothing_to_launch() -> None:
+def test_launch_extra_writes_nothing_without_nodes() -> None:
     files = make(package="tools", extras=["launch"], add=["cpp_program:tool"])
     assert not [path for path in files if path.startswith(("launch", "config"))]
     assert "ros2 launch" not in files["README.md"]
 
 
-def test_the_workflow_builds_and_tests_the_package() -> None:
+def test_workflow_builds_and_tests_the_package() -> None:
     workflow: Any = yaml.safe_load(make(package="talker", extras="ci")[".github/workflows/ci.yaml"])
     job = workflow["jobs"]["test"]
     commands = "\n".join(step.get("run", "") for step in job["steps"])
@@ -163,13 +163,13 @@ def test_pre_commit_accepts_its_configuration(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_the_container_has_the_package_in_a_workspace() -> None:
+def test_container_has_the_package_in_a_workspace() -> None:
     files = make(package="talker", extras="devcontainer")
     container = json.loads(files[".devcontainer/devcontainer.json"])
     assert container["workspaceFolder"] == "/ros2_ws/src/talker"
 
 
-def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
+def test_gitignore_ignores_build_products(tmp_path: Path) -> None:
     (tmp_path / ".gitignore").write_text(make(package="talker", extras="gitignore")[".gitignore"])
     subprocess.run(["git", "init", "-q", str(tmp_path)], check=True)
     paths = ["build/x", "install/x", "log/x", "talker/__pycache__/a.pyc", "talker/talker.py"]
@@ -182,19 +182,19 @@ def test_git_leaves_out_what_a_build_makes(tmp_path: Path) -> None:
     assert done.stdout.split() == paths[:-1]
 
 
-def test_markers_for_learners_are_in_no_dockerfile() -> None:
+def test_dockerfile_has_no_tutorial_markers() -> None:
     for comments in ("brief", "tutorial"):
         dockerfile = make(package="robot", extras="dockerfile", comments=comments)["Dockerfile"]
         assert "#:" not in dockerfile
         assert "# For another distribution: docker build" in dockerfile
 
 
-def test_commas_separate_extras() -> None:
+def test_extras_may_be_separated_by_commas() -> None:
     files = make(package="talker", extras=["ci,pre_commit", "gitignore"])
     assert files == make(package="talker", extras=["ci", "pre_commit", "gitignore"])
 
 
-def test_an_extra_that_does_not_exist() -> None:
+def test_unknown_extra_is_rejected() -> None:
     with pytest.raises(InputError, match=r"--extras: 'lunch' is not one of .*did you mean launch"):
         make(package="talker", extras=["lunch"])
 
@@ -224,7 +224,7 @@ def test_ament_copyright_accepts_a_package_that_is_a_repository(
 
 @oracles.needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("license_", licenses.names(ROOTS))
-def test_a_package_that_becomes_a_repository_is_fixed(license_: str, tmp_path: Path) -> None:
+def test_check_fix_adds_files_required_in_a_repository(license_: str, tmp_path: Path) -> None:
     talker = write(tmp_path / "talker", make(package="talker", license=license_))
     assert {one.path for one in oracles.ament_copyright(talker)} == {"CONTRIBUTING.md"}
     assert main(["check", "--fix", str(talker)]) == 0
@@ -232,7 +232,7 @@ def test_a_package_that_becomes_a_repository_is_fixed(license_: str, tmp_path: P
 
 
 @pytest.mark.parametrize("extra", ["ci", "pre_commit", "devcontainer"])
-def test_add_brings_what_a_repository_needs(extra: str, tmp_path: Path) -> None:
+def test_add_writes_files_required_in_a_repository(extra: str, tmp_path: Path) -> None:
     person = ["--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
     assert main(["new", "talker", *person, "--destination-directory", str(tmp_path)]) == 0
     talker = write(tmp_path / "talker", {})
@@ -245,13 +245,13 @@ def test_add_brings_what_a_repository_needs(extra: str, tmp_path: Path) -> None:
 
 
 def check(directory: Path) -> list[Diagnostic]:
-    """Return what the checker says of a package."""
+    """Return the output of `check` for a package."""
     session = Session(registry.load(content.roots("rules")), Selection())
     return session.check(Package.at(str(directory)))
 
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
-def test_the_settings_of_type_checkers_find_the_types(
+def test_type_checker_settings_find_the_stubs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, build_type: str
 ) -> None:
     for path, text in make(package="talker", build_type=build_type, extras="types").items():
@@ -270,7 +270,7 @@ def test_the_settings_of_type_checkers_find_the_types(
 
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
-def test_a_package_may_be_the_description_of_a_robot(build_type: str) -> None:
+def test_description_extra_gives_a_robot_description_package(build_type: str) -> None:
     files = make(package="rover_description", build_type=build_type, extras="description")
     programs = {path for path in files if path.startswith("rover_description/")}
     assert programs <= {"rover_description/__init__.py"}
@@ -279,13 +279,13 @@ def test_a_package_may_be_the_description_of_a_robot(build_type: str) -> None:
     assert urdf.get("name") == "rover"
 
 
-def test_a_launch_file_for_nodes_needs_one_next_to_a_description() -> None:
+def test_description_with_launch_extra_has_a_node() -> None:
     files = make(package="rover", extras=["description", "launch"])
     assert {"rover/minimal_publisher.py", "launch/rover.launch.py"} < set(files)
 
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
-def test_add_describes_the_robot_of_a_package(
+def test_description_extra_can_be_added(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, build_type: str
 ) -> None:
     new = ["new", "rover", "--build-type", build_type, "--maintainer-name", "Ada"]
@@ -304,7 +304,7 @@ def test_add_describes_the_robot_of_a_package(
 
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
 @pytest.mark.parametrize("extras", [["launch_test"], ["launch", "launch_test"]])
-def test_a_test_launches_all_nodes_together(build_type: str, extras: list[str]) -> None:
+def test_launch_test_starts_all_nodes(build_type: str, extras: list[str]) -> None:
     add = ["publisher:talker", "subscriber:listener"]
     files = make(package="duo", build_type=build_type, add=add, extras=extras)
     text = files["test/test_launch.py"]
@@ -316,9 +316,7 @@ def test_a_test_launches_all_nodes_together(build_type: str, extras: list[str]) 
     assert "<test_depend>launch_testing_ros</test_depend>" in files["package.xml"]
 
 
-def test_add_writes_a_test_that_launches_the_nodes_of_a_package(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_launch_test_can_be_added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     new = ["new", "rover", "--maintainer-name", "Ada", "--node-name", "wheels"]
     assert main([*new, "--destination-directory", str(tmp_path)]) == 0
     monkeypatch.chdir(tmp_path / "rover")

@@ -1,4 +1,4 @@
-"""What `new` writes, judged by the real tools: linters, colcon, the middleware, signals."""
+"""Generated packages, tested with the real tools: linters, colcon, middleware, signals."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def available(kind: str) -> dict[str, object]:
 
 @pytest.fixture(scope="module")
 def combinations(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write every combination, with the licences and qualities of service in turn."""
+    """Write every combination of answers, cycling through licenses and qualities of service."""
     root = tmp_path_factory.mktemp("combinations")
     known = licenses.names(ROOTS)
     more = zip(cycle(known), cycle(QUALITIES), cycle(("", HOSTILE)), strict=False)
@@ -104,12 +104,12 @@ def combinations(tmp_path_factory: pytest.TempPathFactory) -> Path:
             **({"description": description} if description else {}),
         )
     for build_type, kind in product(BUILD_TYPES, KINDS):
-        write(root, **longest(build_type, kind))
+        write(root, **longest_answers(build_type, kind))
     return root
 
 
-def longest(build_type: str, kind: str) -> dict[str, object]:
-    """Return answers as long as they may be."""
+def longest_answers(build_type: str, kind: str) -> dict[str, object]:
+    """Return answers of maximum length."""
     graph_names = {
         question.name: question.name[0] * (names.MAX_TOPIC - 1)
         for question in TEMPLATES[kind].questions
@@ -155,7 +155,7 @@ def test_ament_copyright(combinations: Path) -> None:
 
 @needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("license_", licenses.names(ROOTS))
-def test_ament_copyright_knows_the_text_of_each_licence(license_: str, tmp_path: Path) -> None:
+def test_ament_copyright_knows_the_text_of_each_license(license_: str, tmp_path: Path) -> None:
     directory = write(tmp_path, package="talker", license=license_)
     (directory / ".git").mkdir()  # the root of a repository needs LICENSE and CONTRIBUTING.md
     assert {finding.path for finding in oracles.ament_copyright(directory)} == {"CONTRIBUTING.md"}
@@ -171,7 +171,7 @@ def test_ament_xmllint(combinations: Path) -> None:
     assert oracles.ament_xmllint(combinations) == set()
 
 
-def test_check(combinations: Path) -> None:
+def test_check_has_no_findings(combinations: Path) -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     results = list(session.run(targets.find([str(combinations)])))
     assert len(results) == len(os.listdir(combinations)) > len(BUILD_TYPES) * len(KINDS)
@@ -179,7 +179,7 @@ def test_check(combinations: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of catkin_pkg and docutils
-def test_a_release_finds_its_changelog(combinations: Path) -> None:
+def test_catkin_pkg_reads_the_changelog(combinations: Path) -> None:
     tag = pytest.importorskip("catkin_pkg.cli.tag_changelog")
     changelog = pytest.importorskip("catkin_pkg.changelog")
     for directory in islice(combinations.iterdir(), 4):
@@ -195,7 +195,7 @@ def test_a_release_finds_its_changelog(combinations: Path) -> None:
 
 
 class Workspace(NamedTuple):
-    """A directory of packages, and the ROS 2 to build them with."""
+    """A workspace, and the ROS 2 environment to build it with."""
 
     root: Path
     ros: environment.Environment
@@ -216,19 +216,21 @@ class Workspace(NamedTuple):
         return (self.root / "log" / f"latest_{verb}" / package / name).read_text()
 
 
-def missing(kind: str) -> list[str]:
-    """Return the libraries that a template needs and this machine lacks."""
+def missing_libraries(kind: str) -> list[str]:
+    """Return the libraries that a template needs and that are not installed."""
     needed = [name for name in TEMPLATES[kind].depends.get("exec", ()) if "{" not in name]
     if Path("/opt/ros").exists():
         return []
     return [name for name in needed if find_spec(name.removeprefix("python3-")) is None]
 
 
-NOT_INSTALLED = sorted({name for kind in (*KINDS, "description") for name in missing(kind)})
-MORE_KINDS = [{"kind": kind} for kind in KINDS if missing(kind)]
+NOT_INSTALLED = sorted(
+    {name for kind in (*KINDS, "description") for name in missing_libraries(kind)}
+)
+MORE_KINDS = [{"kind": kind} for kind in KINDS if missing_libraries(kind)]
 """They are built, and tested where their libraries are installed."""
 ALL_KINDS = [
-    *({"kind": kind, **available(kind)} for kind in KINDS if not missing(kind)),
+    *({"kind": kind, **available(kind)} for kind in KINDS if not missing_libraries(kind)),
     {"kind": "subscriber", "name": "second", "topic": "~/input", "qos": "latched,deadline=0.5"},
 ]
 SOME_KINDS = ALL_KINDS[::4]
@@ -267,13 +269,13 @@ BUILT: Mapping[str, Mapping[str, object]] = {
 }
 TESTED = [
     *("cmake_float", "cmake_kinds", "python_bool", "python_kinds"),
-    *([] if missing("description") else ["cmake_description", "python_description"]),
+    *([] if missing_libraries("description") else ["cmake_description", "python_description"]),
 ]
 
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """Build packages that cover build types, comments, licences and qualities of service."""
+    """Build packages that cover build types, comments, licenses and qualities of service."""
     made = Workspace(tmp_path_factory.mktemp("ws"), environment.select(os.environ))
     with pytest.MonkeyPatch.context() as sourced:
         sourced.setenv("AMENT_PREFIX_PATH", made.ros.variables["AMENT_PREFIX_PATH"])
@@ -287,7 +289,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
 
 @pytest.mark.build
 @needs_ros
-def test_colcon_builds_without_a_word_on_stderr(workspace: Workspace) -> None:
+def test_colcon_build_has_no_stderr(workspace: Workspace) -> None:
     for name in BUILT:
         assert workspace.log("build", name, "stderr.log") == ""
         assert "warning" not in workspace.log("build", name, "stdout_stderr.log").lower()
@@ -301,8 +303,8 @@ def test_colcon_builds_without_a_word_on_stderr(workspace: Workspace) -> None:
 @needs_system_linter("ament_lint_auto")
 @needs_system_linter("ament_copyright")
 @pytest.mark.timeout(2400)
-def test_colcon_test_runs_the_tests_and_all_linters(workspace: Workspace, tmp_path: Path) -> None:
-    reachable(system_module("ament_copyright"), tmp_path)
+def test_colcon_test_runs_tests_and_linters(workspace: Workspace, tmp_path: Path) -> None:
+    make_importable(system_module("ament_copyright"), tmp_path)
     path = os.pathsep.join(filter(None, [str(tmp_path), workspace.ros.variables.get("PYTHONPATH")]))
     done = workspace.colcon(
         "test",
@@ -340,7 +342,7 @@ def test_the_tests_of_every_kind_are_run() -> None:
 
 @pytest.mark.build
 @needs_ros
-def test_without_linters_they_count_as_skipped(workspace: Workspace) -> None:
+def test_missing_linters_are_skipped(workspace: Workspace) -> None:
     select = ["--packages-select", "cmake_string"]
     without = "-DCMAKE_DISABLE_FIND_PACKAGE_ament_lint_auto=TRUE"
     done = workspace.colcon("build", *select, "--cmake-args", without)
@@ -370,19 +372,19 @@ def system_module(name: str) -> Path:
     return Path(done.stdout.strip())
 
 
-def reachable(module: Path, directory: Path) -> None:
-    """Make one module of the system importable, and nothing else that is beside it."""
+def make_importable(module: Path, directory: Path) -> None:
+    """Make one system module importable without the others in its directory."""
     for path in module.parent.glob(f"{module.name}*"):
         (directory / path.name).symlink_to(path)
 
 
 def results_of(build: Path) -> dict[str, tuple[int, int]]:
-    """Return the counts of all reports of an ament_cmake package by the names of the tests."""
+    """Return the counts of the reports of an ament_cmake package by test name."""
     return {file.name.partition(".")[0]: counts(file) for file in build.rglob("*.xunit.xml")}
 
 
 def counts(report: Path) -> tuple[int, int]:
-    """Return how many tests a report names and how many of them were skipped; none failed."""
+    """Return how many tests a report has and how many were skipped; fail if any failed."""
     suites = list(etree.parse(report).getroot().iter("testsuite"))
     total = {
         key: sum(int(suite.get(key, "0")) for suite in suites)
@@ -397,7 +399,7 @@ def counts(report: Path) -> tuple[int, int]:
 
 @pytest.fixture
 def variables(tmp_path: Path) -> Iterator[dict[str, str]]:
-    """Return an environment to run nodes in, apart from everything else."""
+    """Return the variables of an isolated environment to run nodes in."""
     with domain.reserved() as number:
         yield {
             **environment.select(os.environ).variables,
@@ -481,7 +483,7 @@ def assert_counts(numbers: list[int]) -> None:
 @pytest.mark.build
 @needs_ros
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
-def test_executables_stop_with_0_and_in_silence(
+def test_executables_exit_with_0_without_output(
     workspace: Workspace, variables: dict[str, str], stop: signal.Signals
 ) -> None:
     sourced = environment.source(workspace.root / "install" / "setup.bash", variables)
@@ -495,7 +497,7 @@ def test_executables_stop_with_0_and_in_silence(
 @pytest.mark.build
 @needs_ros
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
-def test_a_fast_node_stops_with_0_wherever_the_signal_meets_it(
+def test_fast_node_exits_with_0_at_any_time(
     combinations: Path, variables: dict[str, str], stop: signal.Signals
 ) -> None:
     script = combinations / "cmake_brief_string" / "cmake_brief_string" / "minimal_publisher.py"
@@ -528,7 +530,7 @@ CREATED = dedent("""\
 @pytest.mark.build
 @needs_ros
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
-def test_a_node_stops_with_0_while_it_is_created(
+def test_node_exits_with_0_during_construction(
     combinations: Path, variables: dict[str, str], tmp_path: Path, stop: signal.Signals
 ) -> None:
     package = combinations / "cmake_brief_string" / "cmake_brief_string"
@@ -567,7 +569,7 @@ LOST = dedent("""\
 @pytest.mark.build
 @needs_ros
 @pytest.mark.parametrize(("cause", "code"), [("signal", 0), ("defect", 1)])
-def test_a_node_waits_for_rclpy_to_say_whether_a_signal_made_it_fail(
+def test_error_caused_by_a_signal_exits_with_0(
     combinations: Path, variables: dict[str, str], tmp_path: Path, cause: str, code: int
 ) -> None:
     package = combinations / "cmake_brief_string" / "cmake_brief_string"
@@ -585,7 +587,7 @@ def test_a_node_waits_for_rclpy_to_say_whether_a_signal_made_it_fail(
 
 
 class running:  # noqa: N801  reads as a statement
-    """A process whose messages are read, and which does not outlive the block."""
+    """A process whose output is read; it is killed at the end of the block."""
 
     def __init__(self, command: list[str], variables: Mapping[str, str]) -> None:
         self._command = command
@@ -608,7 +610,7 @@ class running:  # noqa: N801  reads as a statement
 
 
 def stopped(node: subprocess.Popen[str], stop: signal.Signals) -> list[str]:
-    """Stop a node that has logged its first message; return what else it says."""
+    """Stop a node after its first log message; return the rest of its output."""
     assert node.stderr is not None
     assert "]: Publishing: " in node.stderr.readline()
     node.send_signal(stop)

@@ -1,4 +1,4 @@
-"""What type checkers say of generated packages, with the types of `ros2-scaffold stubs`."""
+"""Generated packages pass type checkers that use the stubs of `ros2-scaffold stubs`."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ CHECKERS = {
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write a package with a node of every kind, and the types of what it imports."""
+    """Write a package with a node of every kind, and the stubs of its imports."""
     root = tmp_path_factory.mktemp("typed")
     parts: list[object] = [
         *({"kind": kind, "name": f"{kind}_node"} for kind in TYPED_KINDS),
@@ -72,7 +72,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("version", ["3.10", "3.12"])
 @pytest.mark.parametrize("checker", CHECKERS)
-def test_every_kind_of_node_has_the_right_types(
+def test_every_kind_of_node_passes_type_checkers(
     package: Path, checker: str, version: str, tmp_path: Path
 ) -> None:
     arguments = list(CHECKERS[checker])
@@ -94,7 +94,7 @@ def test_every_kind_of_node_has_the_right_types(
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_nodes_pass_the_strict_mode_of_mypy(package: Path, tmp_path: Path) -> None:
+def test_nodes_pass_strict_mypy(package: Path, tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", package.name],
         cwd=package,

@@ -1,4 +1,4 @@
-"""`new` on answers chosen to hurt: one clear line, or a package without a flaw."""
+"""`new` with hostile answers: one error line, or a package without findings."""
 
 from __future__ import annotations
 
@@ -645,7 +645,7 @@ NEIGHBOURS = {
 
 
 def pool(question: Question) -> tuple[Any, ...]:
-    """Return single answers that hurt."""
+    """Return hostile answers to a question."""
     if question.type == "fields":
         return (*FIELDS, *ODD)
     if question.type == "dependencies":
@@ -656,7 +656,7 @@ def pool(question: Question) -> tuple[Any, ...]:
 
 
 def accepted(question: Question) -> list[Any]:
-    """Return the answers of the pool that are acceptable on their own."""
+    """Return the hostile answers that are valid on their own."""
     found: list[Any] = []
     for value in pool(question):
         with suppress(InputError):
@@ -666,7 +666,7 @@ def accepted(question: Question) -> list[Any]:
 
 
 def answers_to(question: Question) -> st.SearchStrategy[Any]:
-    """Return what a question may be answered with: mostly what is acceptable on its own."""
+    """Return a strategy for answers to a question, mostly valid ones."""
     good = st.sampled_from(accepted(question))
     if question.type in {"fields", "dependencies"}:
         return st.lists(st.sampled_from([one for one in accepted(question) if one]), max_size=5)
@@ -679,7 +679,7 @@ def answers_to(question: Question) -> st.SearchStrategy[Any]:
 
 @st.composite
 def requests(draw: st.DrawFn, kind: str) -> dict[str, Any]:
-    """Return answers for a package with up to three parts, the first of a kind."""
+    """Return a strategy for answers with up to three parts, the first of a given kind."""
     base = {one.name: one for one in TEMPLATES["package"].questions}
     found: dict[str, Any] = {"package": draw(answers_to(base["package"]))}
     for name in base.keys() - {"package", "add", "extras", "node_kind"}:
@@ -704,8 +704,8 @@ def requests(draw: st.DrawFn, kind: str) -> dict[str, Any]:
     return found
 
 
-def judged(wanted: dict[str, Any]) -> draft.Draft | None:
-    """Return a package without a flaw, or `None` where the answers are refused."""
+def checked_package(wanted: dict[str, Any]) -> draft.Draft | None:
+    """Return a package without findings, or `None` if the answers are rejected."""
     asked = {name: Given(value, f"--{name.replace('_', '-')}") for name, value in wanted.items()}
     try:
         made = draft.draft(ROOTS, TEMPLATES, asked, User("."))
@@ -721,7 +721,7 @@ def judged(wanted: dict[str, Any]) -> draft.Draft | None:
     ]
     assert not said, said
     for path, text in made.rendered.files.items():
-        assert_reads(path, text)
+        assert_parsable(path, text)
     return made
 
 
@@ -731,8 +731,8 @@ def assert_one_line(message: str) -> None:
     assert message.isprintable(), message
 
 
-def assert_reads(path: str, text: str) -> None:
-    """Fail if the readers of a file's format cannot read it."""
+def assert_parsable(path: str, text: str) -> None:
+    """Fail if parsers of its format cannot read a file."""
     if path.endswith(".py"):
         compile(text, path, "exec", ast.PyCF_ONLY_AST)
     elif path.endswith((".yaml", ".yml")):
@@ -757,7 +757,7 @@ FEW = 2
 
 
 def answers(kind: str, question: Question) -> list[Any]:
-    """Return all hostile answers for the first kind that asks, some for the others."""
+    """Return all hostile answers for the first kind with a question, some for the others."""
     values = list(pool(question))
     if kind == next(other for other, one in ASKED if one.name == question.name):
         return values
@@ -768,26 +768,28 @@ def answers(kind: str, question: Question) -> list[Any]:
 @pytest.mark.parametrize(
     ("kind", "question"), [pytest.param(*one, id=f"{one[0]}-{one[1].name}") for one in ASKED]
 )
-def test_every_answer_alone(kind: str, question: Question) -> None:
+def test_each_hostile_answer_alone(kind: str, question: Question) -> None:
     for value in answers(kind, question):
         wanted: dict[str, Any] = {"package": "talker"}
         if kind == "package":
             wanted[question.name] = value
         else:
             wanted["add"] = [{"kind": kind, question.name: value}]
-        judged(wanted)
+        checked_package(wanted)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("distro", ["humble", "rolling"])
-def test_comments_for_learners_fit_into_every_distribution(kind: str, distro: str) -> None:
+def test_tutorial_comments_fit_every_distribution(kind: str, distro: str) -> None:
     part = {"kind": kind}
-    assert judged({"package": "talker", "comments": "tutorial", "distro": distro, "add": [part]})
+    assert checked_package(
+        {"package": "talker", "comments": "tutorial", "distro": distro, "add": [part]}
+    )
 
 
 @pytest.mark.parametrize("kind", [name for name in KINDS if TEMPLATES[name].role is Role.NODE])
-def test_a_node_may_have_the_name_of_a_class_that_its_module_imports(kind: str) -> None:
-    made = judged({"package": "talker", "add": [{"kind": kind, "node_name": "first"}]})
+def test_node_named_like_an_imported_class(kind: str) -> None:
+    made = checked_package({"package": "talker", "add": [{"kind": kind, "node_name": "first"}]})
     assert made is not None
     module = ast.parse(made.rendered.files["talker/first.py"])
     imported = {
@@ -800,24 +802,24 @@ def test_a_node_may_have_the_name_of_a_class_that_its_module_imports(kind: str) 
     assert imported
     for name in sorted(imported):
         words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
-        judged({"package": "talker", "add": [{"kind": kind, "node_name": words}]})
+        checked_package({"package": "talker", "add": [{"kind": kind, "node_name": words}]})
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @settings(max_examples=3, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
-def test_answers_together(kind: str, data: st.DataObject) -> None:
-    judged(data.draw(requests(kind)))
+def test_random_combinations_of_hostile_answers(kind: str, data: st.DataObject) -> None:
+    checked_package(data.draw(requests(kind)))
 
 
 SURVIVORS = 40
 
 
 @pytest.fixture(scope="module")
-def survivors(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write packages of acceptable hostile answers, all answers in turn."""
-    root = tmp_path_factory.mktemp("survivors")
-    turns = {question.name: cycle(plain(question)) for _, question in ASKED}
+def hostile_packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write packages of valid hostile answers, each answer once."""
+    root = tmp_path_factory.mktemp("hostile_packages")
+    turns = {question.name: cycle(typable_answers(question)) for _, question in ASKED}
     base = [question for kind, question in ASKED if kind == "package"]
     number = 0
     for kind in cycle(KINDS):
@@ -837,8 +839,8 @@ def survivors(tmp_path_factory: pytest.TempPathFactory) -> Path:
     raise AssertionError
 
 
-def plain(question: Question) -> list[Any]:
-    """Return the acceptable answers that a user may type."""
+def typable_answers(question: Question) -> list[Any]:
+    """Return the valid answers that can be typed on a command line."""
     values = [one for one in accepted(question) if isinstance(one, str) and one]
     return values or accepted(question)
 
@@ -853,11 +855,11 @@ def plain(question: Question) -> list[Any]:
         pytest.param(oracles.ament_xmllint, marks=needs_system_linter("ament_xmllint")),
     ],
 )
-def test_the_real_linters_accept_what_is_written(
-    survivors: Path, linter: Callable[[Path], set[oracles.Finding]]
+def test_ament_linters_accept_packages_of_hostile_answers(
+    hostile_packages: Path, linter: Callable[[Path], set[oracles.Finding]]
 ) -> None:
-    assert len(list(survivors.glob("*/package.xml"))) == SURVIVORS
-    assert linter(survivors) == set()
+    assert len(list(hostile_packages.glob("*/package.xml"))) == SURVIVORS
+    assert linter(hostile_packages) == set()
 
 
 @pytest.mark.parametrize(
@@ -930,7 +932,9 @@ def test_the_real_linters_accept_what_is_written(
         ),
     ],
 )
-def test_what_would_break_is_refused(wanted: dict[str, Any], message: str) -> None:
+def test_answers_that_would_break_the_package_are_rejected(
+    wanted: dict[str, Any], message: str
+) -> None:
     asked = {name: Given(value, f"--{name}") for name, value in wanted.items()}
     with pytest.raises(InputError, match=message):
         draft.draft(ROOTS, TEMPLATES, {"package": Given("talker", "PACKAGE"), **asked}, User("."))
@@ -961,7 +965,7 @@ def test_what_would_break_is_refused(wanted: dict[str, Any], message: str) -> No
         ),
     ],
 )
-def test_parts_that_do_not_connect_are_refused(
+def test_parts_with_conflicting_types_are_rejected(
     first: str, second: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["--add", first, "--add", second, "--destination-directory", str(tmp_path)]
@@ -971,14 +975,14 @@ def test_parts_that_do_not_connect_are_refused(
 
 
 @pytest.mark.parametrize("name", ["parameter", "params", "ros_params", "ros_parameters"])
-def test_nodes_may_be_called_parameters(name: str) -> None:
+def test_node_named_parameters(name: str) -> None:
     part = {"kind": "publisher", "node_name": name}
-    assert judged({"package": "talker", "add": [part], "extras": ["launch"]}) is not None
+    assert checked_package({"package": "talker", "add": [part], "extras": ["launch"]}) is not None
 
 
 @pytest.mark.parametrize("name", ["none", "true", "value_error", "node", "exception"])
-def test_classes_of_nodes_hide_nothing(name: str) -> None:
-    made = judged({"package": "talker", "add": [{"kind": "timer", "node_name": name}]})
+def test_node_classes_do_not_shadow_imports(name: str) -> None:
+    made = checked_package({"package": "talker", "add": [{"kind": "timer", "node_name": name}]})
     assert made is not None
     words = "".join(word.capitalize() for word in name.split("_"))
     assert f"class {words}Node(" in made.rendered.files[f"talker/{name}.py"]

@@ -1,4 +1,4 @@
-"""Interface packages: what `new` writes builds, and Python can use it."""
+"""Interface packages: generated ones build, and Python can import them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def make(**answers: object) -> draft.Draft:
     return made
 
 
-def test_fields_become_a_definition_and_dependencies() -> None:
+def test_fields_give_definition_and_dependencies() -> None:
     files = make(
         package="robot_interfaces",
         add=[
@@ -67,22 +67,22 @@ def test_fields_become_a_definition_and_dependencies() -> None:
         (7, "7 is not a field such as 'float64 distance'"),
     ],
 )
-def test_fields_that_are_refused(line: object, message: str) -> None:
+def test_invalid_fields_are_rejected(line: object, message: str) -> None:
     with pytest.raises(InputError, match=re.escape(message)):
         fields(["string name", line])
 
 
-def test_types_of_packages_that_are_not_known_are_left_to_the_build() -> None:
+def test_types_of_unknown_packages_are_accepted() -> None:
     assert fields("wheel_msgs/Speeds speeds").packages == ("wheel_msgs",)
 
 
-def test_a_type_that_the_package_lacks() -> None:
+def test_unknown_type_of_known_package_is_rejected() -> None:
     given = {"kind": "message", "name": "Scan", "fields": "Header header"}
     with pytest.raises(InputError, match=r"has no message 'Header'.*std_msgs/msg/Header"):
         make(package="scan_interfaces", add=[given])
 
 
-def test_a_message_that_holds_itself() -> None:
+def test_recursive_message_is_rejected() -> None:
     tree = {"kind": "message", "name": "Tree", "fields": "Tree[] branches"}
     with pytest.raises(InputError, match=r"the message 'Tree' would contain itself$"):
         make(package="plants", add=[tree])
@@ -92,7 +92,7 @@ def test_a_message_that_holds_itself() -> None:
         make(package="plants", add=[tree, leaf])
 
 
-def test_interfaces_and_python_nodes_cannot_share_a_package() -> None:
+def test_interfaces_and_python_nodes_in_one_package_are_rejected() -> None:
     with pytest.raises(InputError, match="one of their own, such as talker_interfaces"):
         make(package="talker", add=["message:Status", "publisher:speaker"])
 

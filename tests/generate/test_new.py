@@ -1,4 +1,4 @@
-"""`ros2-scaffold new`: what is rendered, what is refused, what is written."""
+"""`ros2-scaffold new`: rendering, rejected answers, written files."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ FILES = {
 
 
 @pytest.fixture(autouse=True)
-def _own_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test."""
+def _isolated_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate tests from the user's settings."""
     home = tmp_path / "home"
     home.mkdir()
     monkeypatch.setenv("HOME", str(home))
@@ -89,7 +89,7 @@ def files_of(**answers: object) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(("build_type", "comments", "name"), COMBINATIONS)
-def test_every_combination(build_type: str, comments: str, name: str) -> None:
+def test_every_combination_is_tidy(build_type: str, comments: str, name: str) -> None:
     made = make(build_type=build_type, comments=comments, message_type=f"std_msgs/msg/{name}")
     files = made.rendered.files
     assert set(files) == FILES[build_type]
@@ -127,7 +127,7 @@ def assert_tidy(path: str, text: str) -> None:
         assert line == line.rstrip(), path
 
 
-def test_brief_node() -> None:
+def test_brief_node_equals_the_tutorial() -> None:
     node = files_of()["talker/minimal_publisher.py"]
     assert node.partition("# limitations under the License.\n")[2] == dedent('''
         """
@@ -267,7 +267,7 @@ def test_cmake_sections_in_the_order_of_the_tutorial() -> None:
         ),
     ],
 )
-def test_dependencies(build_type: str, expected: dict[str, list[str]]) -> None:
+def test_dependencies_of_the_manifest(build_type: str, expected: dict[str, list[str]]) -> None:
     wanted = ["std_msgs", "sensor_msgs", "python3-numpy", "sensor_msgs"]
     manifest = etree.fromstring(
         files_of(build_type=build_type, dependencies=wanted)["package.xml"].encode()
@@ -280,13 +280,13 @@ def test_dependencies(build_type: str, expected: dict[str, list[str]]) -> None:
     assert manifest.findtext("export/build_type") == build_type
 
 
-def test_a_dependency_of_the_test_moves_to_run_time() -> None:
+def test_user_dependency_replaces_test_dependency() -> None:
     manifest = files_of(dependencies="ament_index_python")["package.xml"]
     assert "<exec_depend>ament_index_python<" in manifest
     assert "<test_depend>ament_index_python<" not in manifest
 
 
-def test_private_topics_frames_profiles_and_class_names() -> None:
+def test_private_topics_frames_and_qos_profiles() -> None:
     files = files_of(
         node_name="node", topic="~/beat", message_type="std_msgs/Header", qos="sensor_data"
     )
@@ -313,7 +313,7 @@ def test_examples_pass_every_rule(given: dict[str, Any], comments: str) -> None:
 
 
 @pytest.mark.parametrize("license_", licenses.names(ROOTS))
-def test_every_licence_passes_every_rule(license_: str) -> None:
+def test_every_license_passes_every_rule(license_: str) -> None:
     for build_type in BUILD_TYPES:
         made = make(build_type=build_type, license=license_)
         assert checking.defects(made, rules()) == []
@@ -363,7 +363,7 @@ HOSTILE = [
 
 @pytest.mark.parametrize("description", HOSTILE)
 @pytest.mark.parametrize("build_type", BUILD_TYPES)
-def test_descriptions_come_out_right(description: str, build_type: str) -> None:
+def test_description_is_escaped_in_every_file(description: str, build_type: str) -> None:
     expected = " ".join(description.split())
     made = make(description=description, build_type=build_type)
     files = made.rendered.files
@@ -392,12 +392,12 @@ def test_line_breaks_in_a_description_are_folded() -> None:
         ("TODO: say it", "is a placeholder"),
     ],
 )
-def test_descriptions_that_are_refused(description: str, message: str) -> None:
+def test_invalid_descriptions_are_rejected(description: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(description=description)
 
 
-def test_metadata_agree() -> None:
+def test_metadata_of_manifest_and_setup_agree() -> None:
     files = files_of(build_type="ament_python", maintainer_name="Seán O'Brien & Co", license="MIT")
     manifest = etree.fromstring(files["package.xml"].encode())
     setup = setup_arguments(files["setup.py"])
@@ -456,12 +456,12 @@ def setup_arguments(text: str) -> dict[str, Any]:
         ("numpy", "is an existing Python package"),
     ],
 )
-def test_package_names_that_are_refused(name: str, message: str) -> None:
+def test_invalid_package_names_are_rejected(name: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(package=name)
 
 
-def test_installed_packages_are_existing_ones(
+def test_name_of_an_installed_package_is_rejected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     index = tmp_path / "opt" / "share" / "ament_index" / "resource_index" / "packages"
@@ -490,7 +490,7 @@ def test_installed_packages_are_existing_ones(
         ("n" * 49, "has 49 characters"),
     ],
 )
-def test_node_names_that_are_refused(name: str, message: str) -> None:
+def test_invalid_node_names_are_rejected(name: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(node_name=name)
 
@@ -515,13 +515,13 @@ def test_node_names_that_are_refused(name: str, message: str) -> None:
         ("~/" + "t" * 62, "'/minimal_publisher/t*' in full, 81 characters long"),
     ],
 )
-def test_topics_that_are_refused(topic: str, message: str) -> None:
+def test_invalid_topics_are_rejected(topic: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(topic=topic)
 
 
 @pytest.mark.parametrize("topic", ["x", "/x", "~/x", "a/b_c/D1", "/a/b", "_hidden"])
-def test_topics_that_are_fine(topic: str) -> None:
+def test_valid_topics_are_accepted(topic: str) -> None:
     node = files_of(topic=topic)["talker/minimal_publisher.py"]
     assert f"self.create_publisher(String, '{topic}', 10)" in node
 
@@ -532,19 +532,19 @@ def test_topics_that_are_fine(topic: str) -> None:
 @pytest.mark.parametrize(
     ("rate", "written"), [("2", "2.0"), (10, "10.0"), ("0.001", "0.001"), ("1e4", "10000.0")]
 )
-def test_rates(rate: object, written: str) -> None:
+def test_valid_rates_are_accepted(rate: object, written: str) -> None:
     files = files_of(rate=rate)
     assert f"('rate', {written}, " in files["talker/minimal_publisher.py"]
     assert f"their rate: {written} Hz" in files["README.md"]
 
 
 @pytest.mark.parametrize("rate", ["0", "-1", "nan", "inf", "1e9", "0.0001"])
-def test_rates_out_of_range(rate: str) -> None:
+def test_rates_out_of_range_are_rejected(rate: str) -> None:
     with pytest.raises(InputError, match=f"--rate: {rate} Hz is not between 0.001 and 10000 Hz"):
         make(rate=rate)
 
 
-def test_a_rate_is_a_number() -> None:
+def test_rate_that_is_no_number_is_rejected() -> None:
     for rate in ("fast", "", True, [2]):
         with pytest.raises(InputError, match="--rate: "):
             make(rate=rate)
@@ -568,7 +568,7 @@ def test_a_rate_is_a_number() -> None:
         ),
     ],
 )
-def test_payloads(name: str, statements: tuple[str, ...]) -> None:
+def test_payload_of_message_types(name: str, statements: tuple[str, ...]) -> None:
     assert payload.payload(f"std_msgs/{name}").statements == statements
 
 
@@ -584,7 +584,7 @@ def test_payloads(name: str, statements: tuple[str, ...]) -> None:
         ("std_srvs/srv/Empty", "'std_srvs/srv/Empty' is a type of services, not of messages"),
     ],
 )
-def test_unknown_message_types(name: str, message: str) -> None:
+def test_unknown_message_types_are_rejected(name: str, message: str) -> None:
     with pytest.raises(InputError, match=f"--message_type: .*{message}"):
         make(message_type=name)
 
@@ -600,13 +600,13 @@ def test_unknown_message_types(name: str, message: str) -> None:
         ("a" * 60 + "@example.com", "has more than 60 characters"),
     ],
 )
-def test_addresses_that_are_refused(address: str, message: str) -> None:
+def test_invalid_email_addresses_are_rejected(address: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(maintainer_email=address)
 
 
 @pytest.mark.parametrize("name", ["", 'A "B" C', "a\\b", "x" * 61, "TODO"])
-def test_persons_that_are_refused(name: str) -> None:
+def test_invalid_maintainer_names_are_rejected(name: str) -> None:
     with pytest.raises(InputError, match="--maintainer_name: "):
         make(maintainer_name=name)
 
@@ -620,7 +620,7 @@ def test_persons_that_are_refused(name: str) -> None:
         (7, "the dependency '7' is not the name"),
     ],
 )
-def test_dependencies_that_are_refused(given: object, message: str) -> None:
+def test_invalid_dependencies_are_rejected(given: object, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make(dependencies=given)
 
@@ -629,13 +629,13 @@ def test_dependencies_that_are_refused(given: object, message: str) -> None:
     ("given", "near"),
     [("mit", "MIT or MIT-0"), ("Apache 2.0", "Apache-2.0"), ("GPLv3", "GPL-3.0"), ("BSD", "BSD")],
 )
-def test_unknown_licences(given: str, near: str) -> None:
+def test_unknown_licenses_are_rejected(given: str, near: str) -> None:
     message = f"--license: '{given}' is not one of Apache-2.0, .*; did you mean .*{near}"
     with pytest.raises(InputError, match=message):
         make(license=given)
 
 
-def test_what_a_licence_really_grants_is_said() -> None:
+def test_header_that_grants_more_than_the_license_is_noted() -> None:
     (remark,) = make(license="GPL-3.0-only").remarks
     assert remark.startswith("the header that ament_copyright accepts for GPL-3.0-only grants")
     assert make(license="GPL-3.0-or-later").remarks == ()
@@ -655,18 +655,18 @@ def test_what_a_licence_really_grants_is_said() -> None:
         ("a\u00adb", "'a\\xadb'"),
     ],
 )
-def test_python_literals(text: str, written: str) -> None:
+def test_string_literals(text: str, written: str) -> None:
     assert filters.literal(text) == written
     assert ast.literal_eval(written) == text
 
 
-def test_long_literals_break_after_blanks() -> None:
+def test_long_string_literals_break_after_spaces() -> None:
     assert filters.literal("word " * 30, column=16, indent=8) == (
         "(\n        '" + "word " * 17 + "'\n        '" + "word " * 13 + "'\n    )"
     )
 
 
-def test_imports_are_sorted_as_ament_flake8_wants() -> None:
+def test_import_order_of_ament_flake8() -> None:
     lines = [
         "from std_msgs.msg import String",
         "import rclpy",
@@ -690,7 +690,7 @@ def test_imports_are_sorted_as_ament_flake8_wants() -> None:
 # -- where answers come from
 
 
-def test_sources_of_answers(tmp_path: Path) -> None:
+def test_precedence_of_answer_sources(tmp_path: Path) -> None:
     config = tmp_path / "home" / ".config" / "ros2-scaffold" / "config.toml"
     config.parent.mkdir(parents=True)
     config.write_text(
@@ -707,7 +707,7 @@ def test_sources_of_answers(tmp_path: Path) -> None:
     assert "('rate', 2.0, " in files_of()["talker/minimal_publisher.py"]  # template
 
 
-def test_the_git_settings_are_those_of_the_destination(tmp_path: Path) -> None:
+def test_git_settings_of_the_destination_are_used(tmp_path: Path) -> None:
     repository = tmp_path / "repository"
     subprocess.run(["git", "init", "-q", repository], check=True)
     subprocess.run(["git", "-C", repository, "config", "user.email", "work@b.org"], check=True)
@@ -716,7 +716,7 @@ def test_the_git_settings_are_those_of_the_destination(tmp_path: Path) -> None:
     assert 'email="work@b.org">Ada Lovelace<' in made.rendered.files["package.xml"]
 
 
-def test_without_git_settings_the_login_is_used_and_said(
+def test_login_name_is_used_without_git_settings(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "home" / ".gitconfig").unlink()
@@ -731,7 +731,7 @@ def test_without_git_settings_the_login_is_used_and_said(
     assert answer_types.address(maintainer.get("email"))
 
 
-def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_new_works_without_git(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     made = draft.draft(
         ROOTS, TEMPLATES, {"package": Given("talker", "PACKAGE")}, User(str(tmp_path))
@@ -754,19 +754,19 @@ def test_git_may_be_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
         ("topic: yes\n", "answers.yaml: topic: True is not text"),
     ],
 )
-def test_answers_files_that_are_refused(
+def test_invalid_answers_files_are_rejected(
     text: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "work" / "answers.yaml").write_text(text)
     assert_refused(capsys, ["new", "talker", "--answers", "answers.yaml"], message)
 
 
-def test_a_missing_answers_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_answers_file_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     message = "nowhere.yaml: No such file or directory"
     assert_refused(capsys, ["new", "talker", "--answers", "nowhere.yaml"], message)
 
 
-def test_an_unknown_key_in_the_configuration(
+def test_unknown_configuration_key_is_an_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "work" / "ros2-scaffold.toml").write_text('[new]\nlicence = "MIT"\n')
@@ -774,7 +774,7 @@ def test_an_unknown_key_in_the_configuration(
     assert_refused(capsys, ["new", "talker"], message)
 
 
-def test_the_date_can_be_fixed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_source_date_epoch_sets_the_date(monkeypatch: pytest.MonkeyPatch) -> None:
     first = files_of()
     assert files_of() == first
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
@@ -785,7 +785,7 @@ def test_the_date_can_be_fixed(monkeypatch: pytest.MonkeyPatch) -> None:
 # -- the command
 
 
-def test_help_names_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_lists_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["new", "--help"])
     assert stop.value.code == 0
@@ -811,7 +811,7 @@ def test_help_names_every_flag(capsys: pytest.CaptureFixture[str]) -> None:
         assert flag in said
 
 
-def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_of_new(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source = tmp_path / "ws" / "src"
     source.mkdir(parents=True)
     assert main(["new", "talker", "--destination-directory", str(source)]) == 0
@@ -843,7 +843,7 @@ def test_what_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert os.access(source / "talker" / "talker" / "minimal_publisher.py", os.X_OK)
 
 
-def test_launch_files_are_named_with_what_comes_next(
+def test_output_names_the_launch_command(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     command = ["new", "rover", "--destination-directory", str(tmp_path), "--extras", "description"]
@@ -872,7 +872,7 @@ def test_dry_run_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert os.listdir(tmp_path / "work") == []
 
 
-def test_an_existing_package_is_left_alone(
+def test_existing_package_is_not_overwritten(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["new", "talker"]) == 0
@@ -897,7 +897,9 @@ def test_an_existing_package_is_left_alone(
     )
 
 
-def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_destinations_are_rejected(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     work = tmp_path / "work"
     (work / "file").write_text("")
     (work / "link").mkdir()
@@ -938,14 +940,16 @@ def test_places_that_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["--message-type", "std_msgs/Sting"], "--message-type: unknown message type"),
     ],
 )
-def test_bad_flags(flags: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_flags_are_rejected(
+    flags: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert_refused(capsys, ["new", "talker", *flags], message)
 
 
 def assert_refused(
     capsys: pytest.CaptureFixture[str], command: list[str], message: str, *, untouched: bool = True
 ) -> None:
-    """Run a command that must end with 2, one clear line and nothing written."""
+    """Fail unless a command ends with 2 and one error line, and writes nothing."""
     before = os.listdir()
     assert main(command) == 2
     said = capsys.readouterr()
@@ -961,7 +965,7 @@ def assert_refused(
 
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
-    """A content directory with one more kind of node."""
+    """A content directory with an additional kind of node."""
     kind = tmp_path / "team" / "templates" / "nodes" / "blinker"
     (kind / "{{ package }}").mkdir(parents=True)
     (kind / "template.yaml").write_text(
@@ -988,7 +992,7 @@ def team(tmp_path: Path) -> Path:
     return tmp_path / "team" / "templates"
 
 
-def test_templates_of_a_team(team: Path) -> None:
+def test_user_template_is_rendered(team: Path) -> None:
     roots = [*ROOTS, str(team)]
     templates = loading.load(roots)
     asked = {"package": "talker", "node_kind": "blinker", "lamp": "it's blue"}
@@ -1006,7 +1010,7 @@ def test_templates_of_a_team(team: Path) -> None:
         draft.draft(roots, templates, given, User("."))
 
 
-def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> None:
+def test_content_flag_adds_user_templates(team: Path, tmp_path: Path) -> None:
     (tmp_path / "work" / "answers.yaml").write_text("node_kind: blinker\nlamp: green\n")
     (team / "nodes" / "blinker" / "{{ package }}" / "{{ node.module }}.py.jinja").write_text(
         "#!/usr/bin/env python3\n{{ header }}\n\nLAMP = {{ node.lamp | literal }}\n"
@@ -1041,7 +1045,7 @@ def test_content_of_a_team_on_the_command_line(team: Path, tmp_path: Path) -> No
         ("setup.py", "", "setup.py: must end in .jinja"),
     ],
 )
-def test_broken_templates(team: Path, path: str, text: str, message: str) -> None:
+def test_template_errors_are_reported(team: Path, path: str, text: str, message: str) -> None:
     file = team / "nodes" / "blinker" / path
     file.parent.mkdir(exist_ok=True)
     file.write_text(text)
@@ -1056,7 +1060,7 @@ def test_broken_templates(team: Path, path: str, text: str, message: str) -> Non
     assert "\n" not in str(told.value)
 
 
-def test_dependencies_of_a_template_are_names(team: Path) -> None:
+def test_invalid_dependencies_of_a_template_are_rejected(team: Path) -> None:
     extra = team / "extras" / "listing"
     extra.mkdir(parents=True)
     extra.joinpath("template.yaml").write_text(
@@ -1110,7 +1114,7 @@ def test_dependencies_of_a_template_are_names(team: Path) -> None:
         ),
     ],
 )
-def test_broken_manifests(team: Path, manifest: str, message: str) -> None:
+def test_invalid_template_yaml_is_rejected(team: Path, manifest: str, message: str) -> None:
     (team / "nodes" / "blinker" / "template.yaml").write_text(manifest)
     with pytest.raises(ContentError) as told:
         loading.load([*ROOTS, str(team)])
@@ -1126,7 +1130,9 @@ def test_broken_manifests(team: Path, manifest: str, message: str) -> None:
         ("extras/blinker", "nodes/blinker: {team}/extras/blinker has the same name"),
     ],
 )
-def test_templates_where_no_role_is_certain(team: Path, place: str, message: str) -> None:
+def test_templates_outside_of_a_role_directory_are_rejected(
+    team: Path, place: str, message: str
+) -> None:
     (team / place).mkdir(parents=True)
     (team / place / "template.yaml").write_text("summary: x\n")
     with pytest.raises(ContentError) as raised:
@@ -1134,7 +1140,7 @@ def test_templates_where_no_role_is_certain(team: Path, place: str, message: str
     assert message.format(team=team) in str(raised.value)
 
 
-def test_a_package_that_the_checker_rejects_names_the_template(
+def test_findings_in_a_rendered_file_name_the_template(
     team: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "work" / "ros2-scaffold.toml").write_text(f'content = ["{team.parent}"]\n')
@@ -1149,7 +1155,7 @@ def test_a_package_that_the_checker_rejects_names_the_template(
     assert os.listdir(tmp_path / "work") == ["ros2-scaffold.toml"]
 
 
-def test_the_page_on_templates_names_everything() -> None:
+def test_documentation_lists_variables_filters_and_keys() -> None:
     page = (Path(__file__).parents[2] / "docs" / "templates.md").read_text()
     context = set(package_variables())
     for word in {
@@ -1222,7 +1228,7 @@ def test_answers_for_one_node_of_several() -> None:
     assert "'chatter', " in made.rendered.files["conversation/slow.py"]
 
 
-def test_the_written_answers_make_the_same_package() -> None:
+def test_recorded_answers_give_the_same_package() -> None:
     made = make(package="conversation", add=["publisher:talker", "publisher:announcer"], rate=5)
     assert make(**made.answers).rendered == made.rendered
 
@@ -1237,18 +1243,20 @@ def test_the_written_answers_make_the_same_package() -> None:
         ("publisher:conversation", "is the name of the package"),
     ],
 )
-def test_parts_that_are_refused(capsys: pytest.CaptureFixture[str], add: str, message: str) -> None:
+def test_invalid_parts_are_rejected(
+    capsys: pytest.CaptureFixture[str], add: str, message: str
+) -> None:
     assert_refused(capsys, ["new", "conversation", "--add", add], message)
 
 
-def test_two_nodes_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_duplicate_node_names_are_rejected(capsys: pytest.CaptureFixture[str]) -> None:
     command = ["new", "conversation", "--add", "publisher:talker", "--add", "publisher:talker"]
     assert_refused(capsys, command, "the package has two parts named 'talker'")
     command = ["new", "conversation", "--add", "publisher:talker", "--node-name", "announcer"]
     assert_refused(capsys, command, "--node-name: cannot be combined with --add")
 
 
-def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_parts_in_an_answers_file(capsys: pytest.CaptureFixture[str]) -> None:
     Path("answers.yaml").write_text(
         "add:\n- {kind: publisher, name: talker, rate: 7}\n- publisher:announcer\n"
     )
@@ -1268,7 +1276,7 @@ def test_answers_of_parts_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
         ("--add", "tf2_listener:finder source_frame=map target_frame=map"),
     ],
 )
-def test_a_transform_from_a_frame_to_itself_is_refused(
+def test_transform_from_a_frame_to_itself_is_rejected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
 ) -> None:
     assert main(["new", "rover", "--destination-directory", str(tmp_path), *words]) == 2

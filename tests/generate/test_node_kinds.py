@@ -1,4 +1,4 @@
-"""The kinds of nodes: what their answers make of the code."""
+"""The kinds of nodes: how answers change the generated code."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ def files_of(kind: str, **answers: object) -> Mapping[str, str]:
     return made.rendered.files
 
 
-def test_a_subscriber_reads_nothing_that_may_be_missing() -> None:
+def test_subscriber_does_not_index_possibly_empty_arrays() -> None:
     node = files_of("subscriber", message_type="sensor_msgs/msg/JointState")["talker/worker.py"]
     assert "{msg.name[0]}" not in node
     assert "f'Received: name: {len(msg.name)}, position: {len(msg.position)}'" in node
 
 
-def test_a_subscriber_imports_what_its_log_needs_and_no_more() -> None:
+def test_subscriber_imports_only_what_its_log_needs() -> None:
     files = files_of("subscriber", message_type="geometry_msgs/msg/PoseStamped")
     assert "import math\n" not in files["talker/worker.py"]
     assert "import math\n" in files["test/test_worker.py"]
@@ -58,7 +58,7 @@ def test_a_subscriber_imports_what_its_log_needs_and_no_more() -> None:
         ("publisher_subscriber", ("input_type", "message_type")),
     ],
 )
-def test_a_library_is_a_dependency_of_what_imports_it(kind: str, answers: tuple[str, ...]) -> None:
+def test_imported_libraries_are_dependencies(kind: str, answers: tuple[str, ...]) -> None:
     files = files_of(kind, **dict.fromkeys(answers, "sensor_msgs/msg/PointCloud2"))
     expected = ""
     for path, tag in (("test/test_worker.py", "test"), ("talker/worker.py", "exec")):
@@ -68,7 +68,7 @@ def test_a_library_is_a_dependency_of_what_imports_it(kind: str, answers: tuple[
     assert "".join(declared) == expected
 
 
-def test_a_relay_needs_no_more_than_its_message() -> None:
+def test_relay_imports_only_its_message() -> None:
     node = files_of("publisher_subscriber", message_type="geometry_msgs/msg/PoseStamped")
     code = node["talker/worker.py"]
     assert "        return msg\n" in code
@@ -76,7 +76,7 @@ def test_a_relay_needs_no_more_than_its_message() -> None:
         assert word not in code
 
 
-def test_what_is_made_of_a_measurement_keeps_its_time_and_frame() -> None:
+def test_processed_message_keeps_stamp_and_frame() -> None:
     files = files_of(
         "publisher_subscriber",
         input_type="sensor_msgs/msg/LaserScan",
@@ -89,7 +89,7 @@ def test_what_is_made_of_a_measurement_keeps_its_time_and_frame() -> None:
     assert "frame_id" not in files["README.md"]
 
 
-def test_parts_of_a_result_that_name_a_frame_keep_their_parameter() -> None:
+def test_nested_headers_of_processed_message_use_the_frame_parameter() -> None:
     code = files_of(
         "publisher_subscriber",
         input_type="sensor_msgs/msg/LaserScan",
@@ -100,7 +100,7 @@ def test_parts_of_a_result_that_name_a_frame_keep_their_parameter() -> None:
 
 
 @pytest.mark.parametrize(("input_topic", "topic"), [("a", "a"), ("/a", "a"), ("~/a", "/worker/a")])
-def test_a_node_does_not_listen_to_itself(input_topic: str, topic: str) -> None:
+def test_subscribing_to_the_own_topic_is_rejected(input_topic: str, topic: str) -> None:
     message = "--input-topic and --topic are both '.*': the node would receive its own messages"
     with pytest.raises(InputError, match=message):
         files_of("publisher_subscriber", input_topic=input_topic, topic=topic)
@@ -108,14 +108,14 @@ def test_a_node_does_not_listen_to_itself(input_topic: str, topic: str) -> None:
 
 @pytest.mark.parametrize("quality", ["latched", "best_effort,depth=5", "latched,deadline=0.5"])
 @pytest.mark.parametrize("kind", ["subscriber", "publisher_subscriber"])
-def test_settings_of_the_quality_of_service(kind: str, quality: str) -> None:
+def test_qos_settings_become_a_constant(kind: str, quality: str) -> None:
     files = files_of(kind, qos=quality)
     for path in ("talker/worker.py", "test/test_worker.py"):
         assert "\nQOS = QoSProfile(" in files[path]
     assert ", QOS)" in files["talker/worker.py"]
 
 
-def test_imports_of_one_module_stand_on_one_line() -> None:
+def test_imports_of_one_module_are_merged() -> None:
     lines = ["from a.b import C, d", "import os", "from a.b import B", "from a.b import C"]
     assert filters.import_block(lines) == "import os\n\nfrom a.b import B, C, d"
     long = [f"from a.b import {letter * 50}" for letter in "YX"]
@@ -126,7 +126,7 @@ def test_imports_of_one_module_stand_on_one_line() -> None:
     assert filters.import_block(commented) == "\n".join(commented)
 
 
-def test_a_flag_says_what_it_means_for_each_kind() -> None:
+def test_help_of_shared_flag_covers_each_kind() -> None:
     kinds = [TEMPLATES[kind] for kind in ("publisher", "subscriber", "timer")]
     found = {one.name: one for one in questions.shared(kinds)}
     usual = "(default: the usual one of the type, such as scan)"

@@ -53,7 +53,7 @@ class Repository:
 
 @pytest.fixture
 def variables(tmp_path: Path) -> dict[str, str]:
-    """An environment with the command, with no configuration of the user, and without an index."""
+    """An environment with the command, without user configuration and package index."""
     identity = {
         f"GIT_{role}_{what}": value
         for role in ("AUTHOR", "COMMITTER")
@@ -77,8 +77,8 @@ def make(place: Path, *words: str) -> Path:
     return place / "talker"
 
 
-def break_(package: Path) -> str:
-    """Take out a dependency; return the manifest as it was."""
+def remove_dependency(package: Path) -> str:
+    """Remove a dependency; return the original manifest."""
     manifest = package / "package.xml"
     text = manifest.read_text()
     lines = [line for line in text.splitlines(keepends=True) if "std_msgs" not in line]
@@ -86,14 +86,14 @@ def break_(package: Path) -> str:
     return text
 
 
-def test_a_commit_with_a_fault_fails_and_one_without_passes(
+def test_commit_fails_with_findings_and_passes_without(
     tmp_path: Path, variables: dict[str, str]
 ) -> None:
     package = make(tmp_path)
     repository = Repository(package, variables)
     repository.run("pre-commit", "install")
     assert "Passed" in repository.commit()
-    text = break_(package)
+    text = remove_dependency(package)
     output = repository.commit(code=1)
     assert FINDING in output
     (package / "package.xml").write_text(text)
@@ -103,11 +103,11 @@ def test_a_commit_with_a_fault_fails_and_one_without_passes(
     assert len(repository.run("git", "log", "--oneline").splitlines()) == 2
 
 
-def test_a_commit_of_the_readme_alone_is_not_checked(
+def test_commit_of_only_the_readme_is_not_checked(
     tmp_path: Path, variables: dict[str, str]
 ) -> None:
     package = make(tmp_path)
-    break_(package)
+    remove_dependency(package)
     repository = Repository(package, variables)
     repository.commit()
     repository.run("pre-commit", "install")
@@ -166,14 +166,14 @@ def shared(clone: Path, tmp_path: Path, variables: dict[str, str]) -> Repository
     hooks = "".join(f"  - id: {name}\n" for name in ("ros2-scaffold-fix", "ros2-scaffold-check"))
     (top / CONFIG).write_text(f"repos:\n- repo: {clone}\n  rev: {revision}\n  hooks:\n{hooks}")
     (top / "setup.py").write_text("# of no package\n")
-    break_(top / "src" / "listener")
+    remove_dependency(top / "src" / "listener")
     repository = Repository(top, {**variables, **installing()})
     repository.commit()
     repository.run("pre-commit", "install", "--install-hooks")
     return repository
 
 
-def test_our_own_hooks_run_from_a_repository(shared: Repository) -> None:
+def test_hooks_of_this_repository_run(shared: Repository) -> None:
     node = shared.top / "src" / "talker" / "talker" / "minimal_publisher.py"
     text = node.read_text()
 
@@ -211,7 +211,7 @@ def test_our_own_hooks_run_from_a_repository(shared: Repository) -> None:
     assert FINDING in output
 
 
-def test_the_hook_of_earlier_versions_checks_all_packages(shared: Repository) -> None:
+def test_hook_of_earlier_versions_checks_all_packages(shared: Repository) -> None:
     configuration = shared.top / CONFIG
     text = configuration.read_text()
     kept = [line for line in text.splitlines() if "ros2-scaffold-fix" not in line]

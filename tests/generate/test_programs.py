@@ -1,4 +1,4 @@
-"""C++ programs beside Python nodes: what `new` writes builds, passes the linters and runs."""
+"""C++ programs next to Python nodes: they build, pass the linters and run."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ],
 )
 @pytest.mark.parametrize("comments", ["brief", "tutorial"])
-def test_linters(linter: str, comments: str, tmp_path: Path) -> None:
+def test_ament_linters_accept_programs(linter: str, comments: str, tmp_path: Path) -> None:
     directory = write(tmp_path, add=list(PROGRAMS), comments=comments)
     variables = oracles.system_environment()
     program = shutil.which(linter, path=variables["PATH"])
@@ -121,6 +121,6 @@ def test_programs_build_run_and_pass_their_tests(package: Path) -> None:
         assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("1", "0", "0")
 
 
-def test_programs_need_a_compiler_and_so_ament_cmake(tmp_path: Path) -> None:
+def test_programs_require_ament_cmake(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cpp_deque needs the build type ament_cmake, not"):
         write(tmp_path, add="cpp_deque:buffer", build_type="ament_python")

@@ -1,4 +1,4 @@
-"""Extras that are read at the top of a git repository alone, in real repositories."""
+"""Extras that belong at the top of a git repository, in real repositories."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def workspace(tmp_path: Path) -> Path:
     return top
 
 
-def test_new_writes_them_at_the_top(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_new_writes_extras_at_the_top(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert new(workspace / "src", "--extras", *EXTRAS) == 0
     assert sorted(path for path in files(workspace) if not path.startswith("src/")) == AT_TOP
     hidden = [file.name for file in (workspace / "src" / "talker").glob(".*")]
@@ -84,7 +84,7 @@ def test_new_writes_them_at_the_top(workspace: Path, capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("extra", EXTRAS)
-def test_add_writes_what_new_writes(extra: str, tmp_path: Path) -> None:
+def test_add_equals_new(extra: str, tmp_path: Path) -> None:
     made: list[dict[str, bytes]] = []
     for name in ("first", "second"):
         (tmp_path / name).mkdir()
@@ -99,7 +99,7 @@ def test_add_writes_what_new_writes(extra: str, tmp_path: Path) -> None:
     assert files(tmp_path / "second") == made[0]
 
 
-def test_add_to_the_package_of_somebody_else(workspace: Path) -> None:
+def test_add_to_a_package_not_generated_by_this_tool(workspace: Path) -> None:
     package = workspace / "src" / "talker"
     assert new(workspace / "src") == 0
     (package / NAME).unlink()
@@ -110,7 +110,7 @@ def test_add_to_the_package_of_somebody_else(workspace: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["worktree", "submodule", "repository"])
-def test_the_innermost_repository_counts(kind: str, workspace: Path, tmp_path: Path) -> None:
+def test_innermost_repository_is_used(kind: str, workspace: Path, tmp_path: Path) -> None:
     """A worktree and a submodule have a file `.git`, and no directory."""
     inner = workspace / "src" / "inner"
     git(workspace, "commit", "-q", "--allow-empty", "-m", "start")
@@ -130,16 +130,14 @@ def test_the_innermost_repository_counts(kind: str, workspace: Path, tmp_path: P
     assert not (workspace / ".github").exists()
 
 
-def test_a_package_that_is_a_repository_has_them_itself(tmp_path: Path) -> None:
+def test_package_that_is_a_repository_gets_the_extras(tmp_path: Path) -> None:
     assert new(tmp_path) == 0
     git(tmp_path / "talker", "init", "-q")
     assert add(tmp_path / "talker", "ci") == 0
     assert (tmp_path / "talker" / ".github" / "workflows" / "ci.yaml").is_file()
 
 
-def test_without_a_repository_the_user_is_told(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_missing_repository_is_noted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / ".git").mkdir()  # neither a repository nor a link to one
     assert new(tmp_path, "--extras", "ci") == 0
     assert (tmp_path / "talker" / ".github" / "workflows" / "ci.yaml").is_file()
@@ -149,7 +147,7 @@ def test_without_a_repository_the_user_is_told(
     )
 
 
-def test_two_packages_have_workflows_and_containers_of_their_own(workspace: Path) -> None:
+def test_each_package_has_its_own_workflow_and_container(workspace: Path) -> None:
     for name in ("talker", "listener"):
         assert new(workspace / "src", "--extras", "ci", "devcontainer", name=name) == 0
     workflows = workspace / ".github" / "workflows"
@@ -158,7 +156,7 @@ def test_two_packages_have_workflows_and_containers_of_their_own(workspace: Path
     assert sorted(file.name for file in containers.iterdir()) == ["listener", "talker"]
 
 
-def test_the_paths_of_the_workflow_lead_to_the_package(workspace: Path, tmp_path: Path) -> None:
+def test_paths_in_the_workflow_exist(workspace: Path, tmp_path: Path) -> None:
     """The commands run above the checkout, where colcon finds every package below `src`."""
     assert new(workspace / "src", "--extras", "ci") == 0
     path = workspace / ".github" / "workflows" / "talker.yaml"
@@ -175,7 +173,7 @@ def test_the_paths_of_the_workflow_lead_to_the_package(workspace: Path, tmp_path
     assert "colcon test --packages-select talker" in steps[3]["run"]
 
 
-def test_pre_commit_checks_the_package_in_its_directory(
+def test_pre_commit_checks_the_package_directory(
     workspace: Path, variables: dict[str, str]
 ) -> None:
     assert new(workspace / "src", "--extras", "pre_commit") == 0
@@ -200,7 +198,7 @@ repos:
 
 
 @pytest.mark.parametrize("verb", ["new", "add"])
-def test_a_configuration_of_pre_commit_is_left_to_its_owner(
+def test_existing_pre_commit_configuration_is_kept(
     verb: str,
     workspace: Path,
     variables: dict[str, str],
@@ -240,21 +238,21 @@ def test_a_configuration_of_pre_commit_is_left_to_its_owner(
     ],
     ids=["our repository", "our other hook", "all packages"],
 )
-def test_a_hook_that_checks_the_package_is_enough(there: str, workspace: Path) -> None:
+def test_existing_hook_needs_no_note(there: str, workspace: Path) -> None:
     (workspace / CONFIG).write_text(there)
     assert new(workspace / "src", "--extras", "pre_commit") == 0
     assert (workspace / CONFIG).read_text() == there
 
 
 @pytest.mark.parametrize("there", ["", "- \x00", "a: *b", "[" * 5000, "repos: 1", "repos: [x]"])
-def test_a_configuration_that_makes_no_sense_is_left_alone(there: str, workspace: Path) -> None:
+def test_invalid_pre_commit_configuration_is_kept(there: str, workspace: Path) -> None:
     (workspace / CONFIG).write_text(there)
     assert new(workspace / "src", "--extras", "pre_commit") == 1
     assert (workspace / CONFIG).read_text() == there
 
 
 @pytest.mark.parametrize("verb", ["new", "add"])
-def test_a_workflow_that_exists_is_not_overwritten(
+def test_existing_workflow_is_not_overwritten(
     verb: str, workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = workspace / ".github" / "workflows" / "talker.yaml"
@@ -277,7 +275,7 @@ def test_a_workflow_that_exists_is_not_overwritten(
     assert "colcon" in path.read_text()
 
 
-def test_what_is_at_the_top_is_taken_back_when_the_package_cannot_be_written(
+def test_files_at_the_top_are_restored_when_the_package_fails(
     workspace: Path,
 ) -> None:
     (workspace / "old").write_text("old\n")
@@ -304,8 +302,8 @@ def test_nothing_is_written_outside_of_the_repository(workspace: Path, tmp_path:
     assert repository.read(place, "../outside/secret") is None
 
 
-def test_git_is_not_asked(workspace: Path, tmp_path: Path) -> None:
-    """It would run what the configuration of the repository names."""
+def test_git_is_not_run(workspace: Path, tmp_path: Path) -> None:
+    """Git would run programs named in the configuration of the repository."""
     witness = tmp_path / "witness"
     git(workspace, "config", "core.fsmonitor", f"touch {witness}; false")
     git(workspace, "config", "core.hooksPath", str(tmp_path))
@@ -349,7 +347,7 @@ def test_update_merges_in_a_package_that_is_a_repository(
     assert path.read_text() == f"# mine\n{text}"
 
 
-def test_update_brings_them_to_the_top_of_a_later_repository(
+def test_update_moves_extras_to_the_top_of_a_later_repository(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert new(tmp_path / "src", "--extras", "ci") == 0
@@ -360,7 +358,7 @@ def test_update_brings_them_to_the_top_of_a_later_repository(
     assert "note: .github/workflows/ci.yaml is no longer in the templates; remove it" in said
 
 
-def test_a_record_names_no_file_outside_of_the_repository(
+def test_record_cannot_name_files_outside_of_the_repository(
     workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "secret").write_text("secret\n")

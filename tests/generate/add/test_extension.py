@@ -1,4 +1,4 @@
-"""`add` gives fields to a message, a service or an action that a package defines already."""
+"""`add` appends fields to an existing message, service or action."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_fields_and_constants_are_appended(package: Path) -> None:
     assert files(package) == before
 
 
-def test_each_section_of_a_service_keeps_its_place(package: Path) -> None:
+def test_fields_are_appended_to_their_section_of_a_service(package: Path) -> None:
     service = package / "srv" / "SetSpeed.srv"
     request, _, response = service.read_text().partition("---\n")
     assert main(["add", "service", "SetSpeed", "--request", "float64 limit"]) == 0
@@ -59,7 +59,7 @@ def test_line_endings_are_kept(package: Path) -> None:
 
 
 @pytest.mark.parametrize("line", ["float32 value", "float64 value 1.0"])
-def test_another_field_of_the_same_name_is_refused(
+def test_duplicate_field_is_rejected(
     package: Path, capsys: pytest.CaptureFixture[str], line: str
 ) -> None:
     before = files(package)
@@ -68,7 +68,7 @@ def test_another_field_of_the_same_name_is_refused(
     assert files(package) == before
 
 
-def test_a_message_is_not_extended_without_fields(
+def test_extending_a_message_requires_fields(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = files(package)

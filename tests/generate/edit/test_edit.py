@@ -1,4 +1,4 @@
-"""Edits that add a part to a package: what is written where, and that the rest stays."""
+"""Edits that add a part to a package: inserted lines, and that all others stay."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def source(path: str, text: str) -> Source:
 
 
 def added(before: Source, after: Source) -> str:
-    """Return the lines that an edit added; no line may be gone."""
+    """Return the lines that an edit added; fail if any line was removed."""
     lines = after.text.splitlines(keepends=True)
     found: list[str] = []
     for line in before.text.splitlines(keepends=True):
@@ -45,7 +45,7 @@ MANIFEST = """\
       <buildtool_depend>ament_cmake</buildtool_depend>
 
       <!-- what it talks with -->
-      <depend>rclcpp</depend>  <!-- the library -->
+      <add_dependencies>rclcpp</add_dependencies>  <!-- the library -->
       <exec_depend>tf2</exec_depend>
 
       <test_depend>ament_lint_auto</test_depend>
@@ -56,13 +56,15 @@ MANIFEST = """\
     """
 
 
-def depend(text: str, **kinds: list[str]) -> tuple[Source, Outcome]:
+def add_dependencies(text: str, **kinds: list[str]) -> tuple[Source, Outcome]:
     before = source("package.xml", text)
     return before, manifest.add_to_manifest(before, Addition("demo", depends=kinds))
 
 
-def test_dependencies_stand_beside_their_kind() -> None:
-    before, after = depend(MANIFEST, exec=["std_msgs", "rclpy"], test=["ament_cmake_pytest"])
+def test_dependencies_are_grouped_by_kind() -> None:
+    before, after = add_dependencies(
+        MANIFEST, exec=["std_msgs", "rclpy"], test=["ament_cmake_pytest"]
+    )
     assert added(before, after.source) == (
         "  <exec_depend>rclpy</exec_depend>\n"
         "  <exec_depend>std_msgs</exec_depend>\n"
@@ -74,9 +76,9 @@ def test_dependencies_stand_beside_their_kind() -> None:
     assert at.index("  <test_depend>ament_cmake_pytest</test_depend>") == 12
 
 
-def test_the_first_exec_depend_stands_below_the_others() -> None:
+def test_first_exec_depend_follows_the_other_dependencies() -> None:
     text = MANIFEST.replace("      <exec_depend>tf2</exec_depend>\n", "")
-    before, after = depend(text, exec=["rclpy"])
+    before, after = add_dependencies(text, exec=["rclpy"])
     assert added(before, after.source) == "  <exec_depend>rclpy</exec_depend>\n"
     assert after.source.lines[8] == "  <exec_depend>rclpy</exec_depend>"
 
@@ -84,17 +86,17 @@ def test_the_first_exec_depend_stands_below_the_others() -> None:
 @pytest.mark.parametrize(
     ("kind", "name"),
     [
-        ("exec", "rclcpp"),  # a depend is there when the package runs
+        ("exec", "rclcpp"),  # a add_dependencies is there when the package runs
         ("exec", "tf2"),
         ("exec", "demo"),  # itself
         ("test", "tf2"),
         ("build", "rclcpp"),
-        ("depend", "rclcpp"),
+        ("add_dependencies", "rclcpp"),
         ("buildtool", "ament_cmake"),
     ],
 )
-def test_what_another_kind_covers_is_not_declared(kind: str, name: str) -> None:
-    before, after = depend(MANIFEST, **{kind: [name]})
+def test_dependency_covered_by_another_kind_is_not_declared(kind: str, name: str) -> None:
+    before, after = add_dependencies(MANIFEST, **{kind: [name]})
     assert after.source.text == before.text
 
 
@@ -102,26 +104,32 @@ def test_what_another_kind_covers_is_not_declared(kind: str, name: str) -> None:
     ("kind", "declared", "expected"),
     [
         ("exec", "<build_depend>x</build_depend>", ["exec_depend"]),
-        ("depend", "<exec_depend>x</exec_depend>", ["build_depend", "build_export_depend"]),
-        ("depend", "", ["depend"]),
+        (
+            "add_dependencies",
+            "<exec_depend>x</exec_depend>",
+            ["build_depend", "build_export_depend"],
+        ),
+        ("add_dependencies", "", ["add_dependencies"]),
         ("build_export", "<build_depend>x</build_depend>", ["build_export_depend"]),
         ("exec", '<exec_depend condition="$ROS_DISTRO == foxy">x</exec_depend>', ["exec_depend"]),
         ("exec", "<test_depend>x</test_depend>", ["exec_depend"]),
     ],
 )
-def test_what_is_missing_is_declared(kind: str, declared: str, expected: list[str]) -> None:
+def test_missing_kind_of_dependency_is_declared(
+    kind: str, declared: str, expected: list[str]
+) -> None:
     text = f'<package format="3">\n  <name>demo</name>\n  {declared}\n</package>\n'
-    before, after = depend(text, **{kind: ["x"]})
+    before, after = add_dependencies(text, **{kind: ["x"]})
     lines = added(before, after.source).split()
     assert sorted(lines) == [f"<{tag}>x</{tag}>" for tag in expected]
 
 
-def test_format_1_has_run_depend() -> None:
-    before, after = depend("<package>\n  <name>demo</name>\n</package>\n", exec=["rclpy"])
+def test_format_1_uses_run_depend() -> None:
+    before, after = add_dependencies("<package>\n  <name>demo</name>\n</package>\n", exec=["rclpy"])
     assert added(before, after.source) == "  <run_depend>rclpy</run_depend>\n"
 
 
-def test_a_group_is_joined_once() -> None:
+def test_member_of_group_is_added_once() -> None:
     before = source("package.xml", MANIFEST)
     addition = Addition("demo", groups=["rosidl_interface_packages"])
     after = manifest.add_to_manifest(before, addition).source
@@ -131,7 +139,7 @@ def test_a_group_is_joined_once() -> None:
     assert manifest.add_to_manifest(after, addition).source.text == after.text
 
 
-def test_line_endings_and_the_encoding_stay() -> None:
+def test_line_endings_and_encoding_are_kept() -> None:
     text = dedent(MANIFEST).replace("\n", "\r\n").replace("1.0", '1.0" encoding="latin-1')
     package = Package.of(
         {
@@ -166,7 +174,7 @@ def cmake_edit(text: str, addition: Addition, *, python: bool = False) -> Outcom
     return outcome
 
 
-def test_a_program_and_a_test_get_blocks_above_the_end() -> None:
+def test_program_and_test_are_inserted_before_ament_package() -> None:
     outcome = cmake_edit(PLAIN, Addition("demo", SCRIPT, test="test/test_talker.py"))
     assert outcome.by_hand == ()
     assert outcome.source.text == dedent(
@@ -232,13 +240,13 @@ def test_a_program_and_a_test_get_blocks_above_the_end() -> None:
         ),
     ],
 )
-def test_a_program_joins_its_like(install: str, expected: str) -> None:
+def test_program_is_added_to_matching_install(install: str, expected: str) -> None:
     text = dedent(PLAIN).replace("# the end\n", f"{install}\n# the end\n")
     outcome = cmake_edit(text, Addition("demo", SCRIPT))
     assert outcome.source.text == text.replace(install, expected)
 
 
-def test_a_program_beside_the_python_package_is_written_like_the_others() -> None:
+def test_program_in_the_python_package_is_installed_like_the_others() -> None:
     text = PLAIN.replace(
         "# the end", "install(PROGRAMS ${PROJECT_NAME}/a.py DESTINATION lib/${PROJECT_NAME})"
     )
@@ -255,7 +263,7 @@ def test_a_program_beside_the_python_package_is_written_like_the_others() -> Non
         "file(GLOB found scripts/*.py)\ninstall(PROGRAMS ${found} DESTINATION lib/demo)",
     ],
 )
-def test_a_program_that_is_installed_is_left_alone(install: str) -> None:
+def test_installed_program_is_not_added_again(install: str) -> None:
     text = dedent(PLAIN).replace("# the end", install)
     assert cmake_edit(text, Addition("demo", SCRIPT)).source.text == text
 
@@ -271,7 +279,7 @@ def test_a_program_that_is_installed_is_left_alone(install: str) -> None:
         "install(PROGRAMS scripts/a.py DESTINATION lib/demo OPTIONAL)",
     ],
 )
-def test_a_program_does_not_join_what_differs(install: str) -> None:
+def test_program_is_not_added_to_a_different_install(install: str) -> None:
     text = dedent(PLAIN).replace("# the end", install)
     outcome = cmake_edit(text, Addition("demo", SCRIPT))
     assert added(Source("CMakeLists.txt", text), outcome.source) == (
@@ -279,7 +287,7 @@ def test_a_program_does_not_join_what_differs(install: str) -> None:
     )
 
 
-def test_a_test_joins_the_others() -> None:
+def test_test_is_inserted_after_the_others() -> None:
     text = PLAIN.replace(
         "# the end",
         "if(BUILD_TESTING)\n"
@@ -295,7 +303,7 @@ def test_a_test_joins_the_others() -> None:
     assert outcome.source.lines[7] == line
 
 
-def test_a_long_test_goes_over_two_lines() -> None:
+def test_long_test_line_is_wrapped() -> None:
     name = "x" * 22
     outcome = cmake_edit(dedent(PLAIN), Addition("demo", test=f"test/{name}_test.py"))
     assert (
@@ -315,12 +323,12 @@ def test_a_long_test_goes_over_two_lines() -> None:
         "ament_add_pytest_test(all test)",
     ],
 )
-def test_a_test_that_runs_is_left_alone(call: str) -> None:
+def test_existing_test_is_not_added_again(call: str) -> None:
     text = dedent(PLAIN).replace("# the end", f"if(BUILD_TESTING)\n  {call}\nendif()")
     assert cmake_edit(text, Addition("demo", test="test/test_b.py")).source.text == text
 
 
-def test_ament_auto_finds_what_tests_need() -> None:
+def test_ament_auto_finds_dependencies_of_tests() -> None:
     text = dedent(PLAIN).replace(
         "# the end", "if(BUILD_TESTING)\n  ament_auto_find_test_dependencies()\nendif()"
     )
@@ -330,7 +338,7 @@ def test_ament_auto_finds_what_tests_need() -> None:
     )
 
 
-def test_the_python_package_is_installed_with_what_finds_the_command() -> None:
+def test_ament_cmake_python_is_found_with_the_python_package() -> None:
     outcome = cmake_edit(PLAIN, Addition("demo", MODULE), python=True)
     assert added(source("CMakeLists.txt", PLAIN), outcome.source) == (
         "find_package(ament_cmake_python REQUIRED)\n"
@@ -363,7 +371,7 @@ def test_the_python_package_is_installed_with_what_finds_the_command() -> None:
         ),
     ],
 )
-def test_a_directory_goes_to_share(before: str, after: str) -> None:
+def test_directory_is_installed_to_share(before: str, after: str) -> None:
     head = "project(demo)\n\n"
     outcome = cmake_edit(head + before, Addition("demo", directories=["config"]))
     assert outcome.source.text == head + after
@@ -380,7 +388,7 @@ def test_a_directory_goes_to_share(before: str, after: str) -> None:
         ),
     ],
 )
-def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> None:
+def test_unsafe_edits_are_left_to_the_user(text: str, reason: str) -> None:
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
     assert outcome.source.text == text
     assert [one.line for one in outcome.by_hand] == [
@@ -394,7 +402,7 @@ def test_where_no_edit_is_safe_the_lines_are_said(text: str, reason: str) -> Non
     assert all(reason in one.reason and one.is_needed for one in outcome.by_hand)
 
 
-def test_what_only_tests_would_install_is_left_to_the_user() -> None:
+def test_install_reached_only_by_tests_is_left_to_the_user() -> None:
     early = "if(NOT BUILD_TESTING)\n  ament_package()\n  return()\nendif()\n"
     text = f"project(demo)\nfind_package(ament_cmake REQUIRED)\n{early}ament_package()\n"
     outcome = cmake_edit(text, Addition("demo", SCRIPT, test="test/test_talker.py"))
@@ -402,7 +410,7 @@ def test_what_only_tests_would_install_is_left_to_the_user() -> None:
     assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
 
 
-def test_a_broken_file_is_refused() -> None:
+def test_broken_file_is_rejected() -> None:
     with pytest.raises(ParseError) as error:
         cmake_edit("project(demo)\nfind_package(x\nament_package()\n", Addition("demo", SCRIPT))
     assert error.value.location.line == 2
@@ -425,7 +433,7 @@ INTERFACES = """\
     """
 
 
-def test_an_interface_joins_its_kind() -> None:
+def test_interface_is_grouped_by_kind() -> None:
     addition = Addition("demo", interfaces=["msg/C.msg"], interface_depends=["geometry_msgs"])
     outcome = cmake_edit(INTERFACES, addition)
     assert outcome.source.text == dedent(INTERFACES).replace(
@@ -435,7 +443,7 @@ def test_an_interface_joins_its_kind() -> None:
     )
 
 
-def test_an_interface_joins_the_list_that_holds_the_others() -> None:
+def test_interface_is_added_to_the_list_variable() -> None:
     text = (
         "project(demo)\nset(files\n  msg/A.msg\n)\n"
         "rosidl_generate_interfaces(${PROJECT_NAME} ${files})\n"
@@ -446,21 +454,21 @@ def test_an_interface_joins_the_list_that_holds_the_others() -> None:
     assert outcome.source.text == text.replace("msg/A.msg\n", "msg/A.msg\n  msg/C.msg\n")
 
 
-def test_a_keyword_without_values_gets_one() -> None:
+def test_value_is_added_to_empty_keyword() -> None:
     text = dedent(INTERFACES).replace(" std_msgs", "")
     addition = Addition("demo", interfaces=["msg/A.msg", "msg/C.msg"], interface_depends=["x"])
     outcome = cmake_edit(text, addition)
     assert outcome.source.lines[9:12] == ["  DEPENDENCIES", "  x", ")"]
 
 
-def test_interfaces_that_only_tests_would_generate_are_left_to_the_user() -> None:
+def test_interfaces_generated_only_for_tests_are_left_to_the_user() -> None:
     text = "project(demo)\nif(NOT BUILD_TESTING)\n  return()\nendif()\nament_package()\n"
     outcome = cmake_edit(text, Addition("demo", interfaces=["msg/C.msg"]))
     assert outcome.source.text == text
     assert [one.reason for one in outcome.by_hand] == ["the end of the file is not always reached"]
 
 
-def test_the_first_interface_brings_all_that_it_needs() -> None:
+def test_first_interface_adds_rosidl_commands() -> None:
     text = "project(demo NONE)\nfind_package(ament_cmake REQUIRED)\n\nament_package()\n"
     addition = Addition("demo", interfaces=["srv/C.srv"], interface_depends=["std_msgs"])
     assert cmake_edit(text, addition).source.text == dedent(
@@ -490,13 +498,13 @@ def test_the_first_interface_brings_all_that_it_needs() -> None:
         "ament_python_install_package(${PROJECT_NAME})",
     ],
 )
-def test_interfaces_are_refused_where_their_name_is_taken(line: str) -> None:
+def test_interfaces_are_rejected_where_the_target_name_is_taken(line: str) -> None:
     text = f"project(demo)\n{line}\nament_package()\n"
     with pytest.raises(InputError, match=r"CMakeLists.txt:2:1: .* such as demo_interfaces"):
         cmake_edit(text, Addition("demo", interfaces=["msg/C.msg"]))
 
 
-def test_a_compiled_program_is_built_installed_and_run() -> None:
+def test_compiled_program_is_built_and_installed() -> None:
     text = PLAIN.replace("project(demo)", "project(demo LANGUAGES C)")
     outcome = cmake_edit(text, Addition("demo", compiled=Compiled("two", "src/two.cpp")))
     assert outcome.source.text == dedent(
@@ -526,13 +534,13 @@ def test_a_compiled_program_is_built_installed_and_run() -> None:
 
 
 @pytest.mark.parametrize("line", ["add_executable(two a.cpp)", "ament_auto_add_library(two b.cpp)"])
-def test_a_target_is_not_made_twice(line: str) -> None:
+def test_existing_target_is_not_added_again(line: str) -> None:
     text = f"project(demo)\n{line}\nament_package()\n"
     with pytest.raises(ConflictError, match=r"CMakeLists.txt:2:1: .*defines a target 'two'"):
         cmake_edit(text, Addition("demo", compiled=Compiled("two", "src/two.cpp")))
 
 
-def test_a_compiled_program_is_defined_above_the_install_that_it_joins() -> None:
+def test_compiled_program_is_defined_before_its_install() -> None:
     text = (
         "project(demo)\nadd_executable(one src/one.cpp)\nament_target_dependencies(one m)\n"
         "install(TARGETS one DESTINATION lib/${PROJECT_NAME})\nament_package()\n"
@@ -576,7 +584,7 @@ def setup_edit(text: str, addition: Addition, *, extra: bool = False) -> Outcome
     return outcome
 
 
-def test_an_entry_point_joins_the_others() -> None:
+def test_entry_point_is_added_to_the_others() -> None:
     outcome = setup_edit(SETUP, Addition("demo", MODULE))
     assert added(source("setup.py", SETUP), outcome.source) == (
         "            'talker = demo.talker:main',\n"
@@ -590,14 +598,14 @@ def test_an_entry_point_joins_the_others() -> None:
         ('["a = demo.a:main"]', '["a = demo.a:main", "talker = demo.talker:main"]'),
     ],
 )
-def test_an_entry_point_is_written_like_the_others(points: str, expected: str) -> None:
+def test_entry_point_is_formatted_like_the_others(points: str, expected: str) -> None:
     text = f"import setuptools\npoints = {points}\n"
     text += "setuptools.setup(entry_points={'console_scripts': points})\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert expected in outcome.source.text
 
 
-def test_an_entry_point_joins_a_long_string() -> None:
+def test_entry_point_is_added_to_a_multiline_string() -> None:
     text = '''\
         from setuptools import setup
         setup(packages=['demo'], entry_points="""
@@ -620,7 +628,7 @@ def test_an_entry_point_joins_a_long_string() -> None:
         ("[package_name]", "[package_name]"),
     ],
 )
-def test_the_package_of_a_module_is_installed(packages: str, expected: str) -> None:
+def test_python_package_of_module_is_installed(packages: str, expected: str) -> None:
     text = (
         "from setuptools import setup\n\npackage_name = 'demo'\n"
         "setup(packages={}, entry_points={{'console_scripts': []}})\n"
@@ -630,7 +638,7 @@ def test_the_package_of_a_module_is_installed(packages: str, expected: str) -> N
     assert f"packages={expected}," in outcome.source.text
 
 
-def test_packages_that_cannot_be_seen_are_left_to_the_user() -> None:
+def test_unknown_packages_are_left_to_the_user() -> None:
     text = "from setuptools import setup\nfrom x import y\nsetup(packages=y())\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert outcome.by_hand == (
@@ -640,7 +648,7 @@ def test_packages_that_cannot_be_seen_are_left_to_the_user() -> None:
     )
 
 
-def test_entry_points_that_cannot_be_seen_are_left_to_the_user() -> None:
+def test_unknown_entry_points_are_left_to_the_user() -> None:
     text = "from setuptools import setup\nfrom x import y\nsetup(packages=['demo'], **y)\n"
     outcome = setup_edit(text, Addition("demo", MODULE))
     assert outcome.source.text == text
@@ -658,7 +666,7 @@ def test_entry_points_that_cannot_be_seen_are_left_to_the_user() -> None:
                                       "glob('config/*')),\n")),
     ],
 )  # fmt: skip
-def test_a_directory_becomes_data(head: str, lines: str) -> None:
+def test_directory_is_added_to_data_files(head: str, lines: str) -> None:
     text = head + dedent(SETUP)
     outcome = setup_edit(text, Addition("demo", directories=["config"]))
     assert added(Source("setup.py", text), outcome.source) == lines
@@ -676,7 +684,7 @@ LAUNCH_DATA = '\n        (f"share/{name}/launch", ["launch/demo.launch.py"]'
         ("found()", "found()"),
     ],
 )
-def test_a_file_joins_the_data_of_its_directory(entry: str, expected: str) -> None:
+def test_file_is_added_to_data_files_of_its_directory(entry: str, expected: str) -> None:
     text = (
         "from glob import glob\n\nfrom setuptools import setup\n\n"
         f'name = "demo"\n\nsetup(\n    name=name,\n    version="1",\n    data_files=[\n'
@@ -688,7 +696,7 @@ def test_a_file_joins_the_data_of_its_directory(entry: str, expected: str) -> No
     assert setup_edit(outcome.source.text, addition).source.text == outcome.source.text
 
 
-def test_pytest_is_named_where_nothing_names_it() -> None:
+def test_pytest_is_declared_if_missing() -> None:
     addition = Addition("demo", test="test/test_a.py")
     assert setup_edit(SETUP, addition, extra=True).source.text == dedent(SETUP)
     text = SETUP.replace("        tests_require=['pytest'],\n", "")
@@ -698,7 +706,7 @@ def test_pytest_is_named_where_nothing_names_it() -> None:
     )
 
 
-def test_executables_of_setup_cfg_stay_together() -> None:
+def test_script_directories_of_setup_cfg_stay_consistent() -> None:
     before = source(
         "setup.cfg",
         """\
@@ -715,7 +723,7 @@ def test_executables_of_setup_cfg_stay_together() -> None:
     assert again.source.text == outcome.source.text
 
 
-def test_the_first_executable_goes_where_ros2_run_looks() -> None:
+def test_first_executable_is_installed_for_ros2_run() -> None:
     outcome = setup_cfg.add_directories(
         Source("setup.cfg", ""), Addition("demo", MODULE), has_others=False
     )
@@ -724,7 +732,7 @@ def test_the_first_executable_goes_where_ros2_run_looks() -> None:
     )
 
 
-def test_executables_of_bin_are_not_moved() -> None:
+def test_executables_in_bin_are_not_moved() -> None:
     outcome = setup_cfg.add_directories(
         Source("setup.cfg", ""), Addition("demo", MODULE), has_others=True
     )
@@ -735,7 +743,7 @@ def test_executables_of_bin_are_not_moved() -> None:
     ]
 
 
-def test_a_wrong_directory_is_left_to_the_user() -> None:
+def test_wrong_script_directory_is_left_to_the_user() -> None:
     text = "[develop]\nscript_dir=$base/lib/demo/\n[install]\ninstall-scripts=$base/lib/old\n"
     outcome = setup_cfg.add_directories(
         Source("setup.cfg", text), Addition("demo", MODULE), has_others=True
@@ -771,14 +779,14 @@ def launch_edit(text: str, path: str = "launch/demo.launch.py") -> Outcome:
     return outcome
 
 
-def test_a_node_is_started_like_the_others() -> None:
+def test_node_is_formatted_like_the_others_in_a_launch_file() -> None:
     outcome = launch_edit(LAUNCH)
     assert added(source("x", LAUNCH), outcome.source) == (
         "        Node(package='demo', executable='talker', output='screen'),\n"
     )
 
 
-def test_a_node_is_written_on_several_lines_like_the_others() -> None:
+def test_node_is_written_on_several_lines_like_the_others() -> None:
     text = LAUNCH.replace(
         "Node(package='demo', executable='a', output='screen'),",
         'Node(\n                package="demo",\n                executable="a",\n            )',
@@ -869,7 +877,7 @@ def test_a_node_is_written_on_several_lines_like_the_others() -> None:
         ),
     ],
 )
-def test_a_node_is_put_where_the_others_are(before: str, after: str) -> None:
+def test_node_is_inserted_next_to_the_others(before: str, after: str) -> None:
     head = dedent(LAUNCH).partition("    return")[0]
     outcome = launch_edit(head + indent(dedent(before), "    "))
     assert outcome.source.text == head + indent(dedent(after), "    ")
@@ -885,20 +893,20 @@ def test_a_node_is_put_where_the_others_are(before: str, after: str) -> None:
         "x = Node(package='demo', executable='a')\nx = LaunchDescription([x])\nreturn f(x)\n",
     ],
 )
-def test_a_launch_file_that_is_not_plain_is_left_to_the_user(body: str) -> None:
+def test_complex_launch_file_is_left_to_the_user(body: str) -> None:
     text = dedent(LAUNCH).partition("    return")[0] + indent(body, "    ")
     outcome = launch_edit(text)
     assert outcome.source.text == text
     assert [one.line for one in outcome.by_hand] == ["Node(package='demo', executable='talker'),"]
 
 
-def test_a_launch_file_for_other_packages_is_left_to_the_user() -> None:
+def test_launch_file_for_other_packages_is_left_to_the_user() -> None:
     outcome = launch_edit(LAUNCH.replace("package='demo'", "package='other'"))
     assert [one.reason for one in outcome.by_hand] == ["it starts no node of demo that shows how"]
     assert "talker" not in outcome.source.text
 
 
-def test_a_launch_file_without_a_list_is_left_to_the_user() -> None:
+def test_launch_file_without_a_list_is_left_to_the_user() -> None:
     text = LAUNCH.replace("return LaunchDescription([", "x = LaunchDescription([").replace(
         "])\n", "])\n        return x\n"
     )
@@ -923,7 +931,7 @@ def test_a_launch_file_without_a_list_is_left_to_the_user() -> None:
         ),
     ],
 )
-def test_launch_files_in_markup_are_left_to_the_user(path: str, text: str, line: str) -> None:
+def test_xml_and_yaml_launch_files_are_left_to_the_user(path: str, text: str, line: str) -> None:
     assert [one.line for one in launch_edit(text, path).by_hand] == [line]
     assert [one.line for one in launch_edit(text.replace("demo", "other"), path).by_hand] == [line]
     assert launch_edit(text.replace("exec", "talker"), path).by_hand == ()
@@ -954,7 +962,7 @@ ros2 run demo talker
 """
 
 
-def test_rows_join_the_table_with_their_columns() -> None:
+def test_rows_are_added_to_the_table_with_equal_columns() -> None:
     before = Source("README.md", "# x\n\n|Topic|Type|\n|---|:-:|\n| a | b |\nend\n")
     addition = Addition("demo", readme=PART)
     after = readme.add_to_readme(before, addition).source
@@ -962,22 +970,22 @@ def test_rows_join_the_table_with_their_columns() -> None:
     assert readme.add_to_readme(after, addition).source.text == after.text
 
 
-def test_other_tables_and_code_are_left_alone() -> None:
+def test_other_tables_and_code_blocks_are_unchanged() -> None:
     text = "| Topic | Name |\n|---|---|\n\n```\n| Topic | Type |\n|---|---|\n```\n## Run\n"
     before = Source("README.md", text)
     assert readme.add_to_readme(before, Addition("demo", readme=PART)).source.text == text
 
 
-def ours(run: str, tables: str = "") -> str:
+def generated_readme(run: str, tables: str = "") -> str:
     return (
         f"# demo\n\n## Prerequisites\n\n## Build\n\n## Run\n\n{run}\n\n{tables}"
         "## Test\n\n## Author\n\n## License\n"
     )
 
 
-def test_a_readme_of_an_older_release_gets_its_row_and_a_heading() -> None:
+def test_readme_of_an_older_release_gets_row_and_heading() -> None:
     table = "## Topics\n\n| Topic | Type |\n| --- | --- |\n| `/a` | `B` |\n\n"
-    before = Source("README.md", ours("```bash\nros2 run demo a\n```", table))
+    before = Source("README.md", generated_readme("```bash\nros2 run demo a\n```", table))
     part = (
         "## Run\n\n### talker\n\n```bash\nros2 run demo talker\n```\n\n## Topics\n\n"
         "| Node | Topic | Type |\n| --- | --- | --- |\n| `talker` | `/talk` | `String` |\n"
@@ -990,18 +998,20 @@ def test_a_readme_of_an_older_release_gets_its_row_and_a_heading() -> None:
 
 
 @pytest.mark.parametrize("programs", ["", "### C++ programs\n\n"])
-def test_a_program_joins_the_table_of_programs(programs: str) -> None:
+def test_program_is_added_to_the_table_of_programs(programs: str) -> None:
     table = "| Program | What it does |\n| --- | --- |\n| `{0}` | X |"
     text = programs + "```bash\nros2 run demo {0}\n```\n\n" + table
-    before = Source("README.md", ours(text.format("one")))
+    before = Source("README.md", generated_readme(text.format("one")))
     part = "## Run\n\n### C++ programs\n\n" + text.removeprefix(programs).format("two") + "\n"
     after = readme.add_to_readme(before, Addition("demo", readme=part)).source
     assert added(before, after) == "```bash\nros2 run demo two\n```\n\n| `two` | X |\n"
     assert after.text.count("###") == programs.count("###")
 
 
-def test_what_is_said_of_all_nodes_stands_above_them() -> None:
-    before = Source("README.md", ours("### talker\n\n```bash\nros2 run demo talker\n```"))
+def test_text_about_all_nodes_precedes_their_sections() -> None:
+    before = Source(
+        "README.md", generated_readme("### talker\n\n```bash\nros2 run demo talker\n```")
+    )
     part = "## Run\n\nAll nodes:\n\n```bash\nros2 launch demo demo.launch.py\n```\n"
     after = readme.add_to_readme(before, Addition("demo", readme=part)).source
     assert "## Run\n\nAll nodes:\n\n```bash\nros2 launch demo demo.launch.py\n```\n\n### talk" in (
@@ -1010,7 +1020,7 @@ def test_what_is_said_of_all_nodes_stands_above_them() -> None:
     assert readme.add_to_readme(after, Addition("demo", readme=part)).source.text == after.text
 
 
-def test_sections_of_a_readme_like_ours_are_merged() -> None:
+def test_sections_of_a_generated_readme_are_merged() -> None:
     before = Source(
         "README.md",
         "# demo\n\n## Prerequisites\n\n## Build\n\n## Run\n\n```bash\nros2 run demo a\n```\n\n"
@@ -1031,7 +1041,9 @@ def test_sections_of_a_readme_like_ours_are_merged() -> None:
     ("entry", "is_added"),
     [("* Add the publisher node ``a``.", True), ("* Fixed everything (#1)", False)],
 )
-def test_a_changelog_gets_a_line_if_it_has_such_lines(entry: str, is_added: object) -> None:
+def test_changelog_entry_is_added_only_to_generated_changelogs(
+    entry: str, is_added: object
+) -> None:
     text = f"Changelog\n\nForthcoming\n-----------\n{entry}\n\n0.1.0\n-----\n* Start\n"
     before = Source("CHANGELOG.rst", text)
     addition = Addition("demo", changes=["* Add the publisher node ``b``."])
@@ -1104,6 +1116,6 @@ def test_python_packages_keep_their_layout(
     assert layout_of(found) == expected
 
 
-def test_other_build_types_are_refused() -> None:
+def test_other_build_types_are_rejected() -> None:
     with pytest.raises(InputError, match="demo: the build type cmake is not supported"):
         layout_of(package("cmake", {}))

@@ -1,4 +1,4 @@
-"""Starts generated publishers, each in a process of its own, and receives in another one."""
+"""Starts generated publishers, each in its own process, and receives in another one."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ OBSERVER = dedent("""\
 
 
 class Publisher(NamedTuple):
-    """A generated node and what it publishes."""
+    """A generated node and the message type that it publishes."""
 
     payload: Payload
     script: Path
@@ -79,7 +79,7 @@ class Publisher(NamedTuple):
 
 
 class Received(NamedTuple):
-    """What was received of a publisher."""
+    """The messages received from a publisher."""
 
     publisher: Publisher
     output: str
@@ -94,7 +94,7 @@ class Received(NamedTuple):
 
     @property
     def is_good(self) -> bool:
-        """Whether everything is as it should be."""
+        """Whether type, number and content of the messages are as expected."""
         is_changing = self.publisher.payload.is_changing
         return (
             self.is_received
@@ -106,12 +106,12 @@ class Received(NamedTuple):
 def receive(
     publishers: Sequence[Publisher], variables: Mapping[str, str], scratch: Path, *, jobs: int
 ) -> Iterator[Received]:
-    """Yield what is received of each publisher as soon as it is.
+    """Yield the result of each publisher as soon as it is complete.
 
     Args:
-        publishers: Nodes that are not running.
+        publishers: Nodes to start.
         variables: An environment to run nodes in.
-        scratch: A directory for what they print.
+        scratch: A directory for their output.
         jobs: How many of them run at the same time.
     """
     with subprocess.Popen(

@@ -1,4 +1,4 @@
-"""What is usual for a type: the table is right in itself, and nodes follow it."""
+"""Conventions for message types: the table is consistent, and nodes follow it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TYPES = sorted({full_name for full_name, _ in conventions.table()})
 
 
 @pytest.mark.parametrize("full_name", TYPES)
-def test_each_row_can_be_used(full_name: str) -> None:
+def test_each_row_of_the_table_is_valid(full_name: str) -> None:
     assert payload.payload(full_name).type == full_name
     for (name, topic), row in conventions.table().items():
         if name == full_name:
@@ -34,7 +34,7 @@ def test_each_row_can_be_used(full_name: str) -> None:
         ("geometry_msgs/msg/InertiaStamped", "inertia_stamped", ("10", "10", 2.0)),
     ],
 )
-def test_what_is_usual(full_name: str, topic: str, usual: tuple[str, str, float]) -> None:
+def test_conventions_of_a_topic(full_name: str, topic: str, usual: tuple[str, str, float]) -> None:
     row = conventions.of_topic(full_name, topic)
     assert (row.offered, row.requested, row.rate) == usual
     assert row.topic == topic.strip("/")
@@ -45,14 +45,14 @@ def test_services_and_actions_are_named_after_their_type() -> None:
     assert payload.action("example_interfaces/action/Fibonacci").usual_name == "fibonacci"
 
 
-def test_a_goal_on_the_command_line_is_accepted() -> None:
+def test_goal_of_the_readme_command_is_accepted() -> None:
     action = payload.action("example_interfaces/action/Fibonacci")
     assert action.goal.example == "{order: 10}"
     assert "goal.order" in action.refused
 
 
 @pytest.mark.parametrize(("received", "published"), sorted(processing.PROCESSES))
-def test_each_process_can_be_compiled(received: str, published: str) -> None:
+def test_generated_processing_code_compiles(received: str, published: str) -> None:
     process = payload.payload(received).processed(payload.payload(published))
     assert process is not None
     compile("\n".join([*process.constants, *process.lines]), received, "exec")
@@ -61,7 +61,7 @@ def test_each_process_can_be_compiled(received: str, published: str) -> None:
     assert "message" in process.check
 
 
-def test_effects_tell_what_a_test_has_to_see() -> None:
+def test_effects_of_statements_are_the_checks_of_a_test() -> None:
     lines = [
         "msg.header.stamp = self.get_clock().now().to_msg()",
         "msg.header.frame_id = self.frame_id",

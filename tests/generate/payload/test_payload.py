@@ -1,4 +1,4 @@
-"""What generated nodes put into messages, services and actions."""
+"""The values that generated nodes put into messages, services and actions."""
 
 # ruff: noqa: ANN401, S102, S307  messages of rclpy have no types, and the code is what is tested
 
@@ -47,7 +47,7 @@ BUNDLED = Definitions.around(prefixes=[])
 
 
 def importable(kind: str) -> list[str]:
-    """Return the interfaces of a kind that this Python can import."""
+    """Return the importable interfaces of a kind."""
     return [
         name
         for name in INSTALLED.all_names()
@@ -86,7 +86,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
 
 
 class Node:
-    """As much of a node as statements use."""
+    """A minimal node with what generated statements use."""
 
     frame_id = "map"
 
@@ -121,14 +121,14 @@ def need_installed(packages: Iterable[str]) -> None:
 
 
 def method(names: dict[str, Any], head: str, lines: tuple[str, ...], result: str) -> Any:
-    """Return a function made of lines."""
+    """Return a function with the given lines as its body."""
     body = indent("\n".join(lines), "    ")
     exec(f"def {head}:\n{body}\n    return {result}\n", names)
     return names[head.partition("(")[0]]
 
 
-def transported(message: Any) -> Any:
-    """Return a message as a subscriber gets it."""
+def round_trip(message: Any) -> Any:
+    """Return a message after serialization and deserialization."""
     from rclpy.serialization import deserialize_message, serialize_message
 
     return deserialize_message(serialize_message(message), type(message))
@@ -136,7 +136,7 @@ def transported(message: Any) -> Any:
 
 @needs_ros
 @pytest.mark.parametrize("name", MESSAGES)
-def test_every_message(name: str, names: dict[str, Any]) -> None:
+def test_every_message_can_be_filled(name: str, names: dict[str, Any]) -> None:
     filled = payload.payload(name, INSTALLED)
     need_installed(filled.packages)
     exec("\n".join([*filled.imports, *filled.constants]), names)
@@ -148,7 +148,7 @@ def test_every_message(name: str, names: dict[str, Any]) -> None:
     for node.count in COUNTS:
         message, log = publish(node)
         assert len(log) < 100
-        received.append(transported(message))
+        received.append(round_trip(message))
     if filled.is_changing:
         assert str(received[0]) != str(received[1])
         assert any(message != message_type() for message in received)
@@ -161,7 +161,7 @@ def test_every_message(name: str, names: dict[str, Any]) -> None:
 
 @needs_ros
 @pytest.mark.parametrize("name", SERVICES)
-def test_every_service(name: str, names: dict[str, Any]) -> None:
+def test_every_service_can_be_filled(name: str, names: dict[str, Any]) -> None:
     filled = payload.service(name, INSTALLED)
     exec(filled.import_line, names)
     service = names[filled.name]
@@ -177,7 +177,7 @@ def test_every_service(name: str, names: dict[str, Any]) -> None:
 
 @needs_ros
 @pytest.mark.parametrize("name", ACTIONS)
-def test_every_action(name: str, names: dict[str, Any]) -> None:
+def test_every_action_can_be_filled(name: str, names: dict[str, Any]) -> None:
     filled = payload.action(name, INSTALLED)
     exec(filled.import_line, names)
     action = names[filled.name]
@@ -198,14 +198,14 @@ def test_every_action(name: str, names: dict[str, Any]) -> None:
 
 
 def run(section: SectionPayload, names: dict[str, Any], node: Node, **scope: Any) -> dict[str, Any]:
-    """Run the statements of a section; return its scope with what was filled as others get it."""
+    """Run the statements of a section; return its scope with the message after a round trip."""
     exec("\n".join([*section.imports, *section.constants]), names)
     head = f"fill({', '.join(['self', *scope])})"
     own = section.statements and method(names, head, section.statements, f"f'{section.log}'")
     if own:
         assert len(own(node, **scope)) < 200
     name = next(one for one in ("result", "response", *scope) if one in scope)
-    return {**scope, name: transported(scope[name])}
+    return {**scope, name: round_trip(scope[name])}
 
 
 @needs_ros
@@ -231,8 +231,8 @@ def test_a_compressed_image_is_a_png(names: dict[str, Any]) -> None:
 # -- what the code looks like
 
 
-def parts_of(name: str) -> Iterator[Payload | SectionPayload]:
-    """Yield everything that is filled for an interface of the bundle."""
+def payloads_of(name: str) -> Iterator[Payload | SectionPayload]:
+    """Yield all payloads of a bundled interface."""
     kind = name.split("/")[1]
     if kind == "msg":
         yield payload.payload(name, BUNDLED)
@@ -245,8 +245,8 @@ def parts_of(name: str) -> Iterator[Payload | SectionPayload]:
 
 
 @pytest.mark.parametrize("name", BUNDLED.all_names())
-def test_the_code_is_short(name: str) -> None:
-    for part in parts_of(name):
+def test_generated_code_is_short(name: str) -> None:
+    for part in payloads_of(name):
         assert len(part.statements) <= MAX_LINES
         assert all(len(line) <= 91 for line in part.statements)
         assert len(part.log) <= MAX_LOG
@@ -299,7 +299,7 @@ SAMPLE = (
 
 
 @needs_ros
-def test_publishers_are_received_in_another_process(tmp_path: Path) -> None:
+def test_messages_are_received_in_another_process(tmp_path: Path) -> None:
     variables = {
         **environment.select(os.environ).variables,
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -326,7 +326,7 @@ Fill = Callable[..., Payload]
 
 @pytest.fixture
 def own(tmp_path: Path) -> Fill:
-    """Return a function that fills a message of a package that users wrote."""
+    """Return a function that fills a message defined by the user."""
 
     def fill(text: str, name: str = "Sample", **others: str) -> Payload:
         directory = tmp_path / "robot_msgs"
@@ -346,7 +346,7 @@ def own(tmp_path: Path) -> Fill:
     return fill
 
 
-def test_units_come_from_names_and_comments(own: Fill) -> None:
+def test_units_are_inferred_from_names_and_comments(own: Fill) -> None:
     filled = own("float64 motor_temperature\nfloat32 speed # m/s, forward\nfloat64 range_mm\n")
     assert filled.statements == (
         "wave = math.sin(self.count / 10.0)  # -1.0 to 1.0",
@@ -358,7 +358,7 @@ def test_units_come_from_names_and_comments(own: Fill) -> None:
     assert filled.type == "robot_msgs/msg/Sample"
 
 
-def test_enums_are_constants_of_the_field(own: Fill) -> None:
+def test_enum_fields_use_their_constants(own: Fill) -> None:
     filled = own(
         "uint8 STATE_UNKNOWN=0\nuint8 STATE_DRIVING=1\nuint8 state\n"
         "uint8 GEAR_PARK=0\nuint8 GEAR_FORWARD=1\nuint8 gear\n"
@@ -375,7 +375,7 @@ def test_enums_are_constants_of_the_field(own: Fill) -> None:
     )
 
 
-def test_a_message_of_nothing_but_an_enum_changes(own: Fill) -> None:
+def test_message_with_only_an_enum_changes(own: Fill) -> None:
     assert own("uint8 OFF=0\nuint8 ON=1\nuint8 mode\n").statements == (
         "every_mode = [Sample.OFF, Sample.ON]",
         "msg.mode = every_mode[self.count % 2]",
@@ -407,7 +407,7 @@ def test_arrays_of_messages_are_filled_in_a_loop(own: Fill) -> None:
     assert filled.packages == ("geometry_msgs", "robot_msgs")
 
 
-def test_nested_messages_have_lengths_that_fit(own: Fill) -> None:
+def test_arrays_of_nested_messages_have_matching_lengths(own: Fill) -> None:
     filled = own("sensor_msgs/Image left\nsensor_msgs/Image right\nstd_msgs/Float32 gain\n")
     assert filled.constants == ("WIDTH = 64  # pixels", "HEIGHT = 48")
     assert "msg.left.data = HEIGHT * row" in filled.statements
@@ -416,7 +416,7 @@ def test_nested_messages_have_lengths_that_fit(own: Fill) -> None:
     assert filled.is_stamped
 
 
-def test_what_lies_deep_gets_a_local_name(own: Fill) -> None:
+def test_deeply_nested_fields_get_a_local_variable(own: Fill) -> None:
     filled = own("Rig rig\n", Rig="sensor_msgs/LaserScan scan\n")
     assert filled.statements[:4] == (
         "msg.rig.scan.header.stamp = self.get_clock().now().to_msg()",
@@ -427,7 +427,7 @@ def test_what_lies_deep_gets_a_local_name(own: Fill) -> None:
     assert filled.frame == "laser"
 
 
-def test_long_names_of_fields_do_not_make_long_lines(own: Fill) -> None:
+def test_long_field_names_do_not_exceed_the_line_length(own: Fill) -> None:
     name = "polygons_of_the_areas_that_nobody_may_enter"
     inner = "corners_of_the_polygon_as_they_are_drawn"
     filled = own(f"Area {name}\n", Area=f"geometry_msgs/Polygon {inner}\nfloat64 {name}_now\n")
@@ -441,7 +441,7 @@ def test_long_names_of_fields_do_not_make_long_lines(own: Fill) -> None:
     )
 
 
-def test_headers_of_elements_are_filled(own: Fill) -> None:
+def test_headers_of_array_elements_are_filled(own: Fill) -> None:
     filled = own("std_msgs/Header header\nstd_msgs/Header[2] seen\n")
     assert filled.statements[2:] == (
         "for header in msg.seen:",
@@ -459,11 +459,11 @@ def test_headers_of_elements_are_filled(own: Fill) -> None:
         ("int64 timestamp_ms", "self.get_clock().now().nanoseconds // 1_000_000"),
     ],
 )
-def test_timestamps_have_the_unit_of_their_name(own: Fill, field: str, value: str) -> None:
+def test_timestamps_use_the_unit_in_their_name(own: Fill, field: str, value: str) -> None:
     assert own(field + "\n").statements[0].partition(" = ")[2].partition("  #")[0] == value
 
 
-def test_checks_tell_what_they_import(own: Fill) -> None:
+def test_checks_have_imports(own: Fill) -> None:
     filled = own("visualization_msgs/InteractiveMarkerControl control\nfloat64 math\n")
     assert filled.checks[0] == (
         "message.control.interaction_mode == InteractiveMarkerControl.MOVE_AXIS"
@@ -471,19 +471,19 @@ def test_checks_tell_what_they_import(own: Fill) -> None:
     assert filled.check_imports == ("from visualization_msgs.msg import InteractiveMarkerControl",)
 
 
-def test_a_header_without_a_frame_is_not_that_of_others(own: Fill) -> None:
+def test_frame_is_only_set_where_it_is_usual(own: Fill) -> None:
     filled = own("sensor_msgs/JointState joints\ngeometry_msgs/WrenchStamped wrench\n")
     assert "msg.joints.header.frame_id = self.frame_id" not in filled.statements
     assert "msg.wrench.header.frame_id = self.frame_id" in filled.statements
     assert filled.frame == "tool0"
 
 
-def test_poses_are_given_in_the_map(own: Fill) -> None:
+def test_poses_use_the_map_frame(own: Fill) -> None:
     assert own("std_msgs/Header header\ngeometry_msgs/Pose[] poses\n").frame == "map"
     assert payload.service("nav_msgs/srv/GetPlan", BUNDLED).request.frame == "map"
 
 
-def test_names_that_mean_two_things(own: Fill) -> None:
+def test_classes_with_equal_names_are_imported_with_an_alias(own: Fill) -> None:
     filled = own("geometry_msgs/Point[] points\n", name="Point")
     assert "    point = GeometryMsgsPoint()" in filled.statements
     assert filled.imports == (
@@ -493,7 +493,7 @@ def test_names_that_mean_two_things(own: Fill) -> None:
     )
 
 
-def test_a_message_with_the_name_of_the_base_class(own: Fill) -> None:
+def test_message_named_like_the_base_class(own: Fill) -> None:
     filled = own(
         "uint8 STATE_ON=1\nuint8 STATE_OFF=0\nuint8 state\nNode[] nodes\n",
         name="Graph",
@@ -508,14 +508,14 @@ def test_a_message_with_the_name_of_the_base_class(own: Fill) -> None:
     assert filled.class_names == ("Node", "RobotMsgsNode")
 
 
-def test_many_imports_are_on_several_lines(own: Fill) -> None:
+def test_many_imports_are_wrapped(own: Fill) -> None:
     others = {f"MessageWithALongName{number}": "float32 load\n" for number in range(5)}
     filled = own("".join(f"{name}[] m{name[-1]}\n" for name in others), **others)
     assert len(filled.imports) == 3
     assert all(len(line) <= 99 for line in filled.imports)
 
 
-def test_local_names_hide_nothing(own: Fill) -> None:
+def test_local_names_do_not_shadow_modules(own: Fill) -> None:
     filled = own("unique_identifier_msgs/UUID[] uuids\ngeometry_msgs/Point[] maths\n")
     assert "    uuid_ = UUID()" not in filled.statements
     assert "    point = Point()" in filled.statements
@@ -526,13 +526,13 @@ def test_defaults_are_kept(own: Fill) -> None:
     assert own("float64 gain 0.5\nint32 number\n").statements == ("msg.number = self.count % 1000",)
 
 
-def test_long_messages_keep_defaults(own: Fill) -> None:
+def test_remaining_fields_of_long_messages_keep_defaults(own: Fill) -> None:
     filled = own("".join(f"float64 field_{number}\n" for number in range(60)))
     assert len(filled.statements) <= MAX_LINES
     assert filled.statements[-1] == "# the other 48 fields keep their defaults"
 
 
-def test_no_fields(own: Fill) -> None:
+def test_message_without_fields(own: Fill) -> None:
     filled = own("uint8 ONE=1\n")
     assert (filled.statements, filled.checks, filled.is_changing) == ((), (), False)
     assert filled.log == "an empty message"
@@ -551,7 +551,7 @@ def test_no_fields(own: Fill) -> None:
         ("String", "std_msgs/msg/String"),
     ],
 )
-def test_spellings(text: str, type_: str) -> None:
+def test_accepted_spellings_of_types(text: str, type_: str) -> None:
     assert payload.payload(text, BUNDLED).type == type_
 
 
@@ -572,13 +572,13 @@ def test_spellings(text: str, type_: str) -> None:
         ("//", "unknown message type '//'"),
     ],
 )
-def test_spellings_that_are_refused(text: str, message: str) -> None:
+def test_rejected_spellings_of_types(text: str, message: str) -> None:
     with pytest.raises(InputError) as told:
         payload.payload(text, BUNDLED)
     assert str(told.value) == message
 
 
-def test_services_and_actions_by_their_bare_names() -> None:
+def test_services_and_actions_by_short_name() -> None:
     assert payload.service("AddTwoInts", BUNDLED).type == "example_interfaces/srv/AddTwoInts"
     assert payload.service("SetBool", BUNDLED).type == "std_srvs/srv/SetBool"
     assert payload.action("Fibonacci", BUNDLED).type == "example_interfaces/action/Fibonacci"
@@ -588,7 +588,7 @@ def test_services_and_actions_by_their_bare_names() -> None:
         payload.action("fibonaci", BUNDLED)
 
 
-def test_broken_definitions_are_named_with_their_line(own: Fill, tmp_path: Path) -> None:
+def test_broken_definition_is_reported_with_its_line(own: Fill, tmp_path: Path) -> None:
     file = tmp_path / "robot_msgs" / "msg" / "Sample.msg"
     with pytest.raises(InputError) as told:
         own("int32 good\nint33 bad\n")
@@ -604,7 +604,7 @@ def test_broken_definitions_are_named_with_their_line(own: Fill, tmp_path: Path)
     assert "did you mean geometry_msgs/msg/Point" in str(told.value)
 
 
-def test_cycles_are_named_with_their_line(own: Fill, tmp_path: Path) -> None:
+def test_cyclic_definition_is_reported_with_its_line(own: Fill, tmp_path: Path) -> None:
     directory = tmp_path / "robot_msgs" / "msg"
     with pytest.raises(InputError) as told:
         own("int32 number\nTree[] children\n", name="Tree")
@@ -620,7 +620,7 @@ def test_cycles_are_named_with_their_line(own: Fill, tmp_path: Path) -> None:
     )
 
 
-def test_the_workspace_around_a_directory(tmp_path: Path) -> None:
+def test_interfaces_of_the_surrounding_workspace(tmp_path: Path) -> None:
     package = tmp_path / "src" / "robot_msgs"
     (package / "msg").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>robot_msgs</name></package>")
@@ -638,7 +638,7 @@ def test_the_workspace_around_a_directory(tmp_path: Path) -> None:
 # -- services and actions, as people write them
 
 
-def test_add_two_ints() -> None:
+def test_add_two_ints_recipe() -> None:
     filled = payload.service("AddTwoInts", BUNDLED)
     assert filled.request.statements == ("request.a = self.count", "request.b = 2")
     assert filled.response.statements == ("response.sum = request.a + request.b",)
@@ -646,7 +646,7 @@ def test_add_two_ints() -> None:
     assert filled.import_line == "from example_interfaces.srv import AddTwoInts"
 
 
-def test_set_bool() -> None:
+def test_set_bool_recipe() -> None:
     filled = payload.service("std_srvs/srv/SetBool", BUNDLED)
     assert isinstance(filled, ServicePayload)
     assert filled.response.statements == (
@@ -655,7 +655,7 @@ def test_set_bool() -> None:
     )
 
 
-def test_fibonacci() -> None:
+def test_fibonacci_recipe() -> None:
     filled = payload.action("Fibonacci", BUNDLED)
     assert isinstance(filled, ActionPayload)
     assert filled.start == ("feedback.sequence = [0, 1]",)
@@ -663,14 +663,14 @@ def test_fibonacci() -> None:
     assert filled.result.statements == ("result.sequence = feedback.sequence",)
 
 
-def test_outcomes_are_good() -> None:
+def test_result_codes_mean_success() -> None:
     response = payload.service("nav_msgs/srv/LoadMap", BUNDLED).response
     assert response.statements[-1] == "response.result = LoadMap.Response.RESULT_SUCCESS"
     response = payload.service("action_msgs/srv/CancelGoal", BUNDLED).response
     assert "response.return_code = CancelGoal.Response.ERROR_NONE" in response.statements
 
 
-def test_interfaces_with_the_name_of_something_else(tmp_path: Path) -> None:
+def test_interfaces_named_like_other_classes(tmp_path: Path) -> None:
     package = tmp_path / "src" / "robot_msgs"
     (package / "srv").mkdir(parents=True)
     (package / "action").mkdir()
@@ -694,7 +694,7 @@ def test_interfaces_with_the_name_of_something_else(tmp_path: Path) -> None:
     assert "goal.status.status = ActionlibMsgsGoalStatus.ACTIVE" in action.goal.statements
 
 
-def test_recipes_are_for_messages_that_exist() -> None:
+def test_recipes_refer_to_existing_interfaces() -> None:
     from scaffold.generate.payload import recipes
 
     for file in Path(str(recipes.__file__)).parent.glob("[!_]*.py"):

@@ -1,4 +1,4 @@
-"""Types are looked up in the workspace that the package will be in."""
+"""Message types are looked up in the workspace of the new package."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from scaffold.generate import payload
 
 
 @pytest.fixture(autouse=True)
-def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test, and its files are its own."""
+def _isolated_directories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate a test from the user's settings, in a directory of its own."""
     for name in ("HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
@@ -23,7 +23,7 @@ def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def new(*words: str) -> int:
-    """Write a package into the workspace, from somewhere else."""
+    """Write a package into the workspace from another directory."""
     return main(["new", *words, "--destination-directory", "../ws/src"])
 
 
@@ -36,7 +36,7 @@ def test_messages_of_the_workspace(tmp_path: Path, capsys: pytest.CaptureFixture
     capsys.readouterr()
 
 
-def test_a_node_named_like_a_class_that_it_imports(capsys: pytest.CaptureFixture[str]) -> None:
+def test_node_named_like_an_imported_class(capsys: pytest.CaptureFixture[str]) -> None:
     assert new("poses", "--node-name", "pose", "--message-type", "geometry_msgs/PoseArray") == 0
     assert "internal error" not in capsys.readouterr().err
 
@@ -45,7 +45,7 @@ def test_a_node_named_like_a_class_that_it_imports(capsys: pytest.CaptureFixture
 def test_messages_of_packages_side_by_side(
     place: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A repository without `src`, from its top, from a directory and from a package."""
+    """In a repository without `src`, run from its top, a directory and a package."""
     top = tmp_path / "repository"
     top.mkdir()
     monkeypatch.chdir(top)

@@ -1,4 +1,4 @@
-"""What nodes make of messages, and whether the tests of these nodes would see it done wrong."""
+"""Processing of messages in generated nodes, and whether generated tests detect errors in it."""
 
 # ruff: noqa: S102  messages of rclpy have no types, and the code is what is tested
 
@@ -50,7 +50,7 @@ ERRORS = (
 
 
 class TimedNode(Node):
-    """A node whose clock shows one second more for each message, on every run the same."""
+    """A node with a deterministic clock that advances one second per message."""
 
     def get_clock(self) -> TimedNode:
         return self
@@ -62,14 +62,14 @@ class TimedNode(Node):
 
 
 def source(line: str, head: str, lines: Sequence[str], result: str) -> str:
-    """Return a function, after a line of its module."""
+    """Return the source of a function below a line of its module."""
     return f"{line}\ndef {head}:\n{indent(chr(10).join(lines), '    ')}\n    return {result}\n"
 
 
 def run(
     received: Payload, published: Payload, process: Process, constant: str, lines: Sequence[str]
 ) -> bool:
-    """Tell whether all that a node publishes passes the check of its test."""
+    """Tell whether all published messages pass the check of the generated test."""
     names: dict[str, Any] = {"pytest": pytest}
     imports = [*received.imports, *published.imports, "import math"]
     exec("\n".join([*imports, *received.constants, *published.constants]), names)
@@ -87,8 +87,8 @@ def run(
     return all(results)
 
 
-def mistakes(process: Process) -> Iterator[tuple[str, list[str]]]:
-    """Yield the constant and the code of a process with an error in one line."""
+def mutants(process: Process) -> Iterator[tuple[str, list[str]]]:
+    """Yield the constant and the code of a process with one mutated line."""
     lines = [process.constant, *process.lines]
     for at, line in enumerate(lines):
         changed = {re.sub(old, new, line, count=1) for old, new in ERRORS} - {line}
@@ -105,15 +105,13 @@ def mistakes(process: Process) -> Iterator[tuple[str, list[str]]]:
 
 
 @pytest.mark.parametrize(("received", "published"), sorted(PROCESSES))
-def test_a_process_passes_its_check_and_what_is_broken_does_not(
-    received: str, published: str
-) -> None:
+def test_check_accepts_the_process_and_rejects_mutants(received: str, published: str) -> None:
     item, message = payload.payload(received), payload.payload(published)
     need_installed({*item.packages, *message.packages})
     process = item.processed(message)
     assert process is not None
     assert run(item, message, process, process.constant, process.lines)
-    for constant, lines in mistakes(process):
+    for constant, lines in mutants(process):
         try:
             is_accepted = run(item, message, process, constant, lines)
         except Exception:  # noqa: BLE001, S112  a node that ends is seen by every test

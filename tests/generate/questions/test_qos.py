@@ -1,4 +1,4 @@
-"""Qualities of service: what users write, what nodes get, what rclpy makes of it."""
+"""Quality of service: parsing, generated code, and what rclpy makes of it."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ EVALUATE = dedent("""\
 
 
 @needs_ros
-def test_rclpy_makes_of_it_what_was_asked() -> None:
+def test_rclpy_profile_has_the_requested_settings() -> None:
     code = ["\n".join((*one.imports, one.assignment)) for one in map(qos, SETTINGS)]
     done = subprocess.run(
         [sys.executable, "-c", EVALUATE],
@@ -94,7 +94,7 @@ def test_rclpy_makes_of_it_what_was_asked() -> None:
     assert found == {text: {**DEFAULTS, **wanted} for text, wanted in SETTINGS.items()}
 
 
-def test_a_depth_and_a_profile_of_rclpy_need_no_constant() -> None:
+def test_depth_or_predefined_profile_needs_no_constant() -> None:
     assert qos("7") == Qos("7", (), "reliable, depth 7", text="7")
     assert qos("depth=7") == qos("7")._replace(text="depth=7")
     assert qos("default") == qos("10")._replace(text="default")
@@ -104,7 +104,7 @@ def test_a_depth_and_a_profile_of_rclpy_need_no_constant() -> None:
             assert qos(name).constants == ()
 
 
-def test_settings_make_a_constant_on_one_line_or_several() -> None:
+def test_settings_become_a_constant() -> None:
     short = qos("best_effort,depth=5")
     assert short.expression == "QOS"
     assert short.imports == ("from rclpy.qos import QoSProfile, ReliabilityPolicy",)
@@ -126,7 +126,7 @@ def test_settings_make_a_constant_on_one_line_or_several() -> None:
     assert qos("latched").says == "latched: reliable, transient local, depth 1"
 
 
-def test_a_file_maps_settings_to_values() -> None:
+def test_settings_as_a_mapping() -> None:
     mapped = quality({"reliability": "best_effort", "depth": 5})
     assert mapped == qos("best_effort,depth=5")._replace(text=mapped.text)
     assert qos(mapped.text) == mapped
@@ -150,12 +150,12 @@ def test_a_file_maps_settings_to_values() -> None:
         ("best_effort,", "unknown setting ''"),
     ],
 )
-def test_what_is_wrong_and_what_was_meant(text: str, message: str) -> None:
+def test_misspelled_settings_get_a_suggestion(text: str, message: str) -> None:
     with pytest.raises(InputError, match=f"^the quality of service '{text}'.*{message}"):
         qos(text)
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "10001", "1.5", "best", "", "٣"])
-def test_what_is_nothing(text: str) -> None:
+def test_invalid_qos_is_rejected(text: str) -> None:
     with pytest.raises(InputError, match="neither a depth from 1 to 10000 nor one of default, "):
         qos(text)

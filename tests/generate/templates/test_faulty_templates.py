@@ -1,4 +1,4 @@
-"""Mistakes in the templates of a team: one line says in which file, on which line, and what."""
+"""Errors in user templates: one message with file, line and reason."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PATH = "{{ package }}/{{ node.module }}.py.jinja"
 
 @pytest.fixture
 def beacon(tmp_path: Path) -> Path:
-    """Return the directory of a template of a team."""
+    """Return the directory of a user template."""
     directory = tmp_path / "templates" / "nodes" / "beacon"
     files = {
         "template.yaml": MANIFEST,
@@ -46,7 +46,7 @@ def new(beacon: Path) -> int:
     return main([*words, "--destination-directory", str(beacon.parents[2])])
 
 
-def test_a_template_without_mistakes(beacon: Path) -> None:
+def test_correct_template_is_rendered(beacon: Path) -> None:
     assert new(beacon) == 0
 
 
@@ -79,7 +79,7 @@ def test_a_template_without_mistakes(beacon: Path) -> None:
         ),
     ],
 )
-def test_a_mistake_is_one_line(
+def test_template_error_is_one_line(
     beacon: Path, capsys: pytest.CaptureFixture[str], path: str, text: str, line: str
 ) -> None:
     (beacon / path).write_text(text, errors="surrogateescape")

@@ -1,4 +1,4 @@
-"""What templates of a team may not do: look outside, write outside, run without end."""
+"""Limits of user templates: no access to other files, bounded time and memory."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ examples:
 
 @pytest.fixture
 def lamp(tmp_path: Path) -> Path:
-    """Return the directory of a template that does nothing yet."""
+    """Return the directory of an empty template."""
     directory = tmp_path / "templates" / "extras" / "lamp"
     directory.mkdir(parents=True)
     (directory / "template.yaml").write_text(MANIFEST)
@@ -37,8 +37,8 @@ def lamp(tmp_path: Path) -> Path:
     return directory
 
 
-def said(lamp: Path) -> str:
-    """Return what is wrong with the first example of the template."""
+def defect(lamp: Path) -> str:
+    """Return the only defect of the first example of the template."""
     roots = content.roots("templates", (str(lamp.parents[2]),))
     rules = registry.load(content.roots("rules"))
     first = next(iter(examples.check(["lamp"], roots, loading.load(roots), rules)))
@@ -69,34 +69,34 @@ def said(lamp: Path) -> str:
         ("{{ 1 / 0 }}", "lamp.txt.jinja:2: ZeroDivisionError"),
     ],
 )
-def test_files_that_are_refused(lamp: Path, text: str, message: str) -> None:
+def test_unsafe_template_expressions_are_rejected(lamp: Path, text: str, message: str) -> None:
     (lamp / "lamp.txt.jinja").write_text(f"first line\n{text}\n")
-    assert message in said(lamp)
+    assert message in defect(lamp)
 
 
 @pytest.mark.parametrize("place", ["../x", "../../x", "/x", "a/../../x", "a//b", ".", ""])
-def test_paths_that_leave_the_package(lamp: Path, place: str) -> None:
+def test_paths_out_of_the_package_are_rejected(lamp: Path, place: str) -> None:
     (lamp / "template.yaml").write_text(MANIFEST.replace("PLACE", place or "{{ '' }}"))
     (lamp / "{{ place }}.jinja").write_text("text\n")
-    assert "is not a path inside the package" in said(lamp) or "must not be empty" in said(lamp)
+    assert "is not a path inside the package" in defect(lamp) or "must not be empty" in defect(lamp)
 
 
-def test_links_out_of_the_templates(lamp: Path) -> None:
+def test_symlinks_out_of_the_templates_are_rejected(lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").symlink_to(lamp.parents[2] / "secret")
-    assert "a link to" in said(lamp)
+    assert "a link to" in defect(lamp)
 
 
-def test_links_to_directories_out_of_the_templates(lamp: Path) -> None:
+def test_directory_symlinks_out_of_the_templates_are_rejected(lamp: Path) -> None:
     (lamp / "docs").symlink_to(lamp.parents[2])
-    assert "a link to" in said(lamp)
+    assert "a link to" in defect(lamp)
 
 
-def test_links_between_templates(lamp: Path) -> None:
+def test_symlinks_between_templates_are_followed(lamp: Path) -> None:
     other = lamp.parent / "_shared"
     other.mkdir()
     (other / "lamp.txt").write_text("{{ nothing }}\n")
     (lamp / "lamp.txt.jinja").symlink_to("../_shared/lamp.txt")
-    assert "'nothing' is undefined" in said(lamp)
+    assert "'nothing' is undefined" in defect(lamp)
 
 
 # -- bounds on memory and time
@@ -121,9 +121,9 @@ GREEDY = {
 
 
 @pytest.mark.parametrize("name", GREEDY)
-def test_memory_has_a_bound(name: str, lamp: Path) -> None:
+def test_memory_is_limited(name: str, lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text(f"first line\n{GREEDY[name]}\n")
-    message = said(lamp)
+    message = defect(lamp)
     assert "lamp.txt.jinja" in message
     assert "too much memory" in message or "renders more than" in message or "Error" in message
 
@@ -135,18 +135,18 @@ def test_memory_has_a_bound(name: str, lamp: Path) -> None:
         "{% set xs = 'a' * 99999 %}{% for a in xs %}{% for b in xs %}{% endfor %}{% endfor %}",
     ],
 )
-def test_time_has_a_bound(text: str, lamp: Path) -> None:
+def test_time_is_limited(text: str, lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text(text)
-    assert "lamp.txt.jinja: takes more than 5 s of CPU time" in said(lamp)
+    assert "lamp.txt.jinja: takes more than 5 s of CPU time" in defect(lamp)
 
 
-def test_conditions_and_defaults_have_bounds(lamp: Path) -> None:
+def test_conditions_and_defaults_are_limited(lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text("text\n")
     (lamp / "template.yaml").write_text(MANIFEST.replace("PLACE", "{{ 'a'.ljust(10 ** 10) }}"))
-    assert "too much memory" in said(lamp)
+    assert "too much memory" in defect(lamp)
 
 
-def test_a_greedy_template_is_one_line_and_nothing_is_written(
+def test_exceeded_limit_is_one_error_line_and_writes_nothing(
     lamp: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (lamp / "lamp.txt.jinja").write_text("{{ 'a'.ljust(10 ** 10) }}\n")
@@ -162,7 +162,7 @@ def test_a_greedy_template_is_one_line_and_nothing_is_written(
     assert list(where.iterdir()) == []
 
 
-def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
+def test_killed_renderer_is_one_error_line(lamp: Path) -> None:
     (lamp / "lamp.txt.jinja").write_text("text\n")
     roots = content.roots("templates", (str(lamp.parents[2]),))
     engine = foreign.ForeignEngine(roots, {"lamp": [str(lamp)]}, is_tutorial=False)
@@ -177,12 +177,12 @@ def test_a_killed_renderer_is_one_line(lamp: Path) -> None:
     assert engine.file("lamp/lamp.txt.jinja", {}) == "text\n"
 
 
-def test_a_pipe_in_place_of_a_template(lamp: Path) -> None:
+def test_named_pipe_as_template_is_rejected(lamp: Path) -> None:
     os.mkfifo(lamp / "lamp.txt.jinja")
-    assert "lamp.txt.jinja: is not a file" in said(lamp)
+    assert "lamp.txt.jinja: is not a file" in defect(lamp)
 
 
-def test_both_processes_render_the_same(tmp_path: Path) -> None:
+def test_sandboxed_rendering_equals_direct_rendering(tmp_path: Path) -> None:
     (tmp_path / "templates").mkdir()
     own = content.roots("templates")
     templates = loading.load(own)

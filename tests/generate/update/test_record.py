@@ -1,4 +1,4 @@
-"""The record of a package and its sidecar: what a reviewer sees, and what git merges."""
+"""The record of a package and its sidecar, and how git merges them."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ NODE = "talker/minimal_publisher.py"
 
 
 @pytest.fixture(autouse=True)
-def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test, and its files are its own."""
+def _isolated_directories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate a test from the user's settings, in a directory of its own."""
     for name in ("HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
@@ -64,7 +64,7 @@ def record_of(package: Path) -> Provenance:
 
 
 def merge_branches(package: Path, ours: list[str], theirs: list[str]) -> list[str]:
-    """Add something on each of two branches and merge them; return the files in conflict."""
+    """Run `add` on each of two branches and merge them; return the files in conflict."""
     git(package, "init", "--quiet", "--initial-branch", "main")
     commit(package)
     git(package, "checkout", "--quiet", "-b", "theirs")
@@ -78,7 +78,7 @@ def merge_branches(package: Path, ours: list[str], theirs: list[str]) -> list[st
 
 
 def keep_both(package: Path, conflicts: list[str]) -> None:
-    """Settle conflicts as people do who want what both sides have added."""
+    """Resolve conflicts by keeping the lines of both sides."""
     for path in conflicts:
         lines = (package / path).read_text().splitlines(keepends=True)
         kept = [line for line in lines if not line.startswith(("<<<<<<<", "=======", ">>>>>>>"))]
@@ -87,7 +87,7 @@ def keep_both(package: Path, conflicts: list[str]) -> None:
 
 
 def without_sidecar(package: Path) -> str:
-    """Return the record as versions wrote it that had no sidecar."""
+    """Return the record as versions without a sidecar wrote it."""
     record = record_of(package)
     packed = zlib.compress(json.dumps(dict(record.rendered)).encode(), 9)
     entries = {
@@ -141,14 +141,14 @@ def test_two_branches_that_add_nodes_merge(
     assert (package / NAME).read_text() == text
 
 
-def test_the_bases_of_both_branches_can_be_made_again(package: Path) -> None:
+def test_bases_of_both_branches_can_be_rendered_again(package: Path) -> None:
     keep_both(package, merge_branches(package, ["subscriber", "listener"], ["timer", "tick"]))
     (package / BASES).unlink()
     assert main(["update", "talker"]) == 0
     assert record_of(package).is_canonical
 
 
-def test_a_merged_package_gets_a_third_node(package: Path) -> None:
+def test_node_can_be_added_after_a_merge(package: Path) -> None:
     keep_both(package, merge_branches(package, ["subscriber", "listener"], ["timer", "tick"]))
     assert add("timer", "third") == 0
     names = [part["node_name"] for part in record_of(package).answers["add"]]
@@ -163,7 +163,7 @@ def test_branches_that_add_extras_merge(package: Path) -> None:
     assert record_of(package).is_canonical
 
 
-def test_a_template_that_changed_after_the_merge(package: Path, team: Path) -> None:
+def test_update_after_a_merge(package: Path, team: Path) -> None:
     keep_both(package, merge_branches(package, ["subscriber", "listener"], ["timer", "tick"]))
     change(team, node_of(team), "Log the next message", "Tell the next message")
     change(team, "CHANGELOG.rst.jinja", "Forthcoming", "Upcoming...")
@@ -175,7 +175,7 @@ def test_a_template_that_changed_after_the_merge(package: Path, team: Path) -> N
     assert "``tick``" in changes
 
 
-def test_a_conflict_in_the_record_is_called_one(
+def test_conflict_in_the_record_is_reported_as_such(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / ATTRIBUTES).unlink()
@@ -226,7 +226,7 @@ def test_records_without_a_sidecar_get_one(
     assert record_of(package).is_canonical
 
 
-def test_the_owner_decides_how_git_merges(package: Path) -> None:
+def test_gitattributes_of_the_user_are_kept(package: Path) -> None:
     (package / NAME).write_text(without_sidecar(package))
     (package / ATTRIBUTES).write_text("* text=auto\n")
     assert main(["update", "talker"]) == 0
@@ -236,7 +236,7 @@ def test_the_owner_decides_how_git_merges(package: Path) -> None:
     assert not (package / ATTRIBUTES).exists()
 
 
-def test_a_lost_sidecar_is_made_again_where_nothing_has_changed(package: Path) -> None:
+def test_lost_sidecar_is_restored_if_templates_are_unchanged(package: Path) -> None:
     before = (package / BASES).read_bytes()
     (package / BASES).unlink()
     (package / NODE).write_text("mine\n")
@@ -247,7 +247,7 @@ def test_a_lost_sidecar_is_made_again_where_nothing_has_changed(package: Path) -
     assert record_of(package).is_canonical
 
 
-def test_a_file_that_nobody_edited_needs_no_sidecar(package: Path, team: Path) -> None:
+def test_unedited_file_needs_no_sidecar(package: Path, team: Path) -> None:
     (package / BASES).unlink()
     change(team, node_of(team), "Log the next message", "Tell the next message")
     assert main(["update", "talker", "--content", str(team)]) == 0
@@ -286,9 +286,7 @@ def test_a_shallow_clone_of_a_package_edited_before_its_first_commit(
     assert "Tell the next message" in merged
 
 
-def test_what_is_added_after_the_templates_changed_does_not_hide_the_change(
-    package: Path, team: Path
-) -> None:
+def test_add_after_a_template_change_does_not_hide_the_change(package: Path, team: Path) -> None:
     change(team, node_of(team), "Log the next message", "Tell the next message")
     assert (
         main(["add", "timer", "tick", "--package-directory", "talker", "--content", str(team)]) == 0
@@ -321,7 +319,7 @@ def _line(path: str, text: bytes, packed: bytes | None = None) -> bytes:
     ],
     ids=lambda data: repr(data[:40]),
 )
-def test_hostile_sidecars(
+def test_invalid_sidecar_is_an_error(
     package: Path, sidecar: bytes, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / BASES).write_bytes(sidecar)
@@ -345,7 +343,9 @@ def test_hostile_sidecars(
     ],
     ids=lambda text: text[:20],
 )
-def test_hostile_hashes(package: Path, files: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_hashes_are_an_error(
+    package: Path, files: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     text = (package / NAME).read_text()
     start = text.index('"files": ')
     (package / NAME).write_text(f'{text[:start]}"files": {files}}}')
@@ -356,7 +356,7 @@ def test_hostile_hashes(package: Path, files: str, capsys: pytest.CaptureFixture
         assert f"{NAME}: damaged" in error
 
 
-def test_paths_that_lead_out_are_not_read(
+def test_paths_out_of_the_package_are_not_read(
     package: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "secret").write_text("secret\n")
@@ -373,13 +373,13 @@ def test_paths_that_lead_out_are_not_read(
 @pytest.mark.parametrize(
     "path", ["a b", "a\tb", "a\nb", "#a", "ä", "%41", ":/.github/a", "<<<<<<<"]
 )
-def test_any_path_has_a_line(path: str) -> None:
+def test_sidecar_lines_round_trip_any_path(path: str) -> None:
     text = bases.text({path: "x\n"})
     assert text.count("\n") == 2
     assert bases.parse(text, "here") == {(path, bases.hash_of(b"x\n")): "x\n"}
 
 
-def test_both_sides_of_a_text_are_kept() -> None:
+def test_combined_text_has_the_lines_of_both_sides() -> None:
     ours, theirs = "a\nb\nours\nc\n", "a\ntheirs\nb\nc\nd\n"
     assert bases.combined([ours, theirs]) == "a\ntheirs\nb\nours\nc\nd\n"
     assert bases.combined(["x\n" * 9_000, "y\n" * 9_000]).count("\n") == 18_000

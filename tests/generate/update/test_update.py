@@ -22,8 +22,8 @@ NODE = "talker/minimal_publisher.py"
 
 
 @pytest.fixture(autouse=True)
-def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No setting of the machine reaches a test, and its files are its own."""
+def _isolated_directories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Isolate a test from the user's settings, in a directory of its own."""
     for name in ("HOME", "XDG_CONFIG_HOME"):
         monkeypatch.setenv(name, str(tmp_path / "home"))
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
@@ -33,7 +33,7 @@ def _own_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def package(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
-    """Make a package with the templates of before."""
+    """Make a package with the old templates."""
     command = ["new", "talker", "--maintainer-name", "Ada", "--maintainer-email", "ada@example.com"]
     assert main(command) == 0
     capsys.readouterr()
@@ -42,14 +42,14 @@ def package(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Path:
 
 @pytest.fixture
 def team(tmp_path: Path) -> Path:
-    """Return a directory with the templates of now, which a test changes."""
+    """Return a copy of the templates, for a test to change."""
     for name in ("nodes/publisher", "package", "build_types/ament_cmake"):
         shutil.copytree(TEMPLATES / name, tmp_path / "team" / "templates" / name)
     return tmp_path / "team"
 
 
 def change(team: Path, pattern: str, old: str, new: str) -> None:
-    """Change the one template file of a name."""
+    """Replace text in the only template file of a name."""
     (path,) = (team / "templates").rglob(pattern)
     text = path.read_text()
     assert old in text
@@ -73,14 +73,14 @@ def test_new_records_answers_and_files(package: Path) -> None:
         assert (package / path).read_text() == written
 
 
-def test_nothing_to_do(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_up_to_date_package_is_unchanged(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {path: path.read_bytes() for path in package.rglob("*") if path.is_file()}
     assert main(["update", "talker"]) == 0
     assert capsys.readouterr().out == "The package is up to date with the templates.\n"
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 
-def test_both_changes_come_together(
+def test_template_and_user_changes_are_merged(
     package: Path, team: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     node = package / NODE
@@ -100,7 +100,7 @@ def test_both_changes_come_together(
     assert capsys.readouterr().out == "The package is up to date with the templates.\n"
 
 
-def test_a_conflict_is_marked_and_told(
+def test_conflict_is_marked_and_reported(
     package: Path, team: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     node = package / NODE
@@ -126,7 +126,7 @@ def test_a_conflict_is_marked_and_told(
     assert node.read_text() == marked
 
 
-def test_a_template_of_a_team_that_is_not_named(
+def test_missing_user_template_is_an_error(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     record = package / provenance.NAME
@@ -141,7 +141,7 @@ def test_a_template_of_a_team_that_is_not_named(
 
 
 @pytest.mark.parametrize("flag", ["--dry-run", "--diff"])
-def test_looking_changes_nothing(
+def test_dry_run_and_diff_change_nothing(
     package: Path, team: Path, flag: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     change(team, node_of(team), "Log the next message", "Tell the next message")
@@ -152,7 +152,7 @@ def test_looking_changes_nothing(
     assert {path: path.read_bytes() for path in package.rglob("*") if path.is_file()} == before
 
 
-def test_what_the_owner_removed_stays_away(
+def test_removed_file_is_not_restored(
     package: Path, team: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "README.md").unlink()
@@ -163,7 +163,7 @@ def test_what_the_owner_removed_stays_away(
     assert capsys.readouterr().err == note
 
 
-def test_what_the_templates_dropped_stays_there(
+def test_file_dropped_from_the_templates_is_kept(
     package: Path, team: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (team / "templates" / "package" / "CHANGELOG.rst.jinja").unlink()
@@ -172,7 +172,7 @@ def test_what_the_templates_dropped_stays_there(
     assert "CHANGELOG.rst is no longer in the templates" in capsys.readouterr().err
 
 
-def test_a_question_that_is_gone_and_one_that_is_new(
+def test_removed_and_added_questions(
     package: Path, team: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = team / "templates" / "package" / "template.yaml"
@@ -187,7 +187,7 @@ def test_a_question_that_is_gone_and_one_that_is_new(
     assert "note: the templates no longer ask for colour\n" in capsys.readouterr().err
 
 
-def test_windows_line_endings_stay(package: Path, team: Path) -> None:
+def test_windows_line_endings_are_kept(package: Path, team: Path) -> None:
     node = package / NODE
     node.write_bytes(node.read_bytes().replace(b"\n", b"\r\n"))
     change(team, node_of(team), "Log the next message", "Tell the next message")
@@ -197,7 +197,9 @@ def test_windows_line_endings_stay(package: Path, team: Path) -> None:
     assert merged.count(b"\r\n") == merged.count(b"\n")
 
 
-def test_a_package_of_somebody_else(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_package_without_a_record_is_an_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "other").mkdir()
     assert main(["update", "other"]) == 2
     assert "other/.ros2-scaffold.json is missing" in capsys.readouterr().err
@@ -224,7 +226,7 @@ def test_damaged_records(text: str) -> None:
 
 
 @pytest.mark.parametrize("answers", [{}, {"add": 5}, {"add": None}, {"add": [{}]}])
-def test_answers_that_nobody_gave(
+def test_invalid_answers_in_the_record_are_an_error(
     package: Path, answers: dict[str, object], capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = package / provenance.NAME
@@ -240,7 +242,7 @@ def test_answers_that_nobody_gave(
     ("version", "is_newer"),
     [("0.1", False), ("0.1.0.dev3", False), ("0.0.9", False), ("0.1.1", True), ("2.0rc1", True)],
 )
-def test_records_of_a_newer_release_are_not_touched(
+def test_record_of_a_newer_release_is_an_error(
     package: Path,
     version: str,
     capsys: pytest.CaptureFixture[str],
@@ -263,7 +265,7 @@ def test_records_of_a_newer_release_are_not_touched(
     assert {file: file.read_bytes() for file in package.rglob("*") if file.is_file()} == before
 
 
-def test_what_is_added_makes_the_record_one_of_this_release(package: Path) -> None:
+def test_add_updates_the_version_of_the_record(package: Path) -> None:
     path = package / provenance.NAME
     path.write_text(json.dumps({**json.loads(path.read_text()), "version": "0.0.1"}))
     assert main(["add", "timer", "clock", "--package-directory", "talker"]) == 0
