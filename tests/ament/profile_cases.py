@@ -1,4 +1,4 @@
-"""Code that the linters of the distributions judge differently, with the codes of each.
+"""Code with different findings on different distributions, with the codes of each.
 
 `tests/nightly/test_style_profiles.py` compares the table with the linters themselves.
 """

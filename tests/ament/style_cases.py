@@ -1,4 +1,4 @@
-"""Pieces of Python that the style linters have opinions on, each the content of a file."""
+"""Python snippets with style findings, each the content of a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The linters of ament that are not about Python, against ours: the same files, the same lines."""
+"""Parity with ament_copyright, ament_lint_cmake and ament_xmllint: same files, same lines."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ CMAKE_NAMES = (
 
 @needs_system_linter("ament_lint_cmake")
 @pytest.mark.parametrize("seed", range(5))
-def test_cmake_findings_are_those_of_the_linter(seed: int, tmp_path: Path) -> None:
+def test_cmake_findings_equal_those_of_the_linter(seed: int, tmp_path: Path) -> None:
     random = _random(seed)
     files = {name: _mutant(random, CMAKE, CMAKE_PIECES) for name in CMAKE_NAMES}
     files["ignored/AMENT_IGNORE"] = ""
@@ -107,20 +107,20 @@ def test_cmake_findings_are_those_of_the_linter(seed: int, tmp_path: Path) -> No
         for name in lint_cmake.FILTERS
         for found in lint_cmake.findings(package, name)
     }
-    assert ours == {tuple(found) for found in _reorder(oracles.ament_lint_cmake(tmp_path))}
+    assert ours == {tuple(found) for found in _as_tuples(oracles.ament_lint_cmake(tmp_path))}
     assert bool(ours) == bool(runner.check(package, LAYOUT_OF_CMAKE))
 
 
 @needs_system_linter("ament_lint_cmake")
 @pytest.mark.parametrize("pragma", ["foo", "-linelenght", "-linelength, ", "linelength", " "])
-def test_a_pragma_that_crashes_the_linter_is_reported(pragma: str, tmp_path: Path) -> None:
+def test_pragma_that_crashes_the_linter_is_reported(pragma: str, tmp_path: Path) -> None:
     package = write(tmp_path, {"CMakeLists.txt": f"# lint_cmake: {pragma}\nproject(a)\n"})
     with pytest.raises(AssertionError, match="ament_lint_cmake failed"):
         oracles.ament_lint_cmake(tmp_path)
     assert "CM084" in {d.code for d in runner.check(package, LAYOUT_OF_CMAKE)}
 
 
-def test_fixes_of_cmake_make_the_linter_happy(tmp_path: Path) -> None:
+def test_linter_accepts_fixed_cmake(tmp_path: Path) -> None:
     text = "PROJECT (a) \nif(TEST)\n\tset( B 1)\n\tfoo(\n  b\n      )\nendif(TEST)\n"
     package = write(tmp_path, {"CMakeLists.txt": text})
     fixed = fixer.fix(package, lambda one: runner.check(one, LAYOUT_OF_CMAKE))
@@ -128,7 +128,7 @@ def test_fixes_of_cmake_make_the_linter_happy(tmp_path: Path) -> None:
     assert fixed.changed["CMakeLists.txt"].decode() == expected
 
 
-def _reorder(found: set[oracles.Finding]) -> list[tuple[str, int, str]]:
+def _as_tuples(found: set[oracles.Finding]) -> list[tuple[str, int, str]]:
     return [(one.path, one.line, one.code) for one in found]
 
 
@@ -188,7 +188,7 @@ COPYRIGHT_PIECES = (
 
 @needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("seed", range(5))
-def test_rejected_headers_are_those_of_the_linter(seed: int, tmp_path: Path) -> None:
+def test_rejected_headers_equal_those_of_the_linter(seed: int, tmp_path: Path) -> None:
     random = _random(seed)
     endings = sorted(notices.EXTENSIONS)
     files = {
@@ -207,7 +207,7 @@ def test_rejected_headers_are_those_of_the_linter(seed: int, tmp_path: Path) -> 
 
 @needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("data", [b"# \xe9t\xe9\n", b"#!/usr/bin/env python3\n", b"\xef\xbb\xbf"])
-def test_a_file_that_crashes_the_linter_is_reported(data: bytes, tmp_path: Path) -> None:
+def test_file_that_crashes_the_linter_is_reported(data: bytes, tmp_path: Path) -> None:
     package = write(tmp_path, {"a.py": data})
     with pytest.raises(AssertionError, match="ament_copyright failed"):
         oracles.ament_copyright(tmp_path)
@@ -216,7 +216,7 @@ def test_a_file_that_crashes_the_linter_is_reported(data: bytes, tmp_path: Path)
 
 @needs_system_linter("ament_copyright")
 @pytest.mark.parametrize("licence", ["apache2", "bsd_3clause", "gplv3", "mit0"])
-def test_what_the_linter_writes_is_known(licence: str, tmp_path: Path) -> None:
+def test_headers_written_by_the_linter_are_accepted(licence: str, tmp_path: Path) -> None:
     write(tmp_path, {".git": "gitdir: elsewhere\n", "a.py": "import b\n", "c.hpp": "int d;\n"})
     command = ["ament_copyright", "--add-missing", "Example Robotics", licence]
     environment = oracles.system_environment()
@@ -226,8 +226,8 @@ def test_what_the_linter_writes_is_known(licence: str, tmp_path: Path) -> None:
 
 
 @needs_system_linter("ament_copyright")
-def test_known_texts_are_those_of_the_linter() -> None:
-    """Builds scaffold/data/licences.tsv anew from what is installed."""
+def test_known_license_texts_equal_those_of_the_linter() -> None:
+    """Compute scaffold/data/licences.tsv from the installed linter."""
     found = {
         (kind, known.licence, known.sections)
         for kind, texts in notices.known_texts().items()
@@ -288,7 +288,7 @@ MAIN = "assert main(argv=['.', 'test']) == 0"
         ),
     ],
 )
-def test_copyright_is_as_loud_as_the_linter_in_a_python_package(
+def test_severity_of_copyright_follows_the_tests_of_a_python_package(
     test: tuple[str, str], severities: list[Severity]
 ) -> None:
     files = {"a.py": "import b\n", "lib/c.py": "import d\n"}
@@ -320,7 +320,7 @@ def test_copyright_is_as_loud_as_the_linter_in_a_python_package(
         ("ament_copyright(EXCLUDE a.py)", "ament_cmake_copyright", Severity.INFO),
     ],
 )
-def test_copyright_is_as_loud_as_the_linter_in_a_cmake_package(
+def test_severity_of_copyright_follows_the_tests_of_a_cmake_package(
     lines: str, depend: str, severity: Severity
 ) -> None:
     files = {
@@ -339,9 +339,7 @@ def test_copyright_is_as_loud_as_the_linter_in_a_cmake_package(
         ("ament_auto_find_build_dependencies()", Severity.ERROR),
     ],
 )
-def test_ament_lint_auto_does_not_find_what_is_no_test_dependency(
-    lines: str, severity: Severity
-) -> None:
+def test_ament_lint_auto_finds_only_test_dependencies(lines: str, severity: Severity) -> None:
     files = {
         "a.py": "import b\n",
         "package.xml": "<package format='3'><depend>ament_lint_common</depend></package>",
@@ -350,7 +348,7 @@ def test_ament_lint_auto_does_not_find_what_is_no_test_dependency(
     assert [d.severity for d in runner.check(Package.of(files), COPYRIGHT)] == [severity]
 
 
-def test_a_dependency_may_know_more_licenses() -> None:
+def test_unknown_dependencies_may_add_licenses() -> None:
     manifest = "<package format='3'><test_depend>ament_cmake_copyright</test_depend>{}</package>"
     files = {
         "a.py": "# Copyright 2026 Ann.\n# All rights reserved. Nobody may copy this file.\n",
@@ -391,7 +389,7 @@ XML_PIECES = (
 
 @needs_system_linter("ament_xmllint")
 @pytest.mark.parametrize("seed", range(3))
-def test_unreadable_xml_files_are_those_of_the_linter(seed: int, tmp_path: Path) -> None:
+def test_unreadable_xml_files_equal_those_of_the_linter(seed: int, tmp_path: Path) -> None:
     random = _random(seed)
     files: dict[str, str | bytes] = {
         f"f{number}.xml": _mutant(random, XML, XML_PIECES) for number in range(40)
@@ -407,7 +405,7 @@ def test_unreadable_xml_files_are_those_of_the_linter(seed: int, tmp_path: Path)
 
 @needs_system_linter("ament_xmllint")
 @pytest.mark.parametrize("data", [b"<a>\xe9</a>", b'<?xml version="1.0" encoding="gb2312"?><a/>'])
-def test_an_xml_file_that_crashes_the_linter_is_reported(data: bytes, tmp_path: Path) -> None:
+def test_xml_file_that_crashes_the_linter_is_reported(data: bytes, tmp_path: Path) -> None:
     package = write(tmp_path, {"a.xml": data})
     with pytest.raises(AssertionError, match="ament_xmllint failed"):
         oracles.ament_xmllint(tmp_path)
@@ -419,14 +417,14 @@ XML_V2 = '<?xml version="2.0"?><a/>'
 
 @settings(max_examples=300, deadline=None)
 @given(st.binary(max_size=200))
-def test_any_bytes_can_be_read_as_xml(data: bytes) -> None:
+def test_xml_check_never_raises(data: bytes) -> None:
     found = check_xml("a.xml", data)
     assert found is None or found[0].path == "a.xml"
 
 
 @needs_system_linter("ament_copyright")
 @needs_system_linter("ament_xmllint")
-def test_links_to_nothing_are_reported(tmp_path: Path) -> None:
+def test_dangling_symlinks_are_reported(tmp_path: Path) -> None:
     package = write(tmp_path, {"package.xml": MANIFESTS[2]})
     (tmp_path / "a.py").symlink_to("gone.py")
     (tmp_path / "b.xml").symlink_to("gone.xml")
@@ -497,7 +495,7 @@ ELEMENT = r"[ \t]*<(\w+)([^<>/]*)(?:/>|>([^<]*)</\1>)[ \t]*\n?"
 
 @needs_schemas
 @pytest.mark.parametrize("seed", range(20))
-def test_verdicts_on_manifests_are_those_of_the_schemas(seed: int) -> None:
+def test_manifest_findings_agree_with_the_schemas(seed: int) -> None:
     random = _random(seed)
     for _ in range(150):
         text = _mutant_of_manifest(random, random.choice(MANIFESTS))
@@ -507,18 +505,18 @@ def test_verdicts_on_manifests_are_those_of_the_schemas(seed: int) -> None:
         package = Package.of({"package.xml": text})
         said = runner.check(package, STRUCTURE)
         assert (not said) == official, f"{[d.message for d in said]}\n{text}"
-        assert (not violations(text.encode(), _number(text))) == official, text
+        assert (not violations(text.encode(), _format_number(text))) == official, text
 
 
 @pytest.mark.parametrize("text", MANIFESTS, ids=["format 1", "format 2", "format 3"])
-def test_right_manifests_are_accepted(text: str) -> None:
+def test_valid_manifests_are_accepted(text: str) -> None:
     assert runner.check(Package.of({"package.xml": text}), STRUCTURE) == []
-    assert violations(text.encode(), _number(text)) == []
+    assert violations(text.encode(), _format_number(text)) == []
 
 
 @settings(max_examples=400, deadline=None)
 @given(st.text("ab1:/?#[]@!%4éhtp. <|", max_size=25))
-def test_urls_are_judged_like_the_type_of_schemas(url: str) -> None:
+def test_urls_are_validated_like_any_uri_of_schemas(url: str) -> None:
     assert is_uri(collapse(url)) == _uri_schema().validate(_element("u", url))
 
 
@@ -538,20 +536,20 @@ def _element(tag: str, text: str) -> etree._Element:
     return element
 
 
-def _number(text: str) -> int:
-    """Return the format whose schema the linter would use."""
+def _format_number(text: str) -> int:
+    """Return the package format whose schema the linter would use."""
     found = re.search(r"package_format([123])\.xsd", text) or re.search(r'format="([123])"', text)
     return int(found[1]) if found else 1
 
 
 def _official_verdict(text: str) -> bool | None:
-    """Return what the official schema says; ``None`` when no tool can read the file."""
+    """Return whether the official schema accepts a file; ``None`` if it is not well-formed."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True)
     try:
         document = etree.fromstring(text.encode(), parser).getroottree()
     except etree.XMLSyntaxError:
         return None
-    return bool(_official_schema(_number(text)).validate(document))
+    return bool(_official_schema(_format_number(text)).validate(document))
 
 
 @lru_cache
@@ -623,7 +621,7 @@ MUTATIONS: tuple[Mutation, ...] = (
 
 
 @needs_system_linter("ament_xmllint")
-def test_the_linter_judges_manifests_alike(tmp_path: Path) -> None:
+def test_manifest_findings_agree_with_the_linter(tmp_path: Path) -> None:
     random = _random(7)
     texts = [*MANIFESTS, *(_mutant_of_manifest(random, MANIFESTS[2]) for _ in range(60))]
     rules: list[Rule] = [*STRUCTURE]

@@ -1,4 +1,4 @@
-"""The codes of ament_lint_cmake, ament_xmllint and ament_copyright: cases are their tests."""
+"""The codes of ament_lint_cmake, ament_xmllint and ament_copyright, tested by their cases."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def test_every_code_has_cases() -> None:
         for example in examples
     ],
 )
-def test_case(rule: type[Rule], example: Example) -> None:
+def test_reports_of_case(rule: type[Rule], example: Example) -> None:
     assert_reported(rule, example)
 
 
 @pytest.mark.parametrize("code", CASES)
-def test_cases_show_what_the_table_says(code: str) -> None:
+def test_cases_cover_the_table(code: str) -> None:
     row, reports = CODES[code], [report for one in CASES[code] for report in one.reports]
     assert any(not one.reports for one in CASES[code]), "no accepted case"
     shown = {report.severity or row.severity for report in reports}
@@ -44,7 +44,7 @@ def test_cases_show_what_the_table_says(code: str) -> None:
 
 
 @pytest.mark.parametrize("code", CASES)
-def test_is_documented(code: str) -> None:
+def test_code_is_documented(code: str) -> None:
     text = cleandoc(CODES[code].documentation)
     assert re.findall(r"^\*\*(\w+)\.\*\*", text, re.MULTILINE) == ["Why", "Fix", "Source"]
 

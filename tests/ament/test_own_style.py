@@ -1,4 +1,4 @@
-"""Style is judged by the configuration that the tests of a package hand to ament."""
+"""Style follows the configuration that the tests of a package pass to ament."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_flake8():
 """
 
 
-def style(tmp_path: Path, files: Mapping[str, str]) -> dict[str, set[str]]:
+def flake8_codes(tmp_path: Path, files: Mapping[str, str]) -> dict[str, set[str]]:
     """Return the codes of flake8 that are reported, by file."""
     shown = {"long.py": LONG, "quoted.py": QUOTED, "sub/quoted.py": QUOTED}
     package = written(
@@ -205,7 +205,7 @@ def test_arguments_of_a_test(
     tmp_path: Path, argument: str, expected: Mapping[str, set[str]]
 ) -> None:
     files = {"test/test_flake8.py": TEST.format(argument), "own.cfg": NO_QUOTES}
-    found = style(tmp_path, files)
+    found = flake8_codes(tmp_path, files)
     assert found == {path: reported for path, reported in expected.items() if reported}
 
 
@@ -254,21 +254,21 @@ def test_arguments_of_a_test(
 def test_arguments_in_cmake(
     tmp_path: Path, commands: str, expected: Mapping[str, set[str]]
 ) -> None:
-    found = style(
+    found = flake8_codes(
         tmp_path, {"CMakeLists.txt": f"project(a)\n{commands}\n", "../own.cfg": NO_QUOTES}
     )
     assert found == {path: reported for path, reported in expected.items() if reported}
 
 
-def test_the_configuration_of_ament_on_demand(tmp_path: Path) -> None:
+def test_reference_mode_uses_the_configuration_of_ament(tmp_path: Path) -> None:
     cmake = "project(a)\nament_flake8(MAX_LINE_LENGTH 120)\n"
     package = written(tmp_path, {"a.py": LONG, "CMakeLists.txt": cmake})
     assert [d.code for d in check(package)] == []
     assert [d.code for d in check(package, is_reference=True)] == ["E501"]
 
 
-def test_docstrings_that_flake8_is_told_to_ignore(tmp_path: Path) -> None:
-    """The other linter is not run by the package, and does not bring them up."""
+def test_docstring_codes_ignored_by_flake8(tmp_path: Path) -> None:
+    """The package does not run ament_pep257, so its codes are not reported."""
     cfg = "[flake8]\nmax-line-length = 99\nextend-ignore = D1,D400,Q,I\n"
     cmake = "project(a)\nament_flake8(CONFIG_FILE own.cfg)\n"
     text = '"""Do it"""\n'
@@ -277,7 +277,7 @@ def test_docstrings_that_flake8_is_told_to_ignore(tmp_path: Path) -> None:
     assert [d.code for d in check(package, is_reference=True)] == ["D400", "D415"]
 
 
-def test_own_style_has_the_docstrings_that_flake8_reports(tmp_path: Path) -> None:
+def test_own_style_reports_docstring_codes_of_flake8(tmp_path: Path) -> None:
     cmake = "project(a)\nament_flake8(CONFIG_FILE own.cfg)\n"
     files = {"a.py": "x = 1\n", "own.cfg": "[flake8]\n", "CMakeLists.txt": cmake}
     (found,) = check(written(tmp_path, files))
@@ -306,7 +306,7 @@ def test_own_style_has_the_docstrings_that_flake8_reports(tmp_path: Path) -> Non
         ("[flake8:local-plugins]\nextension =\n  X = x:X\n", "names plugins, which are not run"),
     ],
 )
-def test_what_is_not_followed_is_reported(
+def test_unsupported_configuration_is_noted(
     tmp_path: Path, configuration: str | None, message: str
 ) -> None:
     cmake = "project(a)\nament_flake8(CONFIG_FILE own.cfg)\n"
@@ -334,7 +334,7 @@ def test_what_is_not_followed_is_reported(
         ("argv=['--length', '3']", "ament_flake8 stops: unrecognized arguments"),
     ],
 )
-def test_arguments_that_are_not_known(tmp_path: Path, argument: str, message: str) -> None:
+def test_unknown_arguments_are_noted(tmp_path: Path, argument: str, message: str) -> None:
     package = written(tmp_path, {"test/test_flake8.py": TEST.format(argument)})
     notes = [note.message for note in settings_of(package).notes]
     assert len(notes) == 1

@@ -1,4 +1,4 @@
-"""The logical lines found without tokens are those that the tokens give."""
+"""Logical lines found without tokenizing equal those of the tokenizer."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def facts(line: LogicalLine) -> tuple[object, ...]:
 
 
 def differences(text: str) -> list[tuple[object, ...]]:
-    """Return what differs; nothing for a text that cannot be parsed, or is left to the tokens."""
+    """Return the differences; none for text that does not parse or needs the tokenizer."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -81,12 +81,12 @@ def differences(text: str) -> list[tuple[object, ...]]:
 
 
 @pytest.mark.parametrize("text", STATEMENTS)
-def test_statements(text: str) -> None:
+def test_logical_lines_of_statements(text: str) -> None:
     assert differences(text) == []
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_files_and_edited_ones(path: Path) -> None:
+def test_logical_lines_of_files_and_mutants(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert differences(text) == []
     chance = Random(path.name)  # noqa: S311  no secret

@@ -1,4 +1,4 @@
-"""The quick visit of a syntax tree reports what pyflakes reports."""
+"""The fast checker reports the same as pyflakes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SOURCES = (
 )
 
 
-def same(text: str) -> bool:
+def is_same_as_pyflakes(text: str) -> bool:
     def messages(checker: Checker) -> list[tuple[str, int, int, str]]:
         return [
             (type(item).__name__, item.lineno, item.col, str(item)) for item in checker.messages
@@ -42,16 +42,16 @@ def same(text: str) -> bool:
 
 
 @pytest.mark.parametrize("text", SOURCES)
-def test_sources(text: str) -> None:
-    assert same(text)
+def test_findings_in_samples(text: str) -> None:
+    assert is_same_as_pyflakes(text)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_files_and_those_without_a_statement(path: Path) -> None:
+def test_findings_in_files_and_mutants(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert same(text)
+    assert is_same_as_pyflakes(text)
     tree = ast.parse(text)
     chance = Random(path.name)  # noqa: S311  no secret
     for node in chance.sample(tree.body, min(3, len(tree.body))):
         tree.body.remove(node)
-    assert same(ast.unparse(tree))
+    assert is_same_as_pyflakes(ast.unparse(tree))

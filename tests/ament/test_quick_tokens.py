@@ -1,4 +1,4 @@
-"""The quick tokenizer returns what Python's own returns, or leaves the file to that one."""
+"""The fast tokenizer returns the same tokens as that of Python, or rejects the file."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ PIECES = (
 
 
 def lines_of(text: str) -> list[str]:
-    """Return lines as linters count them; str.splitlines also ends them at form feeds."""
+    """Return lines as linters count them; str.splitlines also splits at form feeds."""
     return io.StringIO(text).readlines()
 
 
@@ -78,7 +78,7 @@ def slow(text: str) -> list[Token] | None:
         "naïve = café\n",
     ],
 )
-def test_tokens(text: str) -> None:
+def test_tokens_equal_those_of_python(text: str) -> None:
     tokens = quick(text)
     assert tokens is None or tokens == slow(text)
     assert tokens is not None or text in {"", "  \n"} or "bytes'" in text
@@ -87,12 +87,12 @@ def test_tokens(text: str) -> None:
 @pytest.mark.parametrize(
     "text", ["if x:\n\ty\n", "x = 1", "x = $\n", "x = (\n", "x = 'a\n", "if x:\n  y\n z\n"]
 )
-def test_what_is_out_of_the_ordinary_is_left_to_python(text: str) -> None:
+def test_unusual_code_is_left_to_python(text: str) -> None:
     assert quick(text) is None
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(TOP)))
-def test_files_with_and_without_damage(path: Path) -> None:
+def test_tokens_of_files_and_mutants(path: Path) -> None:
     text = path.read_text("utf-8")
     assert quick(text) == slow(text)
     random = Random(path.name)  # noqa: S311  no secrets

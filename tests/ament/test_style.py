@@ -1,4 +1,4 @@
-"""Python style and docstrings: the verdict of the real linters, file by file."""
+"""Python style and docstrings: findings equal those of the real linters, file by file."""
 
 from __future__ import annotations
 
@@ -45,13 +45,13 @@ def check(package: Package) -> list[Diagnostic]:
 
 
 def theirs(directory: Path) -> Found:
-    """Return what one of the two linters reports; a file that does not parse counts once."""
+    """Return the findings of both linters; a file that does not parse counts once."""
     found = oracles.ament_flake8(directory) | oracles.ament_pep257(directory)
     return {(one.path, one.line, one.code) for one in found if one.line}
 
 
 def assert_same(directory: Path, cases: Sequence[str]) -> None:
-    """Check all cases as files of one directory, and name each that gets another verdict."""
+    """Check all cases as files of one directory, and list those with different findings."""
     names = [f"case_{at:04}.py" for at in range(len(cases))]
     for name, case in zip(names, cases, strict=True):
         (directory / name).write_bytes(case.encode())
@@ -136,11 +136,11 @@ BROKEN = (
 )
 
 
-def test_a_file_that_does_not_parse_is_reported_once(tmp_path: Path) -> None:
+def test_unparsable_file_is_reported_once(tmp_path: Path) -> None:
     assert_same(tmp_path, BROKEN)
 
 
-def test_newer_syntax_is_no_error() -> None:
+def test_newer_python_syntax_is_no_error() -> None:
     package = Package.of({"a.py": "type Name = int\n"})
     assert "E999" not in {d.code for d in check(package)}
 
@@ -154,7 +154,7 @@ def test_syntax_after_python_3_12_is_an_error() -> None:
 # -- which files
 
 
-def test_selection_of_files(tmp_path: Path) -> None:
+def test_selected_files(tmp_path: Path) -> None:
     bad = b"x=1\n\n\ndef f():\n    '''does'''\n"
     files = [
         "a.py",
@@ -175,7 +175,7 @@ def test_selection_of_files(tmp_path: Path) -> None:
     assert chosen == {"a.py": both, "sub/b.py": both, "off/e.py": PEP257, "off/deep/f.py": PEP257}
 
 
-def test_links_to_nothing_cannot_be_read(tmp_path: Path) -> None:
+def test_dangling_symlinks_are_unreadable(tmp_path: Path) -> None:
     (tmp_path / "a.py").symlink_to("gone.py")
     real = {(found.path, found.code) for found in oracles.ament_flake8(tmp_path)}
     assert real == {("a.py", "E902")}
@@ -184,7 +184,7 @@ def test_links_to_nothing_cannot_be_read(tmp_path: Path) -> None:
     assert said.message == "the file cannot be read: broken symbolic link"
 
 
-def test_ruff_configuration_of_the_user_is_not_read(tmp_path: Path) -> None:
+def test_user_configuration_of_ruff_is_ignored(tmp_path: Path) -> None:
     (tmp_path / "a.py").write_text("import os\n")
     (tmp_path / "ruff.toml").write_text('exclude = ["*.py"]\nlint.ignore = ["ALL"]\n')
     assert ours(Package.at(tmp_path)) == {("a.py", 1, "F401")}
@@ -193,7 +193,7 @@ def test_ruff_configuration_of_the_user_is_not_read(tmp_path: Path) -> None:
 # -- diagnostics
 
 
-def test_places_names_and_severities() -> None:
+def test_locations_names_and_severities() -> None:
     package = Package.of({"pkg/a.py": "import os\nx = undefined;\n", "b.py": "y = 'é' + f(a ,2)\n"})
     said = {d.code: d for d in check(package)}
     assert set(said) == {"F401", "F821", "E703", "E203", "E231"}
@@ -218,14 +218,14 @@ def test_places_names_and_severities() -> None:
         ),
     ],
 )
-def test_a_name_that_may_be_made_when_run_is_a_warning(
+def test_undefined_name_is_a_warning_if_it_may_exist_at_run_time(
     text: str, code: str, severity: Severity
 ) -> None:
     severities = [d.severity for d in check(Package.of({"a.py": text})) if d.code == code]
     assert severities == [severity]
 
 
-def test_every_code_of_the_table_has_a_name() -> None:
+def test_every_code_has_a_name() -> None:
     names = [one.name for one in codes.STYLE.values()]
     assert len(set(names)) == len(names)
     assert list(codes.CODES) == sorted(codes.CODES)
@@ -245,7 +245,7 @@ FIXED = {
 
 
 @pytest.mark.parametrize("before", FIXED)
-def test_fixes(before: str) -> None:
+def test_fixes_of_style(before: str) -> None:
     fixed = fixer.fix(Package.of({"a.py": before.encode()}), check)
     assert fixed.changed["a.py"].decode() == FIXED[before]
     assert check(fixed.package) == []
@@ -258,7 +258,7 @@ def test_fixes(before: str) -> None:
         "import sys\n# second\nimport abc\nprint(sys, abc)\n",
     ],
 )
-def test_what_is_not_plain_is_not_fixed(kept: str) -> None:
+def test_imports_with_comments_are_not_sorted(kept: str) -> None:
     assert fixer.fix(Package.of({"a.py": kept}), check).changed == {}
 
 
@@ -279,7 +279,7 @@ def test_cached_files_need_no_ruff(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         check(Package.of({"a.py": "x=2\n"}))
 
 
-def test_broken_cache_is_as_good_as_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_broken_cache_is_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     package = Package.of({"a.py": "x=1\n"})
     first = check(package)
@@ -289,13 +289,13 @@ def test_broken_cache_is_as_good_as_none(tmp_path: Path, monkeypatch: pytest.Mon
         assert check(package) == first
 
 
-def test_unwritable_cache_is_silent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unwritable_cache_is_ignored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     assert [d.code for d in check(Package.of({"a.py": "x=1\n"}))] == ["E225"]
 
 
-def test_cache_can_be_switched_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cache_can_be_disabled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setenv(cache.SWITCH, "1")
     check(Package.of({"a.py": "x=1\n"}))
@@ -305,7 +305,7 @@ def test_cache_can_be_switched_off(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 # -- ruff
 
 
-def test_missing_ruff_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_ruff_is_one_error_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(cache.SWITCH, "1")
     monkeypatch.setattr(ruff, "_FOUND", [os.devnull])
     with pytest.raises(EnvironmentMissingError, match="ruff cannot be started"):
@@ -329,14 +329,14 @@ def test_several_packages_in_one_run() -> None:
 # -- reference
 
 
-def test_reference_agrees() -> None:
+def test_reference_mode_agrees() -> None:
     files: Mapping[str, str] = {
         f"f{at}.py": f"def f(a):\n    {body}\n" for at, body in enumerate(style_cases.DOCSTRINGS)
     }
     assert list(reference.differences([Package.of(files)])) == []
 
 
-def test_reference_reports_what_differs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_reference_mode_reports_differences(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(docstrings, "check", lambda _: iter(()))
     package = Package.of({"a.py": 'def f():\n    """do"""\n'})
     said = [difference for _, difference in reference.differences([package])]
@@ -350,7 +350,7 @@ def test_reference_reports_what_differs(monkeypatch: pytest.MonkeyPatch) -> None
 # -- f-strings
 
 
-def test_f_strings_are_cut_as_python_3_12_does() -> None:
+def test_f_strings_are_tokenized_as_in_python_3_12() -> None:
     string = "f'a{{b {x !r:>{w}.2} {y=}' + f''"
     whole = tokenize.TokenInfo(tokenize.STRING, string[:-6], (1, 0), (1, 26), string)
     parts = [(one.type, one.string, one.start[1]) for one in fstrings.open_up([whole])]
@@ -381,7 +381,7 @@ def test_f_strings_are_cut_as_python_3_12_does() -> None:
 
 @on_python_3_12
 @pytest.mark.parametrize("text", [one for one in style_cases.PYTHON_3_12 if "{" in one])
-def test_f_strings_are_cut_like_the_tokenizer(text: str) -> None:
+def test_f_string_tokens_equal_those_of_python(text: str) -> None:
     tokens = list(tokenize.generate_tokens(StringIO(text).readline))
     strings: list[list[tokenize.TokenInfo]] = []
     depth = 0
@@ -440,7 +440,7 @@ def test_never_fails_on_code(parts: list[str]) -> None:
     verdict.check("a.py", "".join(parts).encode(), list, [Settings()])
 
 
-def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_temporary_files_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(cache.SWITCH, "1")
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     style = StyleCheck([Package.of({"a.py": "x=1\n"})])
@@ -459,6 +459,6 @@ def test_nothing_is_left_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
         ("stubs/dns/data.py", "class Data:\n    def plain(self) -> Plain:\n        ...\n"),
     ],
 )
-def test_a_name_in_a_file_that_another_program_runs_is_a_warning(path: str, text: str) -> None:
+def test_undefined_name_in_an_executed_file_is_a_warning(path: str, text: str) -> None:
     reported = check(Package.of({path: text}))
     assert [d.severity for d in reported if d.code == "F821"] == [Severity.WARNING]

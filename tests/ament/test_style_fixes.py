@@ -1,4 +1,4 @@
-"""Fixes of Python style: what they write, what they leave alone, and what the linters say then."""
+"""Fixes of Python style: their result, their limits, and the findings afterwards."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def check(package: Package) -> list[Diagnostic]:
     return StyleCheck([package]).diagnostics(package)
 
 
-def only(code: str) -> Callable[[Package], list[Diagnostic]]:
+def check_only(code: str) -> Callable[[Package], list[Diagnostic]]:
     return lambda package: [one for one in check(package) if one.code == code]
 
 
@@ -143,11 +143,11 @@ FIXED = {
 
 
 @pytest.mark.parametrize("code", FIXED)
-def test_fix(code: str) -> None:
+def test_fix_of_code(code: str) -> None:
     before, after = FIXED[code]
-    fixed = fixer.fix(Package.of({"a.py": before}), only(code))
+    fixed = fixer.fix(Package.of({"a.py": before}), check_only(code))
     assert fixed.changed["a.py"].decode() == after
-    assert only(code)(fixed.package) == []
+    assert check_only(code)(fixed.package) == []
 
 
 @pytest.mark.parametrize(
@@ -171,10 +171,10 @@ def test_docstrings_with_backslashes(before: str, after: str) -> None:
         "from tf2_sensor_msgs import do_transform_cloud\n",
     ],
 )
-def test_imports_that_teach_buffers_to_transform_stay(statement: str) -> None:
+def test_imports_that_register_tf2_conversions_are_kept(statement: str) -> None:
     package = Package.of({"a.py": statement})
-    assert [item.code for item in only("F401")(package)] == ["F401"]
-    assert not fixer.fix(package, only("F401")).changed
+    assert [item.code for item in check_only("F401")(package)] == ["F401"]
+    assert not fixer.fix(package, check_only("F401")).changed
 
 
 UNSAFE = {
@@ -188,11 +188,11 @@ UNSAFE = {
 
 
 @pytest.mark.parametrize("code", UNSAFE)
-def test_unsafe_fix(code: str) -> None:
+def test_unsafe_fix_of_code(code: str) -> None:
     before, after = UNSAFE[code]
     package = Package.of({"a.py": before})
-    assert fixer.fix(package, only(code)).changed == {}
-    fixed = fixer.fix(package, only(code), unsafe=True)
+    assert fixer.fix(package, check_only(code)).changed == {}
+    fixed = fixer.fix(package, check_only(code), unsafe=True)
     assert fixed.changed["a.py"].decode() == after
 
 
@@ -231,11 +231,11 @@ def test_unsafe_fix(code: str) -> None:
         'def f():  # noqa: D400, D415\n    """Go"""  # noqa\n    return 1\n',
     ],
 )
-def test_kept(kept: str) -> None:
+def test_unsafe_edits_are_not_made(kept: str) -> None:
     assert fixer.fix(Package.of({"a.py": kept}), check).changed == {}
 
 
-def test_many_flaws_of_a_line_are_mended_at_once() -> None:
+def test_many_findings_in_a_line_are_fixed_at_once() -> None:
     before = "x = [" + ", ".join(['""'] * 20) + "]\n"
     fixed = fixer.fix(Package.of({"a.py": before}), check)
     assert fixed.applied == 1
@@ -281,7 +281,7 @@ def parsed(text: str | bytes) -> ast.Module | None:
 
 
 def meaning(text: bytes) -> str:
-    """Return the syntax tree, where of docstrings the letters count alone."""
+    """Return the syntax tree as text; docstrings are compared by their letters."""
     tree = parsed(text)
     assert tree is not None, text
     for node in ast.walk(tree):
@@ -296,13 +296,13 @@ def meaning(text: bytes) -> str:
     return ast.dump(tree)
 
 
-def is_form(one: Diagnostic) -> bool:
+def is_formatting(one: Diagnostic) -> bool:
     return one.code.startswith(("D", "E1", "E2", "E3", "E70", "Q", "W1", "W2", "W3"))
 
 
-def test_fixes_of_form_do_not_change_the_code() -> None:
+def test_formatting_fixes_do_not_change_the_syntax_tree() -> None:
     before = cases()
-    fixed = fixer.fix(Package.of(before), lambda package: [*filter(is_form, check(package))])
+    fixed = fixer.fix(Package.of(before), lambda package: [*filter(is_formatting, check(package))])
     differing = [
         before[path]
         for path, data in fixed.changed.items()
@@ -312,7 +312,7 @@ def test_fixes_of_form_do_not_change_the_code() -> None:
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
-def test_fixes_come_to_an_end(*, unsafe: bool) -> None:
+def test_fixes_converge(*, unsafe: bool) -> None:
     fixed = fixer.fix(Package.of(cases()), check, unsafe=unsafe)
     assert all(parsed(data) for data in fixed.changed.values())
     again = fixer.fix(fixed.package, check, unsafe=unsafe)
@@ -322,7 +322,7 @@ def test_fixes_come_to_an_end(*, unsafe: bool) -> None:
     assert wrong == []
 
 
-def test_the_linters_find_less_and_nothing_new(tmp_path: Path) -> None:
+def test_linters_find_nothing_new_after_fixes(tmp_path: Path) -> None:
     before = cases()
     fixed = fixer.fix(Package.of(before), check)
     found: list[Codes] = []

@@ -1,4 +1,4 @@
-"""The style verdict of each distribution is that of its linters."""
+"""The style findings for each distribution equal those of its linters."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from scaffold.model.package import Package
 from tests.ament.profile_cases import BY_FILE, CASES
 
 
-def codes(name: str) -> dict[str, set[str]]:
-    """Return what is found in the files of all cases, for a distribution."""
+def codes_by_file(name: str) -> dict[str, set[str]]:
+    """Return the codes found in the files of all cases, for a distribution."""
     with distributions.targeting(named(name)):
         package = Package.of(BY_FILE)
         found: dict[str, set[str]] = {path: set() for path in BY_FILE}
@@ -23,8 +23,8 @@ def codes(name: str) -> dict[str, set[str]]:
 
 
 @pytest.mark.parametrize("name", ORDER)
-def test_each_distribution_has_the_verdict_of_its_linters(name: str) -> None:
-    found = codes(name)
+def test_findings_follow_the_linters_of_the_distribution(name: str) -> None:
+    found = codes_by_file(name)
     wrong = [
         case
         for case, path in zip(CASES, BY_FILE, strict=True)
@@ -33,7 +33,7 @@ def test_each_distribution_has_the_verdict_of_its_linters(name: str) -> None:
     assert wrong == []
 
 
-def test_docstrings_are_those_of_pep257_where_flake8_has_no_plugin_for_them() -> None:
+def test_docstring_findings_come_from_pep257_without_flake8_plugin() -> None:
     files = {
         "package.xml": "<package><name>a</name></package>\n",
         "setup.py": "",
@@ -52,7 +52,7 @@ def test_docstrings_are_those_of_pep257_where_flake8_has_no_plugin_for_them() ->
     assert reported == {"humble": True, "jazzy": True, "kilted": True, "lyrical": False}
 
 
-def test_license_texts_are_those_that_the_linter_of_the_target_knows() -> None:
+def test_known_license_texts_depend_on_the_target() -> None:
     (known,) = [item for item in notices.known_texts()["header"] if item.licence == "BSD-2.0"]
     text = "# Copyright 2026 Ada\n" + "".join(
         f"# {section}\n" for section in " Ada ".join(known.sections).splitlines()
@@ -69,7 +69,7 @@ def test_license_texts_are_those_that_the_linter_of_the_target_knows() -> None:
     }
 
 
-def test_notices_are_those_that_the_linter_of_the_target_finds() -> None:
+def test_recognized_notices_depend_on_the_target() -> None:
     lower = b"# copyright 2026 Ada\n"
     block = b"/*\n * Copyright 2026 Ada\n * All of it.\n */\n"
     holders = {}

@@ -1,4 +1,4 @@
-"""Packages and what ament_xmllint's verdict reports about them, by code."""
+"""Packages and what ament_xmllint reports about them, by code."""
 
 from __future__ import annotations
 

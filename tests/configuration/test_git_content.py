@@ -14,11 +14,11 @@ from scaffold.cli.main import main
 from scaffold.configuration import git_content
 
 BOARD = """\
-summary: The board_file that the robot runs on
+summary: The board that the robot runs on
 questions:
-  board_file: { default: pi, help: name of the board_file }
+  board: { default: pi, help: name of the board }
 examples:
-  plain: { package: robot_board, board_file: nano }
+  plain: { package: robot_board, board: nano }
 """
 
 
@@ -28,7 +28,7 @@ class Repository:
     def __init__(self, directory: Path) -> None:
         self.directory = directory
         self.url = f"file://{directory}"
-        self.extra = directory / "templates" / "extras" / "board_file"
+        self.extra = directory / "templates" / "extras" / "board"
         self.extra.mkdir(parents=True)
         (self.extra / "template.yaml").write_text(BOARD)
         self.git("init", "--quiet", "--initial-branch", "main")
@@ -39,7 +39,7 @@ class Repository:
 
     def release(self, tag: str, text: str) -> None:
         """Commit a version of the template and tag it."""
-        (self.extra / "BOARD.md.jinja").write_text(f"{{{{ board_file }}}}: {text}\n")
+        (self.extra / "BOARD.md.jinja").write_text(f"{{{{ board }}}}: {text}\n")
         self.git("add", ".")
         self.git("commit", "--quiet", "-m", tag)
         self.git("tag", tag)
@@ -64,9 +64,7 @@ def new(content: str, *more: str) -> int:
     """Make a package with the extra of the team."""
     git_content.resolve.cache_clear()
     maintainer = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.org")
-    return main(
-        ["new", "rover", "--extras", "board_file", "--content", content, *maintainer, *more]
-    )
+    return main(["new", "rover", "--extras", "board", "--content", content, *maintainer, *more])
 
 
 def update(*words: str) -> int:
@@ -79,7 +77,7 @@ def board_file() -> str:
 
 
 def test_package_is_created_and_updated_from_a_revision(team: Repository) -> None:
-    assert new(f"{team.url}@v1", "--board_file", "nano") == 0
+    assert new(f"{team.url}@v1", "--board", "nano") == 0
     assert board_file() == "nano: one\n"
     team.release("v2", "two")
     assert update() == 0
@@ -198,11 +196,11 @@ def test_trusted_configuration_may_use_a_git_url(
     assert "'content' ignored" in capsys.readouterr().err
     assert main(["trust", "."]) == 0
     assert main(["templates", "list"]) == 0
-    assert "The board_file that the robot runs on" in capsys.readouterr().out
+    assert "The board that the robot runs on" in capsys.readouterr().out
 
 
 def test_templates_test_accepts_a_git_url(
     team: Repository, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["templates", "test", f"{team.url}@v1"]) == 0
-    assert "board_file: plain, ament_cmake: ok" in capsys.readouterr().out
+    assert "board: plain, ament_cmake: ok" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""Facts: values made of files, remembered by what they were made of."""
+"""Facts: values computed from files, cached by their dependencies."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ VALUES = [
 
 
 @pytest.mark.parametrize("value", VALUES, ids=repr)
-def test_values_are_read_as_they_were_written(value: object) -> None:
+def test_stored_values_round_trip(value: object) -> None:
     encoded: Any = encode(value)
     read = decode(marshal.loads(marshal.dumps(encoded)))  # noqa: S302  own bytes
     assert (read, type(read)) == (value, type(value))
 
 
 @pytest.mark.parametrize(("value", "other"), [(1, 1.0), (1, True), (0.0, False), ((), [])])
-def test_equal_values_of_different_types_are_different(value: object, other: object) -> None:
+def test_equal_values_of_different_types_are_distinguished(value: object, other: object) -> None:
     assert encode(value) != encode(other)
 
 
-def test_other_values_are_refused() -> None:
+def test_unsupported_values_are_rejected() -> None:
     with pytest.raises(TypeError, match="PythonModule"):
         encode((PythonModule.parse_bytes("a.py", b""),))
 
 
-def test_what_asks_for_a_fact_depends_on_it_and_not_on_the_file() -> None:
+def test_caller_of_a_fact_depends_on_the_fact_and_not_on_the_file() -> None:
     package = Package.of({"a.py": "import os\n"})
     reads = Reads()
     with recorded(reads):
@@ -50,7 +50,7 @@ def test_what_asks_for_a_fact_depends_on_it_and_not_on_the_file() -> None:
     assert [fact.stored()[0].files for fact in facts] == [frozenset({"/a.py"})]
 
 
-def test_a_fact_of_a_broken_file_fails_each_time_it_is_asked_for() -> None:
+def test_fact_of_a_broken_file_raises_every_time() -> None:
     package = Package.of({"a.py": "import\n"})
     for _ in range(2):
         with pytest.raises(ParseError):
@@ -69,7 +69,7 @@ def test_a_fact_of_a_broken_file_fails_each_time_it_is_asked_for() -> None:
         ("def __getattr__(name):\n    return 1\n", "y", None),
     ],
 )
-def test_exports_know_what_the_module_knows(text: str, name: str, expected: bool | None) -> None:
+def test_exports_equal_those_of_the_module(text: str, name: str, expected: bool | None) -> None:
     package = Package.of({"a.py": text})
     assert exports_of(package, "a.py").defines(name) is expected
     assert package.module("a.py").defines(name) is expected

@@ -1,4 +1,4 @@
-"""What comes along with a released package, and how that is read from recipes."""
+"""Dependencies of released packages, and how they are read from recipes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROS_EXEC_DEPENDS = " \\
 """
 
 
-def test_a_metapackage_brings_its_packages_and_theirs() -> None:
+def test_metapackage_brings_transitive_dependencies() -> None:
     assert {"joint_state_broadcaster", "controller_interface"} <= transitive_dependencies(
         {"ros2_controllers"}
     )
@@ -37,12 +37,12 @@ def test_a_distribution_has_its_own_dependencies(distribution: str, is_brought: 
         assert ("service_msgs" in transitive_dependencies({"rclpy"})) is is_brought
 
 
-def test_a_package_that_nobody_released_brings_nothing() -> None:
+def test_unreleased_package_brings_nothing() -> None:
     assert not is_released("my_talker")
     assert list(dependencies("my_talker")) == []
 
 
-def test_recipes_are_read_by_distribution_and_name_keys_of_rosdep(tmp_path: Path) -> None:
+def test_recipes_give_rosdep_keys_by_distribution(tmp_path: Path) -> None:
     (tmp_path / "rosdep").mkdir()
     (tmp_path / "rosdep" / "python.yaml").write_text(
         "python3-yaml:\n  openembedded: [python3-pyyaml@openembedded-core]\n"

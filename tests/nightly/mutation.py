@@ -1,4 +1,4 @@
-"""Breaks packages at random: what a disk, an editor, a merge or an enemy may leave of one."""
+"""Mutates packages at random, like a broken disk, an editor, a merge or an attacker would."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tells what a plain node of rclpy sees in its domain: JSON on stdout, once stdin ends.
+"""Prints what a plain rclpy node observes in its domain: JSON on stdout, once stdin ends.
 
 It is run by the Python of the ROS environment, and shares nothing with the tool that it judges.
 """
@@ -31,7 +31,7 @@ ACTION = "/_action/"
 
 
 class Witness:
-    """A node, and what it has seen."""
+    """A node and its observations."""
 
     def __init__(self) -> None:
         self.rclpy = import_module("rclpy")
@@ -50,7 +50,7 @@ class Witness:
         self.kept: list[object] = []
 
     def look(self) -> None:
-        """Take down what is there."""
+        """Record the current nodes and topics."""
         graph = import_module("rclpy.action.graph")
         for name, namespace in self.node.get_node_names_and_namespaces():
             if name == NAME:
@@ -70,7 +70,7 @@ class Witness:
                 self.look_at(topic, types)
 
     def look_at(self, topic: str, types: list[str]) -> None:
-        """Take down the endpoints of a topic, and begin to listen."""
+        """Record the endpoints of a topic, and subscribe to it."""
         publishers = self.node.get_publishers_info_by_topic(topic)
         both = [*publishers, *self.node.get_subscriptions_info_by_topic(topic)]
         self.types.setdefault(topic, set()).update(types)
@@ -81,7 +81,7 @@ class Witness:
             self.listen(topic, types[0], publishers)
 
     def listen(self, topic: str, type_name: str, publishers: list[Ros]) -> None:
-        """Subscribe with what all publishers offer."""
+        """Subscribe with a QoS profile compatible with all publishers."""
         qos = import_module("rclpy.qos")
         times = self.times[topic] = []
         profile = qos.QoSProfile(
@@ -96,7 +96,7 @@ class Witness:
         )
 
     def ask(self, node: str) -> None:
-        """Ask a node for its parameters, and a managed one to become active."""
+        """Request the parameters of a node, and activate a managed node."""
         since = self.asked.setdefault(node, time.monotonic())
         if not 0 < since < time.monotonic() - PATIENCE:
             return
@@ -132,7 +132,7 @@ class Witness:
         ask_for(1).add_done_callback(lambda _: self.kept.append(ask_for(3)))
 
     def run(self) -> None:
-        """Look around until stdin ends."""
+        """Observe until stdin ends."""
         say("ready")
         next_look = 0.0
         while not select.select([0], [], [], 0)[0]:
@@ -142,7 +142,7 @@ class Witness:
             self.rclpy.spin_once(self.node, timeout_sec=0.05)
 
     def as_data(self) -> dict[str, object]:
-        """Return all that was seen."""
+        """Return all observations."""
         topics = {
             topic: {
                 "types": sorted(types),
@@ -169,22 +169,22 @@ def say(data: object) -> None:
 
 
 def sent(info: Mapping[str, int]) -> float:
-    """Return when a message was sent: when it is looked at is up to this process."""
+    """Return the source timestamp of a message, which does not depend on this process."""
     return (info["source_timestamp"] or time.time_ns()) / 1e9
 
 
 def deviation(times: list[float]) -> float:
-    """Return by how much the time from one message to the next varies."""
+    """Return the standard deviation of the intervals between messages."""
     return pstdev(map(sub, times[1:], times)) if len(times) > 1 else 0.0
 
 
 def rate(times: list[float]) -> float | None:
-    """Return the messages per second of those that arrived at some times."""
+    """Return the messages per second for a list of times."""
     return (len(times) - 1) / (times[-1] - times[0]) if len(times) > 1 else None
 
 
 def endpoint(info: Ros) -> dict[str, object]:
-    """Return an endpoint as the report of ``smoke`` has it."""
+    """Return an endpoint in the format of the report of ``smoke``."""
     profile = info.qos_profile
     qos: dict[str, object] = {"depth": profile.depth}
     for policy in ("reliability", "durability", "history", "liveliness"):

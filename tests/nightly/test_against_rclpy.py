@@ -1,4 +1,4 @@
-"""The report of ``smoke`` about public packages, against what a plain node of rclpy sees of them.
+"""The report of ``smoke`` on public packages, compared with the observations of a plain rclpy node.
 
 SCAFFOLD_SMOKE_BASES names checkouts, such as those of ros2/demos and ros2/examples, separated by
 colons. Their Python packages are run twice: once by ``smoke``, once by this test.
@@ -96,7 +96,7 @@ def test_the_report_agrees_with_rclpy(base: str, tmp_path: Path) -> None:
 
 
 def _sourced(install: Path) -> dict[str, str]:
-    """Return the variables of a shell with the packages and what they need in it."""
+    """Return the variables of a shell in which the packages are sourced."""
     cached = (Path.home() / ".cache" / "ros2-scaffold" / "interfaces").glob("*/[!.]*")
     chosen = with_prefixes(environment.select(os.environ), [*cached])
     done = subprocess.run(
@@ -111,7 +111,7 @@ def _sourced(install: Path) -> dict[str, str]:
 
 
 def _seen(path: Path, sourced: Mapping[str, str], tmp: Path) -> dict[str, Any]:
-    """Run an executable beside a witness; return what that saw."""
+    """Run an executable next to a witness; return the observations of the witness."""
     tmp.mkdir()
     with domain.reserved() as number:
         alone = {
@@ -170,9 +170,9 @@ os.execv(sys.argv[1], sys.argv[1:])
 
 
 def disagreements(report: Mapping[str, Any], seen: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what the two do not agree about.
+    """Yield the differences between both observations.
 
-    Of a program that ends by itself, one may have seen more than the other.
+    If a program ends by itself, one may have observed more than the other.
     """
     is_short = report["stop"] is None or report["stop"]["signal"] is None
     services = {
@@ -231,7 +231,7 @@ def _of_topic(
 
 
 def _have_no_rate(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> bool:
-    """Tell whether both saw messages in bursts: their mean depends on when one begins to look."""
+    """Tell whether both saw bursts of messages: their mean rate depends on the start."""
     spreads = (
         ours["interval"]["deviation"] * ours["rate_hz"],
         theirs["interval"] * theirs["rate_hz"],
@@ -240,7 +240,7 @@ def _have_no_rate(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> bool:
 
 
 def _chance(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> float:
-    """Return how much of a rate is chance: on a busy machine, no two runs have the same one.
+    """Return the tolerance of a rate: on a busy machine, it differs from run to run.
 
     The first and the last message decide a rate. They are as late as all others.
     """

@@ -1,4 +1,4 @@
-"""Nodes that misbehave: each is named rightly, and nothing of them is left."""
+"""Misbehaving nodes: each problem is reported, and nothing is left behind."""
 
 from __future__ import annotations
 
@@ -138,7 +138,7 @@ NODES = {
 
 @pytest.fixture(scope="module")
 def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """Run them all, two at a time; return what is said of each."""
+    """Run all nodes, two at a time; return the problems of each."""
     root = tmp_path_factory.mktemp("zoo")
     package = python_package(root / "src", "zoo", NODES)
     (package / "smoke.yaml").write_text("executables: {dies: {duration: 14}}\n")
@@ -164,17 +164,17 @@ def problems(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
         ("strays", "uses ROS domain 77 instead of ROS_DOMAIN_ID"),
     ],
 )
-def test_what_is_wrong_is_named(problems: dict[str, str], name: str, said: str) -> None:
+def test_problem_is_reported(problems: dict[str, str], name: str, said: str) -> None:
     assert said in problems[name]
 
 
 @pytest.mark.parametrize("name", ["moves", "twins"])
-def test_what_is_unusual_is_no_problem(problems: dict[str, str], name: str) -> None:
+def test_unusual_node_has_no_problem(problems: dict[str, str], name: str) -> None:
     assert problems[name] == ""
 
 
 @pytest.mark.parametrize("name", ["large", "spams"])
-def test_much_output_and_large_messages_keep_nothing_from_ending(
+def test_much_output_and_large_messages_do_not_block_the_run(
     problems: dict[str, str], name: str
 ) -> None:
     """A rate may be missed, and the report says so; nothing hangs, crashes or stays."""
@@ -182,8 +182,8 @@ def test_much_output_and_large_messages_keep_nothing_from_ending(
         assert word not in problems[name]
 
 
-def test_files_of_a_full_disk(tmp_path: Path) -> None:
-    """What was seen until the disk is full is reported, in one line there is the reason."""
+def test_full_disk(tmp_path: Path) -> None:
+    """Observations made before the disk was full are reported, with the reason in one line."""
     package = python_package(tmp_path / "src", "zoo", {"spams": SPAMS})
     disk = tmp_path / "disk"
     disk.mkdir()

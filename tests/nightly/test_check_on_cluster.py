@@ -46,7 +46,7 @@ def command_line(*words: str) -> list[str]:
 
 
 def workspace(directory: Path, packages: int) -> Path:
-    """Write packages that need each other, with findings, in a checkout with a configuration."""
+    """Write dependent packages with findings, in a checkout with a configuration."""
     names = [f"package_{number}" for number in range(packages)]
     for name, other in zip(names, [*names[1:], names[0]], strict=True):
         package = directory / "src" / name
@@ -81,7 +81,7 @@ def first_busy(workers: Sequence[Member]) -> Member:
     return busy[0]
 
 
-def test_report_is_that_of_a_check_without_it_though_a_worker_is_killed(tmp_path: Path) -> None:
+def test_report_equals_local_check_when_a_worker_is_killed(tmp_path: Path) -> None:
     where = workspace(tmp_path / "ws", 8)
     (tmp_path / "tmp").mkdir()
     environment = variables(tmp_path / "tmp")

@@ -1,4 +1,4 @@
-"""A real scheduler and three real workers run a workspace; one of them is killed in the middle."""
+"""A real scheduler with three real workers runs a workspace; one worker is killed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ pytestmark = [pytest.mark.nightly, NEEDS_ROS, pytest.mark.timeout(0)]
 PACKAGES = int(os.environ.get("SCAFFOLD_CLUSTER_PACKAGES", "9"))
 
 
-def test_every_package_has_one_result_though_a_worker_is_killed(
+def test_every_package_has_one_result_when_a_worker_is_killed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = shared_memory.segments()

@@ -1,4 +1,4 @@
-"""A cluster that cannot be used: one line says why, and what to do."""
+"""Unusable clusters: one error line with the reason and what to do."""
 
 from __future__ import annotations
 
@@ -45,28 +45,28 @@ def check(
     )
 
 
-def refusal(done: subprocess.CompletedProcess[str]) -> str:
-    """Return the only line that a refused run writes."""
+def error_line(done: subprocess.CompletedProcess[str]) -> str:
+    """Return the only output line of a failed run."""
     assert done.returncode == 2, done.stdout + done.stderr
     assert done.stdout == ""
     (line,) = done.stderr.splitlines()
     return line
 
 
-def test_scheduler_that_is_not_there(package: Path) -> None:
-    line = refusal(check(package, "tcp://127.0.0.1:1"))
+def test_missing_scheduler(package: Path) -> None:
+    line = error_line(check(package, "tcp://127.0.0.1:1"))
     assert "--cluster tcp://127.0.0.1:1: no scheduler answers within 10 s" in line
     assert "does its address begin with tcp:// or tls:// as it says at its start?" in line
 
 
 @pytest.mark.parametrize("address", ["nowhere.invalid:8786", "http://127.0.0.1:8786", "8786"])
-def test_address_of_nobody(package: Path, address: str) -> None:
-    assert f"--cluster {address}: no scheduler answers" in refusal(check(package, address))
+def test_invalid_scheduler_address(package: Path, address: str) -> None:
+    assert f"--cluster {address}: no scheduler answers" in error_line(check(package, address))
 
 
 def test_scheduler_without_workers(package: Path, tmp_path: Path) -> None:
     with cluster(tmp_path, 0) as running:
-        line = refusal(check(package, running.address))
+        line = error_line(check(package, running.address))
     assert f"the scheduler has no workers; start some with: dask worker {running.address}" in line
 
 
@@ -75,7 +75,7 @@ def test_workers_with_another_version_of_the_tool(package: Path, tmp_path: Path)
     site.mkdir()
     (site / "sitecustomize.py").write_text("import scaffold\nscaffold.__version__ = '0.0.7'\n")
     with cluster(tmp_path, 1, of_workers={"PYTHONPATH": f"{site}:{ROOT}"}) as running:
-        line = refusal(check(package, running.address))
+        line = error_line(check(package, running.address))
     assert f"has ros2-scaffold 0.0.7, and this machine ros2-scaffold {__version__}" in line
     assert line.endswith("install the same on all")
 
@@ -85,12 +85,12 @@ def test_workers_without_the_tool(package: Path, tmp_path: Path) -> None:
     site.mkdir()
     (site / "sitecustomize.py").write_text("import sys\nsys.modules['scaffold'] = None\n")
     with cluster(tmp_path, 1, of_workers={"PYTHONPATH": str(site)}) as running:
-        line = refusal(check(package, running.address))
+        line = error_line(check(package, running.address))
     assert "has no ros2-scaffold" in line
 
 
-def test_scheduler_that_dies_in_the_middle(tmp_path: Path) -> None:
-    """The report has what came back until then, and standard error names the others."""
+def test_scheduler_dies_during_the_run(tmp_path: Path) -> None:
+    """The report has the results received so far; standard error lists the other packages."""
     names = [f"robot_{number}" for number in range(12)]
     for name in names:
         (tmp_path / "src" / name).mkdir(parents=True)
@@ -122,7 +122,7 @@ def test_scheduler_that_dies_in_the_middle(tmp_path: Path) -> None:
 
 
 def authority(directory: Path) -> Path:
-    """Make a certificate authority, and a certificate that it signs."""
+    """Create a certificate authority and a certificate signed by it."""
     directory.mkdir()
     for words in (
         "req -x509 -newkey rsa:2048 -nodes -subj /CN=authority -keyout ca.key -out ca.pem",
@@ -136,7 +136,7 @@ def authority(directory: Path) -> Path:
 
 
 def configuration(directory: Path, certificates: Path, trusted: Path) -> dict[str, str]:
-    """Write a configuration of Dask as docs/cluster.md shows it; return what selects it."""
+    """Write the Dask configuration of docs/cluster.md; return the variables that select it."""
     directory.mkdir()
     own = certificates / "own.pem"
     (directory / "distributed.yaml").write_text(
@@ -149,7 +149,7 @@ def configuration(directory: Path, certificates: Path, trusted: Path) -> dict[st
     return {"DASK_CONFIG": str(directory)}
 
 
-def test_tls_lets_in_who_has_a_certificate_of_the_authority(package: Path, tmp_path: Path) -> None:
+def test_tls_accepts_only_certificates_of_the_authority(package: Path, tmp_path: Path) -> None:
     ours, theirs = authority(tmp_path / "ours"), authority(tmp_path / "theirs")
     own = configuration(tmp_path / "own", ours, ours)
     stranger = configuration(tmp_path / "stranger", theirs, ours)
@@ -159,9 +159,9 @@ def test_tls_lets_in_who_has_a_certificate_of_the_authority(package: Path, tmp_p
         allowed = check(package, running.address, own)
         assert allowed.returncode == 1, allowed.stderr
         assert "robot/package.xml:" in allowed.stdout
-        line = refusal(check(package, running.address))
+        line = error_line(check(package, running.address))
         assert "TLS is not configured; name the certificates in distributed.comm.tls" in line
         for other in (stranger, mistrusting):
-            assert "certificate" in refusal(check(package, running.address, other)).lower()
+            assert "certificate" in error_line(check(package, running.address, other)).lower()
         plain = running.address.replace("tls://", "tcp://")
-        assert "no scheduler answers" in refusal(check(package, plain))
+        assert "no scheduler answers" in error_line(check(package, plain))

@@ -1,4 +1,4 @@
-"""A cluster whose network is cut in the middle of a run: no connection closes, nothing comes."""
+"""A cluster whose network fails during a run: connections stay open, but no data arrives."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ TTL = f"{SILENCE + 20:g}s"
 
 
 class Proxy:
-    """Passes on what comes to a port of the loopback network, until it is told to stop.
+    """Forwards connections to a port of the loopback network, until they are cut.
 
     Args:
-        port: Where the real server listens.
+        port: The port of the real server.
     """
 
     def __init__(self, port: int) -> None:
@@ -48,11 +48,11 @@ class Proxy:
         threading.Thread(target=self._accept, daemon=True).start()
 
     def cut(self) -> None:
-        """Keep all connections, and pass on nothing more."""
+        """Keep all connections open, but forward nothing."""
         self._flows.clear()
 
     def restore(self) -> None:
-        """Pass on what has come in the meantime, and what comes."""
+        """Forward the data received in the meantime, and all further data."""
         self._flows.set()
 
     def close(self) -> None:
@@ -69,9 +69,9 @@ class Proxy:
                 return
             self._open += [near, far]
             for pair in ((near, far), (far, near)):
-                threading.Thread(target=self._pass_on, args=pair, daemon=True).start()
+                threading.Thread(target=self._forward, args=pair, daemon=True).start()
 
-    def _pass_on(self, source: socket.socket, target: socket.socket) -> None:
+    def _forward(self, source: socket.socket, target: socket.socket) -> None:
         try:
             while data := source.recv(2**16):
                 self._flows.wait()
@@ -107,7 +107,7 @@ def port_of(address: str) -> int:
     return int(address.rpartition(":")[2])
 
 
-def test_packages_of_a_worker_that_is_not_heard_run_elsewhere(tmp_path: Path) -> None:
+def test_packages_of_silent_worker_run_elsewhere(tmp_path: Path) -> None:
     slow = {"DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL": TTL}
     with (
         cluster(tmp_path, 2, of_all=slow) as running,
@@ -129,8 +129,8 @@ def test_packages_of_a_worker_that_is_not_heard_run_elsewhere(tmp_path: Path) ->
     wait_until(lambda: processes_of(victim.tmp) == [])
 
 
-def test_packages_whose_worker_is_cut_off_run_elsewhere(tmp_path: Path) -> None:
-    """The worker itself goes on: what it does then is not counted twice."""
+def test_packages_of_disconnected_worker_run_elsewhere(tmp_path: Path) -> None:
+    """The worker itself continues: its results are not counted twice."""
     slow = {"DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL": TTL}
     with cluster(tmp_path, 1, of_all=slow) as running:
         proxy = Proxy(port_of(running.address))
@@ -148,8 +148,8 @@ def test_packages_whose_worker_is_cut_off_run_elsewhere(tmp_path: Path) -> None:
     assert "has not been heard for " in said
 
 
-def test_worker_that_is_heard_again_gives_its_results(tmp_path: Path) -> None:
-    """It is named when it is silent, and nothing in it is lost or counted twice."""
+def test_reconnected_worker_delivers_its_results(tmp_path: Path) -> None:
+    """It is reported while silent, and no result is lost or counted twice."""
     with cluster(tmp_path, 1) as running:
         proxy = Proxy(port_of(running.address))
         with running.worker(f"tcp://127.0.0.1:{proxy.port}", {}) as worker:
@@ -169,7 +169,7 @@ def test_worker_that_is_heard_again_gives_its_results(tmp_path: Path) -> None:
     assert said.count("has not been heard for ") == 1
 
 
-def test_scheduler_that_is_not_heard_ends_the_run(tmp_path: Path) -> None:
+def test_silent_scheduler_ends_the_run(tmp_path: Path) -> None:
     with cluster(tmp_path, 1) as running:
         proxy = Proxy(port_of(running.address))
         with run_of(tmp_path, f"tcp://127.0.0.1:{proxy.port}") as run:

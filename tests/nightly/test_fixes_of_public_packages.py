@@ -1,4 +1,4 @@
-"""Other people's packages after ``check --fix``: at rest, no worse for ament, and readable.
+"""Public packages after ``check --fix``: no fixes left, no new ament findings, all files parse.
 
 ``SCAFFOLD_FIX_BASES`` names directories of packages, separated by ``:``; they are copied first.
 """
@@ -52,7 +52,7 @@ def test_fix(tmp_path: Path, base: str, flags: tuple[str, ...]) -> None:
 
 
 def findings(root: Path) -> Counter[tuple[str, str]]:
-    """Count what the linters say of each file, by linter."""
+    """Count the findings of the linters by linter and file."""
     found: Counter[tuple[str, str]] = Counter()
     for directory in map(Path, colcon.package_directories(Disk(), str(root))):
         for linter in LINTERS:
@@ -62,7 +62,7 @@ def findings(root: Path) -> Counter[tuple[str, str]]:
 
 
 def files(root: Path) -> list[str]:
-    """Return the files of a kind that can be judged."""
+    """Return the readable files with a suffix."""
     paths = (path for path in root.rglob("*") if path.is_file())
     return [name for name in (str(path.relative_to(root)) for path in paths) if reader_of(name)]
 

@@ -1,4 +1,4 @@
-"""Generated tests bite: nodes that are broken on purpose turn them red.
+"""Generated tests detect mutated nodes.
 
 Each kind of node is generated and installed, then its source is broken in one place at a time: a
 field is dropped, a counter stays constant, a parameter is ignored, a callback is not connected. Of
@@ -121,7 +121,7 @@ pytestmark = [
 
 
 class Mutant(NamedTuple):
-    """A node that is broken in one place."""
+    """A node with one mutated line."""
 
     node: str
     text: str
@@ -130,7 +130,7 @@ class Mutant(NamedTuple):
 
 
 def mutants(node: str, text: str) -> Iterator[Mutant]:
-    """Yield nodes with one line changed or dropped, as long as Python can still read them."""
+    """Yield nodes with one line changed or removed, if they still parse."""
     lines = text.splitlines()
     end = next(at for at, line in enumerate(lines) if line.startswith("def main("))
     start = next(at for at, line in enumerate(lines) if line.startswith("class "))
@@ -152,7 +152,7 @@ def mutants(node: str, text: str) -> Iterator[Mutant]:
 
 
 def install(directory: Path, answers: Mapping[str, str]) -> Path:
-    """Write a package, and an installation that points to it; return the module of its node."""
+    """Write a package, and an install space that points to it; return the module of its node."""
     given = {"package": "pkg", "node_name": "worker", "maintainer_name": "Ada", **answers}
     given["maintainer_email"] = "ada@example.com"
     asked = {name: Given(value, name) for name, value in given.items()}
@@ -187,14 +187,14 @@ def passes(directory: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def missing(text: str) -> list[str]:
+def missing_libraries(text: str) -> list[str]:
     """Return the libraries that a node needs and that are not installed."""
     imported = set(re.findall(r"^(?:from|import) (\w+)", text, re.MULTILINE))
     return [name for name in LIBRARIES if name in imported and not find_spec(name)]
 
 
 def sample(sources: Mapping[str, str]) -> list[Mutant]:
-    """Return mutants of all nodes in turn, of each in random order."""
+    """Return mutants in random order, taken from all nodes in turn."""
     random = Random(SEED)  # noqa: S311  no secret
     queues = [[*mutants(name, text)] for name, text in sources.items()]
     for queue in queues:
@@ -203,16 +203,14 @@ def sample(sources: Mapping[str, str]) -> list[Mutant]:
     return in_turn[:COUNT]
 
 
-def test_generated_tests_catch_broken_nodes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_generated_tests_detect_mutants(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ros = environment.select(os.environ)
     monkeypatch.setenv("AMENT_PREFIX_PATH", ros.variables["AMENT_PREFIX_PATH"])
     names = CHOSEN.split(",") if CHOSEN else [*NODES]
     modules = {name: install(tmp_path / name, NODES[name]) for name in names}
     sources = {name: module.read_text() for name, module in modules.items()}
-    for name in [name for name, text in sources.items() if missing(text)]:
-        sys.stdout.write(f"{name} left out: no {', '.join(missing(sources.pop(name)))}\n")
+    for name in [name for name, text in sources.items() if missing_libraries(text)]:
+        sys.stdout.write(f"{name} left out: no {', '.join(missing_libraries(sources.pop(name)))}\n")
     chosen = sample(sources)
     for name in sources:
         done = passes(tmp_path / name)

@@ -1,4 +1,4 @@
-"""Kill runs of all verbs that write at random steps: the next run heals each of them."""
+"""Runs of all writing verbs, killed at random steps: the next run recovers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ PERSON = ("--maintainer-name", "Ada", "--maintainer-email", "ada@example.com")
 
 
 class Case(NamedTuple):
-    """A verb with what it works on."""
+    """A verb and its input."""
 
     before: Path | None
     """The package that it changes."""
@@ -37,7 +37,7 @@ class Case(NamedTuple):
 
 @pytest.fixture(params=["add", "update", "fix", "new"])
 def case(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Case:
-    """Return a command to be run beside a directory ``talker``."""
+    """Return a command to run next to a directory ``talker``."""
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     (tmp_path / "before").mkdir()
@@ -61,7 +61,7 @@ def case(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.Mon
     return Case(package, ["update", "talker", "--content", str(team.parent)])
 
 
-def test_the_next_run_heals_what_was_killed(
+def test_next_run_recovers_from_a_kill(
     case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     place = tmp_path / "here"
@@ -94,7 +94,7 @@ HEALERS = (
 
 
 @pytest.mark.parametrize("verb", ["new", "add"])
-def test_any_writer_heals_files_at_the_top_of_the_repository(
+def test_any_writing_verb_recovers_files_at_the_top_of_the_repository(
     verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
@@ -165,7 +165,7 @@ def run(command: list[str], at: int | None) -> int:
     process = os.fork()
     if process == 0:
         try:
-            count = _count(at)
+            count = _count_writes(at)
             nowhere = os.open(os.devnull, os.O_WRONLY)
             for number in (1, 2):
                 os.dup2(nowhere, number)
@@ -180,8 +180,8 @@ def run(command: list[str], at: int | None) -> int:
     return steps
 
 
-def _count(at: int | None) -> list[str]:
-    """Let functions that change something note each call, and kill this process before one."""
+def _count_writes(at: int | None) -> list[str]:
+    """Count calls of functions that change files, and kill this process before a given call."""
     count: list[str] = []
 
     def counted(name: str, function: Callable[..., Any]) -> Callable[..., Any]:

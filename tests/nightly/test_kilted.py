@@ -48,14 +48,14 @@ def parts(*kinds: str) -> list[str]:
     return [word for kind in kinds for word in ("--add", f"{kind}:{kind}_node")]
 
 
-def observed(*arguments: str) -> Any:  # noqa: ANN401  as JSON has it
-    """Run the packages in the current directory; return the report."""
+def smoke_report(*arguments: str) -> Any:  # noqa: ANN401  as JSON has it
+    """Run ``smoke`` on the packages in the current directory; return the report."""
     main(["smoke", *arguments, "--format", "json", "--output-file", "report.json"])
     return json.loads(Path("report.json").read_text())
 
 
 @pytest.mark.parametrize("name", LACKING)
-def test_what_is_left_out_is_not_there(name: str) -> None:
+def test_omitted_libraries_are_not_installed(name: str) -> None:
     assert find_spec(name) is None
 
 
@@ -65,7 +65,7 @@ def test_nodes_of_every_kind_run(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     new("nodes", "--build-type", build_type, *parts(*KINDS))
-    report = observed("nodes", "--signal", "both")
+    report = smoke_report("nodes", "--signal", "both")
     assert report["ok"], json.dumps(report, indent=2)
     assert report["environment"]["distribution"] == DISTRO
     (package,) = report["packages"]
@@ -79,11 +79,11 @@ def test_interfaces_and_programs_build_and_the_tests_of_a_package_pass(
     new("things", "--add", "message:Speed", "--add", "service:Switch", "--add", "action:Drive")
     new("maps", "--add", "cpp_maps:maps")
     new("talker", "--build-type", "ament_python")
-    report = observed(".", "--test")
+    report = smoke_report(".", "--test")
     assert report["ok"], json.dumps(report, indent=2)
 
 
-def test_another_distribution_is_refused_with_the_way_to_it(
+def test_other_distribution_is_rejected_with_a_fix(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

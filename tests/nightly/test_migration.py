@@ -1,4 +1,4 @@
-"""Packages that use what Lyrical removed: moved, and kept for Jazzy, they build and run there."""
+"""Packages that use names removed in Lyrical: migrated, they still run on Jazzy."""
 
 from __future__ import annotations
 
@@ -260,7 +260,7 @@ def manifest(name: str, kind: str, **depends: tuple[str, ...]) -> str:
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a workspace of packages that are right on Jazzy."""
+    """Return a workspace of packages that work on Jazzy."""
     listed = {
         "buildtool_depend": ("ament_cmake", "ament_cmake_python"),
         "depend": ("rcutils", "std_msgs"),
@@ -304,7 +304,7 @@ def text_of(workspace: Path) -> dict[str, bytes]:
     return {str(path): path.read_bytes() for path in workspace.rglob("*") if path.is_file()}
 
 
-def test_packages_that_are_kept_for_jazzy_still_build_run_and_are_clean_there(
+def test_migrated_packages_still_build_run_and_are_clean_on_jazzy(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = reported(capsys)

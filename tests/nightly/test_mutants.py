@@ -1,4 +1,4 @@
-"""Thousands of broken packages: no traceback, no failed rule, bounded time and memory.
+"""Thousands of mutated packages: no traceback, no crashed rule, bounded time and memory.
 
 ``SCAFFOLD_MUTANTS`` is their number, ``SCAFFOLD_MUTANT_SEED`` the first seed, and
 ``SCAFFOLD_MUTANT_BASES`` names directories of further packages to break, separated by ``:``.
@@ -89,8 +89,8 @@ def _kilobytes() -> int:
     )
 
 
-class _Silence:
-    """Nobody watches the progress."""
+class _NoProgress:
+    """A progress bar that shows nothing."""
 
     def begin(self, label: str, total: int) -> None:
         """Start another part of the work."""
@@ -100,11 +100,11 @@ class _Silence:
 
 
 def _problem(session: Session, files: Files, *, fix: bool) -> str:
-    """Check a package; return what went wrong."""
+    """Check a package; return a description of the failure, if any."""
     package = Package.of(dict(files))
     try:
         if fix:
-            workspace_fixer.fix([Target(package)], session, _Silence(), unsafe=True)
+            workspace_fixer.fix([Target(package)], session, _NoProgress(), unsafe=True)
             return ""
         found = session.check(package)
     except Exception:  # noqa: BLE001  whatever it is, it is what the test looks for
@@ -112,8 +112,10 @@ def _problem(session: Session, files: Files, *, fix: bool) -> str:
     return "; ".join(f"{one.location.path}: {one.message}" for one in found if one.code == "SC002")
 
 
-def _work(pipe: int, rules: Sequence[type[Rule]], bases: Sequence[Files], seeds: range) -> None:
-    """Check packages and say so, line by line."""
+def _check_seeds(
+    pipe: int, rules: Sequence[type[Rule]], bases: Sequence[Files], seeds: range
+) -> None:
+    """Check packages and write a JSON line per step."""
     resource.setrlimit(resource.RLIMIT_AS, (MOST_ADDRESSES, MOST_ADDRESSES))
     session = Session(rules, Selection())
     for seed in seeds:
@@ -130,13 +132,13 @@ def _work(pipe: int, rules: Sequence[type[Rule]], bases: Sequence[Files], seeds:
 def _batch(
     rules: Sequence[type[Rule]], bases: Sequence[Files], seeds: range
 ) -> Iterator[dict[str, Any]]:
-    """Yield what a process of its own says of some packages; the last one may be unfinished."""
+    """Yield the lines of a child process about some packages; the last one may be incomplete."""
     reading, writing = os.pipe()
     process = os.fork()
     if process == 0:
         os.close(reading)
         try:
-            _work(writing, rules, bases, seeds)
+            _check_seeds(writing, rules, bases, seeds)
         finally:
             os._exit(0)
     os.close(writing)
@@ -153,10 +155,10 @@ def _batch(
     os.waitpid(process, 0)
 
 
-def _look(
+def _failures(
     rules: Sequence[type[Rule]], bases: Sequence[Files], seeds: range
 ) -> Iterator[tuple[int, str]]:
-    """Yield the seeds of the packages with which something goes wrong, and what."""
+    """Yield the seeds of the packages that fail, with a description."""
     at = seeds.start
     while at < seeds.stop:
         story: list[str] = []
@@ -179,7 +181,7 @@ def _look(
         print(f"{at - seeds.start} packages", flush=True)  # noqa: T201  hours may be left
 
 
-def test_broken_packages_break_nothing(
+def test_mutated_packages_cause_no_failure(
     bases: list[Files], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("SCAFFOLD_NO_CACHE", "1")
@@ -187,7 +189,7 @@ def test_broken_packages_break_nothing(
     problems: list[str] = []
     start = time.monotonic()
     with capsys.disabled():
-        for seed, problem in _look(rules, bases, range(SEED, SEED + COUNT)):
+        for seed, problem in _failures(rules, bases, range(SEED, SEED + COUNT)):
             problems.append(f"seed {seed}: {problem}")
             print(problems[-1], flush=True)  # noqa: T201  hours may be left
         print(f"{COUNT} packages in {time.monotonic() - start:.0f} s")  # noqa: T201

@@ -1,4 +1,4 @@
-"""Many runs in one package, and edits by somebody else while it is being changed."""
+"""Parallel runs in one package, and edits by another process during a run."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def package(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("_", range(3))
-def test_twenty_adds_add_twenty_nodes(_: int, package: Path) -> None:
+def test_twenty_parallel_adds(_: int, package: Path) -> None:
     names = [f"beat_{number}" for number in range(20)]
     command = [*TOOL, "add", "timer"]
     processes = [
@@ -52,7 +52,7 @@ def test_twenty_adds_add_twenty_nodes(_: int, package: Path) -> None:
     subprocess.run([*TOOL, "check", package], check=True, stdout=subprocess.DEVNULL)
 
 
-def test_no_edit_is_lost_while_fixes_are_written(package: Path, tmp_path: Path) -> None:
+def test_edits_during_a_fix_are_kept(package: Path, tmp_path: Path) -> None:
     for number in range(8):
         (package / "talker" / f"untidy_{number}.py").write_text("X = 1 \nY = 2 \n")
     started = time.monotonic()

@@ -1,4 +1,4 @@
-"""A thousand random edits over real workspaces: what is remembered never goes stale.
+"""A thousand random edits of real workspaces: cached results are never stale.
 
 ``SCAFFOLD_EDIT_BASES`` names directories of packages, separated by ``:``; they are copied first.
 ``SCAFFOLD_EDITS`` is the number of edits in each, ``SCAFFOLD_EDIT_SEED`` where they start.

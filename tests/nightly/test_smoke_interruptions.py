@@ -1,4 +1,4 @@
-"""A campaign: ``smoke`` is ended in five ways at nine moments, and leaves nothing."""
+"""``smoke`` is ended in five ways at nine moments, and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def seconds(package: Path, tmp_path_factory: pytest.TempPathFactory) -> float:
-    """Return how long a run takes that nobody interrupts: it has all phases."""
+    """Return the duration of a complete run."""
     begun = time.monotonic()
     environment = variables(tmp_path_factory.mktemp("tmp"))
     subprocess.run(arguments(package), env=environment, check=True, stdout=subprocess.DEVNULL)
@@ -44,7 +44,7 @@ def arguments(package: Path) -> list[str]:
 
 @pytest.mark.parametrize("moment", range(MOMENTS))
 @pytest.mark.parametrize("way", WAYS)
-def test_interruption(
+def test_interrupted_run_is_cleaned_up(
     package: Path,
     seconds: float,
     way: str,

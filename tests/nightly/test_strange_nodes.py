@@ -1,4 +1,4 @@
-"""Nodes that do what no tutorial shows: smoke sees what they are, and nothing of them is left."""
+"""Unusual nodes: smoke observes them correctly, and nothing is left behind."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ NODES = {
 
 @pytest.fixture(scope="module")
 def executables(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """Run them all, two at a time; return what is reported of each."""
+    """Run all nodes, two at a time; return the report on each."""
     root = tmp_path_factory.mktemp("strange")
     package = python_package(root / "src", "strange", NODES)
     return {item["name"]: item for item in executables_of(package, root, "--jobs", "2")}
@@ -128,7 +128,7 @@ def executables(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         ("reads_input", "EOFError: EOF when reading a line"),
     ],
 )
-def test_what_is_wrong_is_named(executables: dict[str, Any], name: str, said: str) -> None:
+def test_problem_is_reported(executables: dict[str, Any], name: str, said: str) -> None:
     assert said in "\n".join(executables[name]["problems"])
 
 
@@ -136,9 +136,7 @@ def test_what_is_wrong_is_named(executables: dict[str, Any], name: str, said: st
     "name",
     ["closes_output", "eats_memory", "endless_line", "floods_log", "homeless", "new_names"],
 )
-def test_what_is_strange_keeps_nothing_from_being_seen(
-    executables: dict[str, Any], name: str
-) -> None:
+def test_strange_node_is_observed(executables: dict[str, Any], name: str) -> None:
     """A rate may be missed on a busy machine, and the report says so."""
     for word in ("observer", "hangs", "crashed", "ignored", "leaves"):
         assert word not in "\n".join(executables[name]["problems"])
@@ -147,7 +145,7 @@ def test_what_is_strange_keeps_nothing_from_being_seen(
     assert executables[name]["stop"]["exit_code"] == 0
 
 
-def test_figures_of_what_is_strange(executables: dict[str, Any]) -> None:
+def test_measurements_of_strange_nodes(executables: dict[str, Any]) -> None:
     assert executables["eats_memory"]["usage"]["memory_peak"] > 150_000_000
     assert executables["floods_log"]["log"]["counts"]["warn"] > 300
     assert len(executables["new_names"]["nodes"]) == 5

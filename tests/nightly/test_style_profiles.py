@@ -1,4 +1,4 @@
-"""The style verdict for each distribution, compared with the linters that it has.
+"""The style findings for each distribution, compared with the linters that it ships.
 
 Each set of linters is installed into an environment of its own, with the Python of the distribution
 or the nearest that this machine has.
@@ -39,7 +39,7 @@ Found = set[tuple[str, int, str]]
 
 
 def interpreter(wanted: tuple[int, int]) -> str:
-    """Return a Python of a version, or of the nearest that sees f-strings as it does."""
+    """Return a Python of a version, or of the nearest one with the same f-string tokens."""
     known = [wanted, (3, 13), (3, 12)] if wanted >= (3, 12) else [wanted]
     for major, minor in known:
         for path in [*_of_pyenv(f"{major}.{minor}"), f"python{major}.{minor}"]:
@@ -49,7 +49,7 @@ def interpreter(wanted: tuple[int, int]) -> str:
 
 
 def _runs(path: str) -> bool:
-    """Tell whether it is more than a shim for a Python that is not installed."""
+    """Tell whether a Python starts, unlike a shim of pyenv for a missing version."""
     done = subprocess.run([path, "-c", ""], env=system_environment(), check=False)
     return done.returncode == 0
 
@@ -66,7 +66,7 @@ def oracle(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
 
 
 class Oracle:
-    """The linters of a distribution in an environment of their own."""
+    """The linters of a distribution in their own environment."""
 
     def __init__(self, name: str, directory: Path) -> None:
         self.name = name
@@ -93,7 +93,7 @@ class Oracle:
         return {str(name): str(value) for name, value in self.distribution.fact("linters").items()}
 
     def run(self, directory: Path) -> Found:
-        """Return what the linters find; a file at which flake8 itself fails is left out."""
+        """Return the findings of the linters; files that crash flake8 are omitted."""
         paths = [str(path.relative_to(directory)) for path in sorted(directory.rglob("*.py"))]
         return self._flake8(directory, paths) | self._pydocstyle(directory)
 
@@ -130,7 +130,7 @@ class Oracle:
 
 
 def ours(oracle: Oracle, directory: Path) -> Found:
-    """Return what we find for the distribution."""
+    """Return our findings for the distribution."""
     with distributions.targeting(oracle.distribution):
         package = Package.at(directory)
         found = StyleCheck([package]).diagnostics(package)
@@ -138,7 +138,7 @@ def ours(oracle: Oracle, directory: Path) -> Found:
 
 
 def differences(oracle: Oracle, directory: Path) -> dict[str, tuple[Found, Found]]:
-    """Return what only the linters and what only we find, by the text of the file."""
+    """Return the findings of only one side, by the text of the file."""
     real, own = oracle.run(directory), ours(oracle, directory)
     paths = {path for path, _, _ in real ^ own if (directory / path).exists()}
     return {

@@ -255,7 +255,7 @@ OBSERVATION = Observation(
         ),
     ),
     parameters={"/sensor": {"frame_id": "front", "use_sim_time": False}, "/deaf": None},
-    log=Log({"error": 1, "message_info": 3}, (LogLine("error", "sensor", "not calibrated", 5.0),)),
+    log=Log({"error": 1, "info": 3}, (LogLine("error", "sensor", "not calibrated", 5.0),)),
     usage=Usage(1.0, 12.3, 70_000_000, 71_000_000),
 )  # fmt: skip
 
@@ -282,7 +282,7 @@ def test_verbose_text_shows_all_measurements() -> None:
         "      publisher of /sensor: best effort, volatile, keep last 3, deadline 2 s",
         '    parameter frame_id = "front"',
         "    parameters of /deaf: no answer",
-        "    logged 1 error, 3 message_info",
+        "    logged 1 error, 3 info",
         "      ERROR sensor: not calibrated",
         "    memory 70.0 MB, at most 71.0 MB, 12 % of a core",
         "",

@@ -45,7 +45,7 @@ MANIFEST = """\
       <buildtool_depend>ament_cmake</buildtool_depend>
 
       <!-- what it talks with -->
-      <add_dependencies>rclcpp</add_dependencies>  <!-- the library -->
+      <depend>rclcpp</depend>  <!-- the library -->
       <exec_depend>tf2</exec_depend>
 
       <test_depend>ament_lint_auto</test_depend>
@@ -86,12 +86,12 @@ def test_first_exec_depend_follows_the_other_dependencies() -> None:
 @pytest.mark.parametrize(
     ("kind", "name"),
     [
-        ("exec", "rclcpp"),  # a add_dependencies is there when the package runs
+        ("exec", "rclcpp"),  # a depend is there when the package runs
         ("exec", "tf2"),
         ("exec", "demo"),  # itself
         ("test", "tf2"),
         ("build", "rclcpp"),
-        ("add_dependencies", "rclcpp"),
+        ("depend", "rclcpp"),
         ("buildtool", "ament_cmake"),
     ],
 )
@@ -105,11 +105,11 @@ def test_dependency_covered_by_another_kind_is_not_declared(kind: str, name: str
     [
         ("exec", "<build_depend>x</build_depend>", ["exec_depend"]),
         (
-            "add_dependencies",
+            "depend",
             "<exec_depend>x</exec_depend>",
             ["build_depend", "build_export_depend"],
         ),
-        ("add_dependencies", "", ["add_dependencies"]),
+        ("depend", "", ["depend"]),
         ("build_export", "<build_depend>x</build_depend>", ["build_export_depend"]),
         ("exec", '<exec_depend condition="$ROS_DISTRO == foxy">x</exec_depend>', ["exec_depend"]),
         ("exec", "<test_depend>x</test_depend>", ["exec_depend"]),

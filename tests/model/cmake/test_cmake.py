@@ -1,4 +1,4 @@
-"""CMakeLists.txt: the same tokens as CMake's own, places, values and edits."""
+"""CMakeLists.txt: tokens equal to those of CMake, locations, values and edits."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def read(text: str, path: str = "CMakeLists.txt") -> CMakeLists:
     return CMakeLists.parse(Source(path, text))
 
 
-def one(text: str) -> Command:
+def only_command(text: str) -> Command:
     (command,) = read(text).commands
     return command
 
@@ -148,7 +148,7 @@ SYNTAX = [
 
 @with_cmake
 @pytest.mark.parametrize("text", SYNTAX, ids=range(len(SYNTAX)))
-def test_same_arguments_as_cmake(text: str, tmp_path: Path) -> None:
+def test_arguments_equal_those_of_cmake(text: str, tmp_path: Path) -> None:
     lists = read(text)
     assert not lists.errors
     mine = [
@@ -181,7 +181,7 @@ TEXTS = st.lists(st.sampled_from([*PIECES[0], *PIECES[1], *PIECES[2]]), max_size
 @example("set(A b[[c]])")
 @example("set\n(A)")
 @example("set(A \\\nb)")
-def test_same_verdict_as_cmake(tmp_path: Path, text: str) -> None:
+def test_syntax_errors_equal_those_of_cmake(tmp_path: Path, text: str) -> None:
     assert (not read(text).errors) is cmake_accepts(text, tmp_path)
 
 
@@ -190,7 +190,7 @@ def test_same_verdict_as_cmake(tmp_path: Path, text: str) -> None:
 @example("if(\n" * 2000)
 @example('"a\n' * 2001)
 @example("\0")
-def test_no_text_is_lost(text: str) -> None:
+def test_tokens_cover_the_whole_text(text: str) -> None:
     lists = read(text)
     assert joined(lists) == text
     ends = [0]
@@ -223,14 +223,14 @@ def test_no_text_is_lost(text: str) -> None:
         ('-D"a b"', '-D"a b"', '-D"a b"'),
     ],
 )
-def test_argument(raw: str, text: str, value: str) -> None:
-    (argument,) = one(f"set({raw})").arguments
+def test_raw_text_and_value_of_an_argument(raw: str, text: str, value: str) -> None:
+    (argument,) = only_command(f"set({raw})").arguments
     assert (argument.raw, argument.text, argument.value) == (raw, text, value)
     assert argument.quoted is raw.startswith('"')
     assert argument.bracket is raw.startswith("[")
 
 
-def test_places() -> None:
+def test_locations_of_commands_and_arguments() -> None:
     install = read(TALKER).find("install")[0]
     assert install.location[1:] == (10, 1, 15, 2)
     assert install.name_location[1:] == (10, 1, 10, 8)
@@ -239,19 +239,19 @@ def test_places() -> None:
     assert TALKER[install.close_start : install.end] == ")"
 
 
-def test_names_in_any_case() -> None:
-    command = one("Find_Package (rclpy)")
+def test_command_names_are_case_insensitive() -> None:
+    command = only_command("Find_Package (rclpy)")
     assert (command.name, command.written_name) == ("find_package", "Find_Package")
 
 
-def test_find_keeps_the_order_of_the_file() -> None:
+def test_find_returns_commands_in_file_order() -> None:
     lists = read(TALKER)
     assert [command.location.line for command in lists.find("install", "project")] == [3, 10, 17]
     assert lists.find("macro") == []
 
 
-def test_sections() -> None:
-    command = one("install(PROGRAMS a b DESTINATION c PROGRAMS d OPTIONAL)")
+def test_keyword_sections_of_a_command() -> None:
+    command = only_command("install(PROGRAMS a b DESTINATION c PROGRAMS d OPTIONAL)")
     keywords = {"PROGRAMS", "DESTINATION", "OPTIONAL"}
     sections = {
         name: [argument.value for argument in arguments]
@@ -268,12 +268,12 @@ def test_sections() -> None:
     assert command.has("OPTIONAL")
 
 
-def test_comments() -> None:
+def test_comment_tokens() -> None:
     lists = read("#a\nset(b #c\n)#[[d\n]]")
     assert [lists.text(token) for token in lists.comments] == ["#a", "#c", "#[[d\n]]"]
 
 
-def test_blocks() -> None:
+def test_blocks_around_a_command() -> None:
     lists = read("if(a)\nforeach(b c)\nd()\nendforeach()\nelse()\ne()\nendif()\nf()")
     seen = [
         (
@@ -328,7 +328,7 @@ def test_blocks() -> None:
         ("foreach(a b)\nelse()\nendforeach()", ["2:1 if() expected before else()"]),
     ],
 )
-def test_errors(text: str, errors: list[str]) -> None:
+def test_syntax_errors(text: str, errors: list[str]) -> None:
     lists = read(text)
     assert [f"{at.line}:{at.column} {message}" for at, message in lists.errors] == errors
     with pytest.raises(ParseError) as caught:
@@ -336,7 +336,7 @@ def test_errors(text: str, errors: list[str]) -> None:
     assert (caught.value.location, caught.value.message) == lists.errors[0]
 
 
-def test_commands_behind_an_error_are_there() -> None:
+def test_commands_after_an_error_are_parsed() -> None:
     lists = read('set(A b\nfind_package(x)\nset("C\n  d)\ninstall(FILES "e" DESTINATION f)\n')
     assert [command.name for command in lists.commands] == [
         "set",
@@ -348,7 +348,7 @@ def test_commands_behind_an_error_are_there() -> None:
     assert lists.commands[1].values == ["x"]
 
 
-def test_no_errors_no_exception() -> None:
+def test_valid_file_raises_nothing() -> None:
     read(TALKER).require()
 
 
@@ -402,7 +402,7 @@ def expanded(text: str, path: str = "CMakeLists.txt") -> list[str] | None:
         ("foreach(x a b)\nset(A ${x})\nendforeach()\nuse(${A})", None),
     ],
 )
-def test_expand(text: str, values: list[str] | None) -> None:
+def test_expand_variables(text: str, values: list[str] | None) -> None:
     assert expanded(text) == values
 
 
@@ -411,7 +411,7 @@ def test_expand_in_a_subdirectory() -> None:
     assert expanded(text, "sub/CMakeLists.txt") == ["sub/a"]
 
 
-def test_values_that_explode_are_not_followed() -> None:
+def test_exponentially_growing_values_are_unknown() -> None:
     doubling = "set(A ab)\n" + "set(A ${A}${A})\n" * 200
     assert expanded(f"{doubling}use(${{A}})") is None
 
@@ -444,7 +444,7 @@ def test_project_name() -> None:
         ("if(BUILD_TESTING)\nendif()\nuse()", False),
     ],
 )
-def test_guarded_by_testing(text: str, guarded: bool) -> None:
+def test_command_guarded_by_build_testing(text: str, guarded: bool) -> None:
     lists = read(text)
     assert lists.guarded_by_testing(lists.find("use")[0]) is guarded
 
@@ -452,7 +452,7 @@ def test_guarded_by_testing(text: str, guarded: bool) -> None:
 # -- packages
 
 
-def test_found_packages() -> None:
+def test_packages_found_by_find_package() -> None:
     found = read(TALKER).found_packages
     assert [(one.name, one.required, one.in_testing) for one in found] == [
         ("ament_cmake", True, False),
@@ -483,7 +483,7 @@ def test_packages_found_in_a_loop(loop: str) -> None:
 
 
 @pytest.mark.parametrize("loop", ["foreach(d ${L})", "foreach(d RANGE 3)", "while(d)"])
-def test_packages_found_in_a_loop_over_something_unknown(loop: str) -> None:
+def test_packages_found_in_a_loop_over_an_unknown_list(loop: str) -> None:
     end = loop.partition("(")[0]
     assert read(f"{loop}\nfind_package(${{d}})\nend{end}()").found_packages == []
 
@@ -498,14 +498,14 @@ def test_packages_found_by_one_command() -> None:
 # -- installation
 
 
-def items(install: Install) -> list[tuple[str | None, str | None]]:
+def install_items(install: Install) -> list[tuple[str | None, str | None]]:
     return [(item.value, item.path) for item in install.items]
 
 
-def test_installs() -> None:
+def test_installed_files_and_directories() -> None:
     programs, directories = read(TALKER).installs
     assert (programs.kind, programs.destination) == ("PROGRAMS", "lib/talker")
-    assert items(programs) == [
+    assert install_items(programs) == [
         ("scripts/a.py", "scripts/a.py"),
         ("scripts/b.py", "scripts/b.py"),
         ("talker/talk.py", "talker/talk.py"),
@@ -514,7 +514,7 @@ def test_installs() -> None:
     assert programs.destination_argument is not None
     assert programs.destination_argument.location[1:] == (14, 15, 14, 34)
     assert (directories.kind, directories.destination) == ("DIRECTORY", "share/talker")
-    assert items(directories) == [("launch", "launch"), ("config", "config")]
+    assert install_items(directories) == [("launch", "launch"), ("config", "config")]
 
 
 def install(text: str, path: str = "CMakeLists.txt") -> Install:
@@ -544,12 +544,12 @@ def test_install_with_rename_and_patterns() -> None:
         'install(DIRECTORY d/ DESTINATION s FILES_MATCHING PATTERN "*.py" PATTERN x EXCLUDE)'
     )
     assert (found.patterns, found.excludes) == (["*.py"], ["x"])
-    assert items(found) == [("d/", "d")]
+    assert install_items(found) == [("d/", "d")]
 
 
-def test_install_of_something_unknown() -> None:
+def test_install_of_unknown_values() -> None:
     found = install("install(FILES ${A} ${CMAKE_CURRENT_BINARY_DIR}/b c DESTINATION ${D})")
-    assert items(found) == [(None, None), (None, None), ("c", "c")]
+    assert install_items(found) == [(None, None), (None, None), ("c", "c")]
     assert found.destination is None
     assert found.destination_argument is not None
 
@@ -568,7 +568,7 @@ def test_install_in_a_loop() -> None:
         "project(p)\nforeach(d launch config)\n"
         "install(DIRECTORY ${d}/ DESTINATION share/${PROJECT_NAME}/${d})\nendforeach()"
     )
-    assert [(items(one), one.destination) for one in lists.installs] == [
+    assert [(install_items(one), one.destination) for one in lists.installs] == [
         ([("launch/", "launch")], "share/p/launch"),
         ([("config/", "config")], "share/p/config"),
     ]
@@ -578,7 +578,7 @@ def test_install_in_a_loop() -> None:
 def test_directories_of_ament_auto_package(name: str) -> None:
     found = install(f"{name}(INSTALL_TO_SHARE launch config)")
     assert (found.kind, found.destination) == ("DIRECTORY", "share/p")
-    assert items(found) == [("launch", "launch"), ("config", "config")]
+    assert install_items(found) == [("launch", "launch"), ("config", "config")]
     assert read(f"project(p)\n{name}()").installs == []
 
 
@@ -614,7 +614,7 @@ def test_insert_find_package(name: str, line: int, newline: str) -> None:
         ("find_package(m)\n", "find_package(m)\n"),
     ],
 )
-def test_insert_find_package_elsewhere(before: str, after: str) -> None:
+def test_place_of_inserted_find_package(before: str, after: str) -> None:
     assert apply(before, cmake_edit.insert_find_package(read(before), "m")) == after
 
 
@@ -640,7 +640,7 @@ def test_install_directory() -> None:
     assert after == TALKER.replace("launch config ", "launch config params ")
 
 
-def test_install_as_a_new_block_above_the_comment() -> None:
+def test_new_install_is_inserted_above_the_comment() -> None:
     before = "project(p)\n# The end.\nament_package()\n"
     after = (
         "project(p)\n\ninstall(\n  PROGRAMS\n    a.py\n  DESTINATION lib/${PROJECT_NAME}\n)\n\n"
@@ -649,7 +649,7 @@ def test_install_as_a_new_block_above_the_comment() -> None:
     assert apply(before, cmake_edit.install_program(read(before), "a.py")) == after
 
 
-def test_insert_in_testing() -> None:
+def test_insert_in_build_testing_block() -> None:
     after = apply(TALKER, cmake_edit.insert_in_testing(read(TALKER), ["a()", "b()"]))
     assert after == TALKER.replace("endif()\n", "  a()\n  b()\nendif()\n")
 
@@ -670,7 +670,7 @@ def test_change_and_remove_arguments() -> None:
     ("value", "written"),
     [("a/b.py", "a/b.py"), ("${A}/b", "${A}/b"), ("a b", '"a b"'), ('a"\\', '"a\\"\\\\"')],
 )
-def test_quote(value: str, written: str) -> None:
+def test_quote_argument(value: str, written: str) -> None:
     assert cmake_edit.quote(value) == written
 
 
@@ -683,7 +683,7 @@ def test_broken_files_are_not_edited() -> None:
     assert cmake_edit.remove_argument(lists, lists.commands[0].arguments[0]) is None
 
 
-def test_missing_parenthesis_is_said_once() -> None:
+def test_missing_parenthesis_is_reported_once() -> None:
     rules = [rule() for rule in AMENT_RULES if rule.code == "CM083"]
 
     def said(text: str) -> list[str]:

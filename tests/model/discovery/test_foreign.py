@@ -1,4 +1,4 @@
-"""What lies among the sources and is not the user's is left out, unless somebody names it."""
+"""Foreign files among the sources are not checked unless they are given explicitly."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def write(directory: Path, files: dict[str, str]) -> None:
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A checkout with a package of the user's and one of somebody else in `other`."""
+    """A checkout with a package of the user, and a foreign one in `other`."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     monkeypatch.delenv(cache.SWITCH, raising=False)
@@ -61,7 +61,7 @@ Check = Callable[..., tuple[list[str], list[str]]]
 
 @pytest.fixture
 def check(capsys: pytest.CaptureFixture[str]) -> Check:
-    """Return which files have a finding, and the notes of the report."""
+    """Return the files with findings, and the notes of the report."""
 
     def run(*words: str) -> tuple[list[str], list[str]]:
         assert main(["check", "--select", "F", "--no-types", *words]) in (0, 1)
@@ -92,7 +92,7 @@ def vendored(top: Path) -> str:
 
 
 @pytest.mark.parametrize("make", [submodule, ignored, vendored])
-def test_packages_that_are_not_the_users(
+def test_foreign_packages_are_not_checked(
     workspace: Path, check: Check, make: Callable[[Path], str]
 ) -> None:
     where = make(workspace)
@@ -107,7 +107,7 @@ def test_packages_that_are_not_the_users(
 
 
 @pytest.mark.parametrize("make", [submodule, ignored, vendored])
-def test_without_others_they_are_checked(
+def test_foreign_packages_are_checked_if_there_are_no_others(
     workspace: Path, check: Check, make: Callable[[Path], str]
 ) -> None:
     make(workspace)
@@ -116,7 +116,9 @@ def test_without_others_they_are_checked(
     assert (Path(found).parts[1:], notes) == (("msgs", "node.py"), [])
 
 
-def test_other_packages_still_see_them(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_foreign_packages_are_known_to_other_packages(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     depends = MANIFEST.replace("</name>", "</name><depend>other_msgs</depend>")
     write(
         workspace,
@@ -136,7 +138,7 @@ def test_other_packages_still_see_them(workspace: Path, capsys: pytest.CaptureFi
     assert "other_msgs" not in capsys.readouterr().out
 
 
-def test_files_that_are_not_the_users(workspace: Path, check: Check) -> None:
+def test_foreign_files_are_not_checked(workspace: Path, check: Check) -> None:
     write(
         workspace,
         {
@@ -164,7 +166,7 @@ def test_files_that_are_not_the_users(workspace: Path, check: Check) -> None:
     assert "own/generated/a.py" in check("own")[0], "git tracks it now"
 
 
-def test_which_are_left_out_is_configured(workspace: Path, check: Check) -> None:
+def test_default_excludes_can_be_configured(workspace: Path, check: Check) -> None:
     write(workspace, {"own/node~.py": "", "own/.#node.py": FLAWED, "own/.gitignore": "node.py\n"})
     assert check("own")[0] == []
     write(workspace, {"ros2-scaffold.toml": '[check]\ndefault-excludes = ["gitignored"]\n'})
@@ -173,7 +175,7 @@ def test_which_are_left_out_is_configured(workspace: Path, check: Check) -> None
     assert check("own")[0] == ["own/.#node.py", "own/node.py"]
 
 
-def test_a_changed_pattern_is_seen(workspace: Path, check: Check) -> None:
+def test_changed_gitignore_invalidates_the_cache(workspace: Path, check: Check) -> None:
     assert check("own")[0] == ["own/node.py"]
     write(workspace, {".gitignore": "node.py\n"})
     assert check("own")[0] == []
@@ -190,14 +192,14 @@ PATTERNS = [
 ]
 
 
-def pattern(chance: random.Random) -> str:
+def random_pattern(chance: random.Random) -> str:
     text = "/".join(chance.choice(PATTERNS) for _ in range(chance.choice([1, 1, 1, 2, 3])))
     text = chance.choice(["", "", "", "!", "/"]) + text
     return text + chance.choice(["", "", "", "/", "  "])
 
 
 @pytest.mark.parametrize("seed", range(15))
-def test_same_files_as_git_ignores(tmp_path: Path, seed: int) -> None:
+def test_ignored_files_equal_those_of_git(tmp_path: Path, seed: int) -> None:
     chance = random.Random(seed)  # noqa: S311  chance, not secrecy
     git(tmp_path, "init", "-q")
     directories = [tmp_path]
@@ -211,7 +213,7 @@ def test_same_files_as_git_ignores(tmp_path: Path, seed: int) -> None:
     for path in files:
         path.touch()
     for directory in {tmp_path, *chance.sample(directories, 2)}:
-        lines = "".join(f"{pattern(chance)}\n" for _ in range(chance.randint(1, 5)))
+        lines = "".join(f"{random_pattern(chance)}\n" for _ in range(chance.randint(1, 5)))
         (directory / ".gitignore").write_text(lines)
     git(tmp_path, "add", "-f", "--", *map(str, sorted(files)[:2]))
     listed = git(tmp_path, "ls-files", "-z", "-o", "-i", "--exclude-standard").split("\0")

@@ -1,4 +1,4 @@
-"""Files of requirements of a repository tell what is installed with pip."""
+"""Requirements files of a repository list what is installed with pip."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Packages that ``vcs import`` fetches are no misspelled ones."""
+"""Packages fetched by ``vcs import`` are known names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ REPOS = "repositories:\n  core/ue_msgs:\n    type: git\n    url: https://example
     ("repos", "expected"),
     [("arm.repos", 0), (".github/arm.jazzy.repos", 0), ("arm.yaml", 2), ("docs/arm.repos", 2)],
 )
-def test_packages_of_repos_files(
+def test_packages_in_repos_files_are_known(
     repos: str, expected: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     files = {

@@ -1,4 +1,4 @@
-"""Which packages and files the paths of a user stand for."""
+"""Packages and files selected by the paths on the command line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def make_package(path: Path, name: str | None = None) -> Path:
     return path
 
 
-def found(*paths: Path | str) -> list[str]:
+def found_packages(*paths: Path | str) -> list[str]:
     targets = discovery.find([str(path) for path in paths])
     return [Path(target.package.directory).name for target in targets]
 
@@ -38,37 +38,37 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_workspace(workspace: Path) -> None:
-    assert found(workspace) == ["b_package", "a_package"]
+def test_packages_of_a_workspace(workspace: Path) -> None:
+    assert found_packages(workspace) == ["b_package", "a_package"]
 
 
-def test_each_package_once(workspace: Path) -> None:
-    assert found(workspace, workspace / "src", workspace / "src" / "b_package") == [
+def test_package_given_twice_is_found_once(workspace: Path) -> None:
+    assert found_packages(workspace, workspace / "src", workspace / "src" / "b_package") == [
         "b_package",
         "a_package",
     ]
 
 
-def test_an_ignored_package_given_by_name_is_checked(workspace: Path) -> None:
-    assert found(workspace / "src" / "with_colcon_ignore") == ["with_colcon_ignore"]
+def test_ignored_package_given_explicitly_is_found(workspace: Path) -> None:
+    assert found_packages(workspace / "src" / "with_colcon_ignore") == ["with_colcon_ignore"]
 
 
-def test_nothing_but_ignored_packages(tmp_path: Path) -> None:
+def test_only_ignored_packages_is_an_error(tmp_path: Path) -> None:
     (make_package(tmp_path / "only") / "COLCON_IGNORE").touch()
-    assert found(tmp_path) == ["only"]
+    assert found_packages(tmp_path) == ["only"]
 
 
-def test_installed_packages_of_a_virtual_environment_are_left_out(workspace: Path) -> None:
+def test_packages_in_a_virtual_environment_are_skipped(workspace: Path) -> None:
     make_package(workspace / "tools" / "share" / "std_msgs")
     (workspace / "tools" / "pyvenv.cfg").touch()
-    assert found(workspace) == ["b_package", "a_package"]
+    assert found_packages(workspace) == ["b_package", "a_package"]
 
 
-def test_nested_packages_belong_to_nobody(tmp_path: Path) -> None:
+def test_nested_packages_are_ignored(tmp_path: Path) -> None:
     outer = make_package(tmp_path / "outer")
     inner = make_package(outer / "inner")
     (inner / "node.py").touch()
-    assert found(tmp_path) == ["outer"]
+    assert found_packages(tmp_path) == ["outer"]
     tree = DiskTree(outer)
     assert tree.files == ("package.xml",)
     assert tree.nested == ["inner"]
@@ -83,7 +83,7 @@ def test_file_of_a_package(workspace: Path) -> None:
     assert target.package.name == "b_package"
 
 
-def test_packages_are_named_as_their_files_are_given(
+def test_package_path_is_relative_if_the_given_path_is(
     workspace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package = workspace / "src" / "b_package"
@@ -97,25 +97,27 @@ def test_packages_are_named_as_their_files_are_given(
     assert target.package.directory == "."
 
 
-def test_loose_file_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_without_package_in_the_current_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "node.py").touch()
     monkeypatch.chdir(tmp_path)
     (target,) = discovery.find(["node.py"])
     assert (target.package.directory, target.package.files) == (".", ("node.py",))
 
 
-def test_loose_file(tmp_path: Path) -> None:
+def test_file_without_package(tmp_path: Path) -> None:
     (tmp_path / "node.py").touch()
     (tmp_path / "other.py").touch()
     (target,) = discovery.find([str(tmp_path / "node.py")])
     assert target.package.files == ("node.py",)
 
 
-def test_links_that_go_round(tmp_path: Path) -> None:
+def test_symlink_loops_and_dangling_symlinks(tmp_path: Path) -> None:
     package = make_package(tmp_path / "round")
     (package / "again").symlink_to(package)
     (package / "dangling.py").symlink_to(package / "nowhere")
-    assert found(tmp_path) == ["round"]
+    assert found_packages(tmp_path) == ["round"]
     assert DiskTree(package).files == ("package.xml",)
 
 
@@ -123,22 +125,20 @@ def test_links_that_go_round(tmp_path: Path) -> None:
     ("name", "message"),
     [("missing", "no such file or directory"), ("empty", "no ROS 2 package"), ("a.txt", "belongs")],
 )
-def test_bad_paths(tmp_path: Path, name: str, message: str) -> None:
+def test_invalid_paths_are_errors(tmp_path: Path, name: str, message: str) -> None:
     (tmp_path / "empty").mkdir()
     (tmp_path / "a.txt").touch()
     with pytest.raises(InputError, match=message):
-        found(tmp_path / name)
+        found_packages(tmp_path / name)
 
 
 def test_setup_py_without_manifest(tmp_path: Path) -> None:
     (tmp_path / "setup.py").touch()
     with pytest.raises(InputError, match=r"no package\.xml; colcon does not take it"):
-        found(tmp_path)
+        found_packages(tmp_path)
 
 
-def test_files_stand_for_their_whole_packages(
-    workspace: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_whole_packages_of_given_files(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workspace)
     (workspace / "loose.py").touch()
     packages = [os.path.normpath(one.package.directory) for one in discovery.find(["."])]
@@ -150,7 +150,7 @@ def test_files_stand_for_their_whole_packages(
     assert [one.package.directory for one in everything] == packages
 
 
-def test_files_below_an_ignored_directory_stand_for_nothing(
+def test_files_below_an_ignored_directory_select_nothing(
     workspace: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(workspace)
@@ -161,7 +161,7 @@ def test_files_below_an_ignored_directory_stand_for_nothing(
     assert discovery.find([path], whole_packages=True) == []
 
 
-def test_a_file_of_a_nested_package_stands_for_the_one_that_colcon_sees(
+def test_file_of_nested_package_selects_the_outer_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     outer = make_package(tmp_path / "outer")
@@ -174,7 +174,7 @@ def test_a_file_of_a_nested_package_stands_for_the_one_that_colcon_sees(
     assert target.package.directory == ".."
 
 
-def test_products_of_a_nested_workspace(tmp_path: Path) -> None:
+def test_build_products_of_a_nested_workspace_are_ignored(tmp_path: Path) -> None:
     package = make_package(tmp_path / "only")
     for place in ("build", "driver/install", "driver/src"):
         (package / place).mkdir(parents=True)

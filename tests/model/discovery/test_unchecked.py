@@ -1,4 +1,4 @@
-"""A package that is given alone is judged as in its workspace."""
+"""A package checked alone has the same findings as in its workspace."""
 
 from __future__ import annotations
 
@@ -69,25 +69,27 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def one(path: Path, name: str = "bringup") -> Package:
-    """Return the package of a name among those that a path stands for."""
+def found_package(path: Path, name: str = "bringup") -> Package:
+    """Return the package with a name among those selected by a path."""
     targets = discovery.find([str(path)])
     return next(target.package for target in targets if target.package.name == name)
 
 
-def said(package: Package, *codes: str) -> list[Diagnostic]:
+def findings(package: Package, *codes: str) -> list[Diagnostic]:
     return [found for found in runner.check(package, RULES) if found.code in codes]
 
 
-def test_alone_as_in_the_workspace(workspace: Path) -> None:
-    alone = said(one(workspace / "src/bringup"), "LF005", "LF006")
+def test_findings_are_the_same_with_and_without_the_workspace(workspace: Path) -> None:
+    alone = findings(found_package(workspace / "src/bringup"), "LF005", "LF006")
     assert [found.code for found in alone] == ["LF006"]
     assert "driver" in alone[0].message
-    assert alone == said(one(workspace), "LF005", "LF006")
-    assert alone == said(one(workspace / "src/bringup/launch/robot.launch.py"), "LF005", "LF006")
+    assert alone == findings(found_package(workspace), "LF005", "LF006")
+    assert alone == findings(
+        found_package(workspace / "src/bringup/launch/robot.launch.py"), "LF005", "LF006"
+    )
 
 
-def test_others_are_not_checked(workspace: Path) -> None:
+def test_other_packages_are_not_checked(workspace: Path) -> None:
     (target,) = discovery.find([str(workspace / "src/bringup")])
     assert target.package.name == "bringup"
     assert target.package.workspace.names == ["bringup", "driver"]
@@ -96,40 +98,42 @@ def test_others_are_not_checked(workspace: Path) -> None:
 
 def test_whole_workspace_needs_no_search(workspace: Path) -> None:
     for given in (workspace, workspace / "src"):
-        around = one(given).known_workspace
+        around = found_package(given).known_workspace
         assert around is not None
         assert around.around is None
 
 
-def test_nothing_is_read_before_it_is_needed(workspace: Path) -> None:
-    package = one(workspace / "src/bringup")
+def test_other_packages_are_read_lazily(workspace: Path) -> None:
+    package = found_package(workspace / "src/bringup")
     manifest = str(workspace / "src/group/driver-of-2026/package.xml")
     assert ("content", manifest) not in package.outside.seen
     assert package.workspace.get("driver") is not None
     assert ("content", manifest) in package.outside.seen
 
 
-def test_a_verdict_depends_on_what_was_read(workspace: Path) -> None:
-    package = one(workspace / "src/bringup")
-    assert said(package, "LF006")
+def test_findings_depend_on_files_of_other_packages(workspace: Path) -> None:
+    package = found_package(workspace / "src/bringup")
+    assert findings(package, "LF006")
     seen = package.outside.seen
     assert holds(seen)
     setup = workspace / "src/group/driver-of-2026/setup.py"
     setup.write_text(SETUP.replace("drive =", "dirve ="))
     assert not holds(seen)
-    assert not said(one(workspace / "src/bringup"), "LF006")
+    assert not findings(found_package(workspace / "src/bringup"), "LF006")
 
 
-def test_too_many_directories(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_search_is_limited_to_a_number_of_directories(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 3)
-    package = one(workspace / "src/bringup")
+    package = found_package(workspace / "src/bringup")
     assert package.workspace.names == ["bringup"]
-    assert not said(package, "LF006")
+    assert not findings(package, "LF006")
 
 
 @pytest.fixture
 def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a directory with packages, none of which lies below ``src``."""
+    """Return a directory with packages, none of them below ``src``."""
     manifests = {
         "robot/bringup/package.xml": MANIFEST.format(name="bringup", needs="driver"),
         "robot/driver/package.xml": MANIFEST.format(name="driver", needs="launch"),
@@ -145,20 +149,24 @@ def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_packages_side_by_side_without_a_workspace(repository: Path) -> None:
-    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
+    assert found_package(repository / "robot/bringup").workspace.names == ["bringup", "driver"]
 
 
 def test_packages_in_the_current_directory(
     repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(repository)
-    assert one(repository / "robot/bringup").workspace.names == ["bringup", "driver", "msgs"]
+    assert found_package(repository / "robot/bringup").workspace.names == [
+        "bringup",
+        "driver",
+        "msgs",
+    ]
     monkeypatch.setattr(unchecked, "MOST_DIRECTORIES", 3)
-    assert one(repository / "robot/bringup").workspace.names == ["bringup", "msgs"]
+    assert found_package(repository / "robot/bringup").workspace.names == ["bringup", "msgs"]
 
 
-def test_other_files_next_to_a_package_change_no_verdict(repository: Path) -> None:
-    package = one(repository / "robot/bringup")
+def test_other_files_next_to_a_package_change_no_findings(repository: Path) -> None:
+    package = found_package(repository / "robot/bringup")
     assert package.workspace.get("driver") is not None
     (repository / "robot" / "notes").mkdir()
     (repository / "robot" / "notes.txt").touch()
@@ -167,11 +175,11 @@ def test_other_files_next_to_a_package_change_no_verdict(repository: Path) -> No
     assert not holds(package.outside.seen)
 
 
-def test_packages_of_one_repository(repository: Path) -> None:
+def test_packages_of_the_same_repository(repository: Path) -> None:
     (repository / "robot" / ".git").mkdir()
     names = ["bringup", "driver", "more"]
-    assert one(repository / "robot/bringup").workspace.names == names
-    around = one(repository / "robot").known_workspace
+    assert found_package(repository / "robot/bringup").workspace.names == names
+    around = found_package(repository / "robot").known_workspace
     assert around is not None
     assert around.around is None
 
@@ -180,13 +188,13 @@ def test_message_types_of_a_package_next_to_this_one(repository: Path) -> None:
     node = "from driver.msg import Speed\n\nspeed = Speed(value=1.0, unit='m/s')\n"
     write(repository / "robot/driver", {"msg/Speed.msg": "float64 value\n"})
     write(repository / "robot/bringup", {"bringup/__init__.py": "", "bringup/go.py": node})
-    (found,) = said(one(repository / "robot/bringup"), "MS003")
+    (found,) = findings(found_package(repository / "robot/bringup"), "MS003")
     assert "'unit'" in found.message
 
 
-def test_source_directory_inside_of_another(workspace: Path) -> None:
+def test_nested_source_directory(workspace: Path) -> None:
     inner = workspace / "src/repository/src/inner"
     write(inner, {"package.xml": MANIFEST.format(name="inner", needs="driver")})
-    assert one(inner, "inner").workspace.names == ["inner"]
+    assert found_package(inner, "inner").workspace.names == ["inner"]
     os.mkdir(workspace / "install")
-    assert one(inner, "inner").workspace.names == ["bringup", "driver", "inner"]
+    assert found_package(inner, "inner").workspace.names == ["bringup", "driver", "inner"]

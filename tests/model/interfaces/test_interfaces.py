@@ -1,4 +1,4 @@
-"""Definitions of interfaces: read like rosidl_adapter reads them, with exact places."""
+"""Interface definitions: parsed like rosidl_adapter does, with exact locations."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def places(text: str, kind: str = "msg", name: str = "Thing") -> list[tuple[str,
 # -- what is read
 
 
-def test_fields_have_types_defaults_comments_and_places() -> None:
+def test_fields_have_types_defaults_comments_and_locations() -> None:
     text = (
         "# A thing.\n#\n# Of two lines.\n\nstd_msgs/Header header\n"
         'float64[<=3]   speeds [1.5, -2]  # in m/s\nstring<=5 name "a b"\n\tOther[] others\n'
@@ -70,7 +70,7 @@ def test_fields_have_types_defaults_comments_and_places() -> None:
     assert section.field("nobody") is None
 
 
-def test_constants_have_values_and_places() -> None:
+def test_constants_have_values_and_locations() -> None:
     (section,) = definition(
         "uint8   MAX = 0xff  # all\nstring TEXT='it\\'s'\nbool ON=TRUE\n"
     ).sections
@@ -158,7 +158,7 @@ def test_problems_of_separators(
     assert places(text, kind) == expected
 
 
-def test_all_problems_are_told_at_once() -> None:
+def test_all_problems_are_reported_at_once() -> None:
     text = "int32 A\nint b\n---\nuint8 c 300\n---\n"
     assert [kind for kind, *_ in places(text, "action", "do_it")] == [
         ProblemKind.TYPE_NAME.value,
@@ -208,7 +208,7 @@ def adapter() -> ModuleType:
 
 
 def adapter_reading(adapter: ModuleType, kind: str, name: str, text: str) -> Reading:
-    """Return what rosidl_adapter makes of a file; it raises whatever comes up."""
+    """Return how rosidl_adapter reads a file; it may raise any exception."""
     read = {
         "msg": adapter.parse_message_string,
         "srv": adapter.parse_service_string,
@@ -277,7 +277,7 @@ TEXTS = st.lists(st.one_of(LINES, st.just("---")), max_size=5).flatmap(
 @example("msg", "string a x=y")
 @example("msg", "Sample_Foo_Request a")
 @example("srv", "--- \n---")
-def test_verdict_of_rosidl_adapter(adapter: ModuleType, kind: str, text: str) -> None:
+def test_rosidl_adapter_agrees(adapter: ModuleType, kind: str, text: str) -> None:
     assert own_reading(kind, "Thing", text) == adapter_reading(adapter, kind, "Thing", text)
 
 
@@ -285,11 +285,11 @@ def test_verdict_of_rosidl_adapter(adapter: ModuleType, kind: str, text: str) ->
 @given(st.text(alphabet="Aa1_-.", max_size=12))
 @example("Foo_Request")
 @example("Sample_Foo_Goal_Result")
-def test_type_names_of_rosidl_adapter(adapter: ModuleType, name: str) -> None:
+def test_rosidl_adapter_agrees_on_type_names(adapter: ModuleType, name: str) -> None:
     assert own_reading("msg", name, "") == adapter_reading(adapter, "msg", name, "")
 
 
-def test_installed_definitions_are_read_like_rosidl_adapter(adapter: ModuleType) -> None:
+def test_rosidl_adapter_agrees_on_installed_definitions(adapter: ModuleType) -> None:
     share = os.path.join(_wheel_prefix(), "share")
     count = 0
     for path in sorted(Path(share).glob("*/*/*.*")):
@@ -305,7 +305,7 @@ def test_installed_definitions_are_read_like_rosidl_adapter(adapter: ModuleType)
 
 @settings(max_examples=300, deadline=None)
 @given(st.text())
-def test_anything_is_read_without_a_crash(text: str) -> None:
+def test_parser_never_crashes(text: str) -> None:
     for problem in definition(text, "srv").problems:
         at = problem.location
         assert 1 <= at.line <= text.count("\n") + 1
@@ -313,7 +313,7 @@ def test_anything_is_read_without_a_crash(text: str) -> None:
         assert at.end_column >= at.column
 
 
-def test_long_names_are_judged_at_once() -> None:
+def test_long_names_are_checked_in_linear_time() -> None:
     """The pattern of rosidl_adapter takes exponential time for this one."""
     assert [kind for kind, *_ in places(f"int32 {'A' * 5000}a=1\n")] == ["constant name"]
 
@@ -321,7 +321,7 @@ def test_long_names_are_judged_at_once() -> None:
 # -- looking up
 
 
-def test_bundle_is_equal_to_what_is_installed() -> None:
+def test_bundle_equals_installed_definitions() -> None:
     installed = Definitions([PrefixSource([_wheel_prefix()])])
     bundled = Definitions([BundleSource()])
     names = [name for name in installed.all_names() if name.split("/")[0] in bundled.packages()]
@@ -333,7 +333,7 @@ def test_bundle_is_equal_to_what_is_installed() -> None:
         assert _facts(one) == _facts(other)
 
 
-def test_bundle_says_what_it_has() -> None:
+def test_bundle_lists_its_interfaces() -> None:
     bundled = Definitions([BundleSource()])
     assert bundled.names("std_srvs", "srv") == ["Empty", "SetBool", "Trigger"]
     assert bundled.names("std_srvs", "msg") == []
@@ -350,7 +350,7 @@ def test_bundle_says_what_it_has() -> None:
         assert bundled.find(name) is None
 
 
-def test_rendered_definitions_read_the_same() -> None:
+def test_rendered_definitions_round_trip() -> None:
     bundled = Definitions([BundleSource()])
     for name in bundled.all_names():
         interface = bundled.find(name)
@@ -381,7 +381,7 @@ def package(name: str, files: dict[str, str], calls: str = "") -> Package:
 GENERATE = "rosidl_generate_interfaces(${PROJECT_NAME} msg/Status.msg)\n"
 
 
-def test_workspace_comes_first() -> None:
+def test_workspace_takes_precedence() -> None:
     own = package("std_msgs", {"msg/Status.msg": "int32 code\n"}, GENERATE)
     definitions = Workspace([own]).interfaces
     assert definitions.names("std_msgs", "msg") == ["Status"]
@@ -392,7 +392,7 @@ def test_workspace_comes_first() -> None:
     assert definitions.find("std_srvs/srv/Trigger") is not None
 
 
-def test_broken_definition_is_not_known() -> None:
+def test_broken_definition_is_unknown() -> None:
     own = package("my_msgs", {"msg/Status.msg": "int32 Code\n"}, GENERATE)
     definitions = Workspace([own]).interfaces
     assert definitions.find("my_msgs/msg/Status") is None
@@ -402,7 +402,9 @@ def test_broken_definition_is_not_known() -> None:
         definitions.resolve("Status")
 
 
-def test_prefix_comes_before_the_bundle(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_prefix_takes_precedence_over_the_bundle(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     for name in ("std_msgs", "new_msgs"):
         messages = tmp_path / "share" / name / "msg"
         messages.mkdir(parents=True)
@@ -435,7 +437,7 @@ def test_prefix_comes_before_the_bundle(tmp_path: Path, monkeypatch: pytest.Monk
         ("", (None, None, "")),
     ],
 )
-def test_spellings(spelling: str, parts: tuple[str | None, str | None, str]) -> None:
+def test_spellings_of_type_names(spelling: str, parts: tuple[str | None, str | None, str]) -> None:
     assert spell(spelling) == parts
 
 
@@ -457,12 +459,12 @@ def test_unknown_and_ambiguous_spellings(spelling: str, message: str) -> None:
 # -- the verb
 
 
-def run(arguments: Sequence[str], directory: Path) -> int:
+def run_interfaces_verb(arguments: Sequence[str], directory: Path) -> int:
     return main(["interfaces", "--workspace", str(directory), *arguments])
 
 
 def test_verb_shows_a_type(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["SetBool"], tmp_path) == 0
+    assert run_interfaces_verb(["SetBool"], tmp_path) == 0
     assert capsys.readouterr().out == (
         "# std_srvs/srv/SetBool\n# from std_srvs 5.3.6 of ROS 2 Jazzy\n"
         "bool data\n---\nbool success\nstring message\n"
@@ -480,22 +482,22 @@ def test_verb_lists_a_package_and_its_own_workspace(
         target = tmp_path / "my_msgs" / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text)
-    assert run(["my_msgs", "std_srvs"], tmp_path) == 0
+    assert run_interfaces_verb(["my_msgs", "std_srvs"], tmp_path) == 0
     assert capsys.readouterr().out.split() == [
         "my_msgs/msg/Status",
         "std_srvs/srv/Empty",
         "std_srvs/srv/SetBool",
         "std_srvs/srv/Trigger",
     ]
-    assert run(["--format", "json", "my_msgs/Status"], tmp_path) == 0
+    assert run_interfaces_verb(["--format", "json", "my_msgs/Status"], tmp_path) == 0
     assert '"name": "code"' in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("word", ["Empty", "Strin", "std_msgs/Empti"])
-def test_verb_refuses_what_it_does_not_know(
+def test_verb_rejects_unknown_types(
     word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run([word], tmp_path) == 2
+    assert run_interfaces_verb([word], tmp_path) == 2
     error = capsys.readouterr().err
     assert error.startswith("ros2-scaffold: error: ")
     assert "std_msgs/msg/" in error
@@ -513,7 +515,7 @@ def _facts(interface: Interface) -> list[object]:
 
 
 def _wheel_prefix() -> str:
-    """Return where the wheels of ROS 2 put their definitions, else skip."""
+    """Return the prefix of the ROS 2 wheels, or skip the test."""
     std_msgs = pytest.importorskip("std_msgs", reason="needs the ROS 2 wheels (extra `ros`)")
     prefix = str(Path(std_msgs.__file__).parents[4])
     if not os.path.isdir(os.path.join(prefix, "share", "std_msgs")):
@@ -524,7 +526,7 @@ def _wheel_prefix() -> str:
 # -- what generates them
 
 
-def test_generated_files_are_found_through_variables() -> None:
+def test_generated_interfaces_listed_in_variables_are_found() -> None:
     calls = (
         "set(messages\n  msg/Status.msg\n  msg/Other.msg\n)\n"
         'rosidl_generate_interfaces(${PROJECT_NAME} ${messages} "srv/Add.srv" ${unknown}\n'
@@ -546,13 +548,13 @@ def test_generated_files_are_found_through_variables() -> None:
     "calls",
     ["", GENERATE.replace("msg/Status.msg", "${files}"), GENERATE.replace("Status", "Missing")],
 )
-def test_package_that_may_have_more_is_not_judged(calls: str) -> None:
+def test_package_with_unknown_interfaces_is_not_checked(calls: str) -> None:
     own = package("my_msgs", {"msg/Status.msg": "int32 code\n"}, calls)
     assert Workspace([own]).interfaces.names("my_msgs", "msg") is None
     assert Workspace([own]).interfaces.find("my_msgs/msg/Status") is not None
 
 
-def test_idl_has_names_only() -> None:
+def test_idl_files_have_only_names() -> None:
     own = package("my_msgs", {"msg/Status.msg": "int32 code\n", "msg/Made.idl": ""}, GENERATE)
     definitions = Workspace([own]).interfaces
     assert definitions.names("my_msgs", "msg") == ["Made", "Status"]

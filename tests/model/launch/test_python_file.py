@@ -1,4 +1,4 @@
-"""What launch files and parameter files say, read without running them."""
+"""Launch files and parameter files, read without running them."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def test_paths_below_share_directories() -> None:
     ]
 
 
-def test_path_above_a_share_directory_is_none() -> None:
+def test_path_above_a_share_directory_is_rejected() -> None:
     assert share_path("/<share>/demo/../other") is None
     assert share_path("/<share>/demo") is None
     assert share_path("/etc/x") is None
@@ -138,7 +138,7 @@ def test_path_above_a_share_directory_is_none() -> None:
         ("sys.exit()", 0, False),
     ],
 )
-def test_returns(body: str, count: int, *, reaches_end: bool) -> None:
+def test_returned_values_of_a_function(body: str, count: int, *, reaches_end: bool) -> None:
     package = Package.of({"a.py": f"def f():\n {body}\n"})
     function = package.module("a.py").functions["f"].node
     assert (len(returned(function)), may_end(function)) == (count, reaches_end)
@@ -198,7 +198,7 @@ def test_programs_of_cmake(commands: str, names: set[str], *, complete: bool) ->
 # -- parameter files
 
 
-def test_sections_and_entries() -> None:
+def test_sections_and_entries_of_a_parameter_file() -> None:
     text = (
         "left:\n  talker:\n    ros__parameters:\n      a: {b: 1, c: 2.0}\n"
         "/**:\n  ros__parameters:\n    d: [x]\nnot: here\n"
@@ -230,14 +230,14 @@ def test_sections_and_entries() -> None:
         ("talk.r", "/talker", False),
     ],
 )
-def test_wildcards(key: str, name: str, *, fits: bool) -> None:
+def test_wildcards_in_node_names(key: str, name: str, *, fits: bool) -> None:
     package = Package.of({"a.yaml": f'"{key}":\n  ros__parameters:\n    a: 1\n'})
     file = parameter_files.parameter_file(package, "a.yaml")
     assert file is not None
     assert file.sections[0].fits(name) is fits
 
 
-def test_types_are_those_of_rcl(tmp_path: Path) -> None:
+def test_parameter_types_equal_those_of_rcl(tmp_path: Path) -> None:
     pytest.importorskip("rclpy")
     path = tmp_path / "all.yaml"
     lines = "".join(f"    p{index}: {word}\n" for index, word in enumerate(WORDS))
@@ -273,12 +273,12 @@ def test_types_are_those_of_rcl(tmp_path: Path) -> None:
         "x" * 100_000,
     ],
 )
-def test_hostile_yaml_is_read_or_refused(text: str) -> None:
+def test_hostile_yaml_is_read_or_rejected(text: str) -> None:
     with suppress(ParseError):
         assert isinstance(yaml_tree.parse(Source("a.yaml", text)), list)
 
 
-def test_yaml_places() -> None:
+def test_locations_in_yaml() -> None:
     source = Source("a.yaml", "\ufeffa: 1\nb: 'ä'  # x\n")
     (root,) = yaml_tree.parse(source)
     assert isinstance(root, Mapping)
@@ -291,8 +291,8 @@ def test_yaml_places() -> None:
 
 @settings(max_examples=150, deadline=None)
 @given(st.randoms(use_true_random=False), st.sampled_from(["launch", "yaml", "xml"]))
-def test_damaged_files_never_break_a_rule(chance: random.Random, which: str) -> None:
-    """Cut, repeat and swap pieces of good files: rules find things or are silent."""
+def test_damaged_files_never_crash_a_rule(chance: random.Random, which: str) -> None:
+    """Cut, repeat and swap parts of valid files: rules must not crash."""
     files = {
         "package.xml": MANIFEST,
         "launch/a.launch.py": LAUNCH,
@@ -314,7 +314,7 @@ def test_damaged_files_never_break_a_rule(chance: random.Random, which: str) -> 
     assert [one.message for one in said if one.code == "SC002"] == []
 
 
-def test_nodes_of_a_program_include_those_that_functions_of_other_packages_make() -> None:
+def test_nodes_created_in_other_packages_belong_to_the_program() -> None:
     manifest = "<package format='3'><name>{}</name><export><build_type>ament_python</build_type>"
     manifest += "</export></package>\n"
     setup = "from setuptools import setup\nsetup(name='talker', entry_points={'console_scripts': "

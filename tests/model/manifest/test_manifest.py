@@ -1,4 +1,4 @@
-"""package.xml: places, values, messages and edits."""
+"""package.xml: locations, values, error messages and edits."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def apply(text: str, *edits: Edit) -> str:
 
 
 def added(text: str, *edits: Edit) -> list[str]:
-    """Return the lines that edits add, when they do nothing else."""
+    """Return the lines that edits add; fail if they change others."""
     after = apply(text, *edits).splitlines()
     for line in text.splitlines():
         assert line in after
@@ -68,7 +68,7 @@ def added(text: str, *edits: Edit) -> list[str]:
 # -- reading
 
 
-def test_identity() -> None:
+def test_name_version_and_build_type() -> None:
     manifest = read(TALKER)
     assert (manifest.name, manifest.version) == ("talker", "0.1.0")
     assert manifest.description == "Says <hello>\n    twice"
@@ -76,7 +76,7 @@ def test_identity() -> None:
     assert manifest.build_type == "ament_cmake"
 
 
-def test_what_is_not_there_is_empty() -> None:
+def test_missing_elements_are_empty() -> None:
     manifest = read("<package/>")
     assert (manifest.name, manifest.version, manifest.description) == ("", "", "")
     assert manifest.build_type is None
@@ -89,11 +89,11 @@ def test_what_is_not_there_is_empty() -> None:
     ("written", "number"),
     [("", 1), (' format="2"', 2), (' format="3"', 3), (' format="4"', 4), (' format="x"', 3)],
 )
-def test_format(written: str, number: int) -> None:
+def test_format_number(written: str, number: int) -> None:
     assert read(f"<package{written}/>").format == number
 
 
-def test_places_of_an_element() -> None:
+def test_locations_of_an_element() -> None:
     maintainer = read(TALKER).all("maintainer")[0]
     assert place(maintainer.location) == (8, 3, 8, 55)
     assert place(maintainer.name_location) == (8, 4, 8, 14)
@@ -104,13 +104,13 @@ def test_places_of_an_element() -> None:
     assert place(email.name_location) == (8, 15, 8, 20)
 
 
-def test_places_over_several_lines() -> None:
+def test_locations_over_several_lines() -> None:
     description = read(TALKER).all("description")[0]
     assert place(description.location) == (6, 3, 7, 24)
     assert place(description.text_location) == (6, 16, 7, 10)
 
 
-def test_places_around_the_root() -> None:
+def test_locations_around_the_root() -> None:
     manifest = read(TALKER)
     (model,) = manifest.xml_models
     assert model.href == "http://download.ros.org/schema/package_format3.xsd"
@@ -159,18 +159,18 @@ def test_offsets_are_characters(lead: str) -> None:
         ("<a/>", "", ""),
     ],
 )
-def test_text(markup: str, text: str, written: str) -> None:
+def test_text_of_an_element(markup: str, text: str, written: str) -> None:
     (element,) = read(f"<package>{markup}</package>").root.children
     start, end = element.text_span
     assert element.text == text
     assert f"<package>{markup}"[start:end] == written
 
 
-def test_own_text_leaves_children_out() -> None:
+def test_own_text_excludes_children() -> None:
     assert read("<package>a<b>c</b> d</package>").root.own_text == "a d"
 
 
-def test_attributes_with_references_and_odd_blanks() -> None:
+def test_attributes_with_references_and_odd_whitespace() -> None:
     element = read("<a b = '1 > &quot;2&quot;'\n\tc=\"\"/>").root
     assert {name: one.value for name, one in element.attributes.items()} == {
         "b": '1 > "2"',
@@ -205,7 +205,7 @@ def test_dependencies_in_order() -> None:
     assert place(found[1].location) == (13, 11, 13, 16)
 
 
-def test_depends_on_kinds() -> None:
+def test_depends_on_by_kind() -> None:
     manifest = read(TALKER)
     assert list(manifest.depends("depend")) == ["rclpy", "std_msgs"]
     assert list(manifest.depends("exec_depend", "test_depend")) == ["rospy", "ament_lint_auto"]
@@ -238,14 +238,14 @@ def test_names_of_format_1() -> None:
     assert manifest.build_export_names == {"b"}
 
 
-def test_only_dependencies_of_jazzy_count() -> None:
+def test_dependencies_with_false_conditions_are_ignored() -> None:
     manifest = read(TALKER)
     assert "rospy" not in manifest.run_names
     assert "rospy" in manifest.declared_names
     assert [one.active for one in manifest.dependencies] == [True, True, True, False, True]
 
 
-def test_groups() -> None:
+def test_group_elements() -> None:
     manifest = read(
         "<package><group_depend>a</group_depend><member_of_group>b</member_of_group>"
         "<member_of_group condition='$ROS_VERSION == 1'>c</member_of_group></package>"
@@ -279,7 +279,7 @@ def test_build_type_that_holds_on_jazzy() -> None:
         ("$UNKNOWN == ''", True),
     ],
 )
-def test_condition(condition: str, value: bool) -> None:
+def test_condition_value(condition: str, value: bool) -> None:
     assert holds(condition) is value
 
 
@@ -296,7 +296,7 @@ def test_condition(condition: str, value: bool) -> None:
         ("a == 1.2", 6),
     ],
 )
-def test_broken_condition(condition: str, offset: int) -> None:
+def test_syntax_error_in_condition(condition: str, offset: int) -> None:
     with pytest.raises(ConditionError) as caught:
         holds(condition)
     assert caught.value.offset == offset
@@ -321,14 +321,14 @@ catkin = pytest.mark.filterwarnings("ignore::DeprecationWarning")
 
 @catkin
 @given(CONDITIONS)
-def test_condition_equals_catkin(condition: str) -> None:
+def test_condition_value_equals_that_of_catkin_pkg(condition: str) -> None:
     environment = {"ROS_VERSION": "2", "X": "b"}
     assert holds(condition, environment) is evaluate_condition(condition, environment)
 
 
 @catkin
 @given(st.lists(st.sampled_from(["$A", "a", " ", "==", "<", "and", "or", "(", ")", "'", "="])))
-def test_broken_condition_equals_catkin(pieces: list[str]) -> None:
+def test_syntax_errors_in_conditions_equal_those_of_catkin_pkg(pieces: list[str]) -> None:
     condition = " ".join(pieces)
     try:
         mine = holds(condition, {})
@@ -380,14 +380,14 @@ def test_broken_condition_equals_catkin(pieces: list[str]) -> None:
         ("<a>\ud800</a>", "1:4", "the character U+D800 is not allowed here"),
     ],
 )
-def test_message(text: str, at: str, message: str) -> None:
+def test_message_of_syntax_error(text: str, at: str, message: str) -> None:
     with pytest.raises(ParseError) as caught:
         read(text)
     location = caught.value.location
     assert (f"{location.line}:{location.column}", caught.value.message) == (at, message)
 
 
-def test_document_types_are_refused() -> None:
+def test_document_types_are_rejected() -> None:
     bomb = '<!ENTITY a "aaaaaaaa">' + "".join(
         f'<!ENTITY a{n + 1} "&a{n or ""};&a{n or ""};">' for n in range(60)
     )
@@ -414,20 +414,20 @@ def test_utf8_by_default_and_by_declaration() -> None:
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-32"])
-def test_wide_encodings_are_refused(encoding: str) -> None:
+def test_wide_encodings_are_rejected(encoding: str) -> None:
     with pytest.raises(ParseError, match="save it as UTF-8"):
         decode("package.xml", "<package/>".encode(encoding))
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "gbk", "utf-7", "hex", "unicode_escape", "what"])
-def test_other_encodings_are_refused(encoding: str) -> None:
+def test_other_encodings_are_rejected(encoding: str) -> None:
     data = f'<?xml version="1.0"\n encoding="{encoding}"?><package/>'.encode()
     with pytest.raises(ParseError, match=f"the declared encoding '{encoding}' is not") as caught:
         decode("package.xml", data)
     assert place(caught.value.location) == (2, 12, 2, 12 + len(encoding))
 
 
-def test_bytes_that_are_no_text() -> None:
+def test_undecodable_bytes() -> None:
     with pytest.raises(ParseError, match="byte 0xff is not valid UTF-8") as caught:
         decode("package.xml", b"<package>\n\xff</package>")
     assert caught.value.location.line == 2
@@ -447,7 +447,7 @@ MARKUP = st.lists(st.sampled_from([*PIECES[0], *PIECES[1], *PIECES[2]]), max_siz
 @given(st.one_of(MARKUP, MARKUP.map("<a>{}</a>".format), st.text(max_size=30)))
 @example("<a>" * 3000)
 @example("<" * 3000)
-def test_nothing_but_parse_errors(text: str) -> None:
+def test_any_text_parses_or_raises_parse_error(text: str) -> None:
     if is_well_formed(text):
         check_places(read(text), text)
         return
@@ -512,14 +512,14 @@ def test_long_line() -> None:
     ],
 )
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
-def test_insert(tag: str, text: str, line: str, number: int, newline: str) -> None:
+def test_insert_element(tag: str, text: str, line: str, number: int, newline: str) -> None:
     before = TALKER.replace("\n", newline)
     after = apply(before, read(before).insert(tag, text)).split(newline)
     assert after[number - 1] == line
     assert after[: number - 1] + after[number:] == before.split(newline)
 
 
-def test_insert_into_an_unsorted_run_goes_last() -> None:
+def test_insert_into_an_unsorted_group_appends() -> None:
     before = "<package>\n\t<depend>b</depend>\n\t<depend>a</depend>\n</package>\n"
     after = (
         "<package>\n\t<depend>b</depend>\n\t<depend>a</depend>\n\t<depend>A</depend>\n</package>\n"
@@ -527,7 +527,7 @@ def test_insert_into_an_unsorted_run_goes_last() -> None:
     assert apply(before, read(before).insert("depend", "A")) == after
 
 
-def test_insert_stays_behind_the_comment_of_the_line() -> None:
+def test_insert_after_the_comment_at_the_end_of_a_line() -> None:
     before = "<package>\n  <depend>a</depend> <!-- why -->\n</package>\n"
     after = "<package>\n  <depend>a</depend> <!-- why -->\n  <depend>b</depend>\n</package>\n"
     assert apply(before, read(before).insert("depend", "b")) == after
@@ -548,7 +548,7 @@ def test_insert_stays_behind_the_comment_of_the_line() -> None:
         ),
     ],
 )
-def test_insert_into_odd_files(before: str, after: str) -> None:
+def test_insert_into_oddly_formatted_files(before: str, after: str) -> None:
     assert apply(before, read(before).insert("depend", "b")) == after
 
 
@@ -558,7 +558,7 @@ def test_insert_with_attributes() -> None:
     assert added(TALKER, edit) == ['  <maintainer email="b&quot;@x">Bob</maintainer>']
 
 
-def test_remove() -> None:
+def test_remove_element() -> None:
     manifest = read(TALKER)
     (rclpy, _) = manifest.all("depend")
     assert apply(TALKER, manifest.remove(rclpy)) == TALKER.replace("  <depend>rclpy</depend>\n", "")
@@ -587,7 +587,7 @@ def test_remove_undoes_insert(tag: str, text: str, windows: bool) -> None:
     assert apply(manifest.source.text, manifest.remove(element)) == before
 
 
-def test_rename() -> None:
+def test_rename_element() -> None:
     before = "<package><run_depend>a</run_depend><b/></package>"
     manifest = read(before)
     run, empty = manifest.root.children
@@ -599,7 +599,7 @@ def test_rename() -> None:
 BUILD_TYPE = "  <export>\n    <build_type>t</build_type>\n  </export>\n"
 
 
-def test_reorder_takes_comments_and_blank_lines_along() -> None:
+def test_reorder_moves_comments_and_blank_lines() -> None:
     before = (
         "<package>\n  <name>a</name>\n  <license>MIT</license>\n\n  <!-- us -->\n"
         "  <maintainer email='x'>X</maintainer> <!-- me -->\n  <depend>b</depend>\n</package>\n"
@@ -615,7 +615,7 @@ def test_reorder_takes_comments_and_blank_lines_along() -> None:
     assert manifest_edit.reorder(read(after).document) is None
 
 
-def test_reorder_leaves_a_file_with_stray_text_alone() -> None:
+def test_reorder_does_not_change_a_file_with_stray_text() -> None:
     text = "<package>x<depend>b</depend><name>a</name></package>"
     assert manifest_edit.reorder(read(text).document) is None
 

@@ -1,4 +1,4 @@
-"""What is known about messages in Python code: only what is certain."""
+"""Inferred message types of expressions in Python code: only certain ones."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Talker(Node):
 
 
 def type_in(line: str, expression: str) -> str | None:
-    """Return what an expression in a ``return`` below a line of NODE is."""
+    """Return the message type of an expression returned below a line of NODE."""
     head, _, tail = NODE.partition(line)
     text = head + line + tail.replace("return {}", f"return {expression}", 1)
     types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
@@ -93,7 +93,7 @@ def type_in(line: str, expression: str) -> str | None:
         ("def on_array", "other", None),
     ],
 )
-def test_types(line: str, expression: str, expected: str | None) -> None:
+def test_message_type_of_expression(line: str, expression: str, expected: str | None) -> None:
     assert type_in(line, expression) == expected
 
 
@@ -105,7 +105,7 @@ def test_types(line: str, expression: str, expected: str | None) -> None:
         "def test(self):\n    self.assertRaises(TypeError, lambda: {})",
     ],
 )
-def test_expected_mistakes_are_tolerated(around: str) -> None:
+def test_expected_assignment_errors_are_ignored(around: str) -> None:
     text = "from std_msgs.msg import String\n" + around.format("String().text")
     package = Package.of({"node.py": text})
     types = MessageTypes.of(package, "node.py")
@@ -113,14 +113,14 @@ def test_expected_mistakes_are_tolerated(around: str) -> None:
     assert types.is_tolerated(wrong)
 
 
-def test_code_for_ros_1_is_passed_over() -> None:
+def test_ros_1_code_is_ignored() -> None:
     text = "from std_msgs.msg import String\nString().text\n"
     files = {"node.py": text, "old.py": f"import rospy\n{text}"}
     (types,) = MessageTypes.of_package(Package.of(files))
     assert types.module.path == "node.py"
 
 
-def test_other_mistakes_are_not_tolerated() -> None:
+def test_other_assignment_errors_are_not_ignored() -> None:
     text = "from std_msgs.msg import String\ntry:\n    pass\nexcept E:\n    String().text\n"
     types = MessageTypes.of(Package.of({"node.py": text}), "node.py")
     (wrong,) = (node for node in types.module.walk(ast.Attribute) if node.attr == "text")
@@ -148,7 +148,7 @@ def test_a_synchronizer_passes_a_message_of_each_topic() -> None:
     assert names == ["sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"]
 
 
-def test_values_are_found_once_and_in_order() -> None:
+def test_assigned_values_are_found_once_in_order() -> None:
     text = (
         "from std_msgs.msg import Header, String\n\nheader = Header(frame_id='a')\n"
         "header.frame_id, other = 'b', String(data='c')\nother.data += 'd'\n"

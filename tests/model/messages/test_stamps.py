@@ -1,4 +1,4 @@
-"""Messages that are published without a stamp, where that is certain."""
+"""Messages that are certainly published without a stamp."""
 
 from __future__ import annotations
 
@@ -56,19 +56,19 @@ def test_zero_stamp_of_a_moving_transform(stamp: str) -> None:
     assert found(*made, "self.static.sendTransform(t)") == []
 
 
-def test_frame() -> None:
+def test_zero_stamp_with_and_without_frame() -> None:
     made = "p = PoseStamped()", "p.header.stamp = Time().to_msg()"
     assert found(*made, "self.poses.publish(p)") == ["geometry_msgs/msg/PoseStamped"]
     assert found(*made, "p.header.frame_id = frame", "self.poses.publish(p)") == []
     assert found(made[0], "self.poses.publish(p)") == []
 
 
-def test_frame_that_only_nodes_of_the_package_need() -> None:
+def test_frame_only_used_within_the_package() -> None:
     lines = "p = PoseStamped()", "p.header.stamp = Time().to_msg()", "self.other.publish(p)"
     assert found(*lines) == []
 
 
-def test_message_of_a_method() -> None:
+def test_message_returned_by_a_method() -> None:
     made = "t = TransformStamped()", "t.header.frame_id = 'odom'", "return t"
     sent = "self.broadcaster.sendTransform(self.tick('a'))"
     assert found(*made, other=sent) == [TRANSFORM]
@@ -87,11 +87,11 @@ def test_message_of_a_method() -> None:
         ("self.publisher.publish(self.kept)", "print(f'{self.kept.temperature}')"),
     ],
 )
-def test_never_set(lines: tuple[str, ...]) -> None:
+def test_stamp_never_set(lines: tuple[str, ...]) -> None:
     assert found(*lines) == ["sensor_msgs/msg/Temperature"]
 
 
-def test_images_and_transforms() -> None:
+def test_stamp_of_images_and_transforms() -> None:
     image = "m = self.bridge.cv2_to_imgmsg(frame, 'bgr8')"
     publish = "self.images.publish(m)"
     assert found(image, "m.header.frame_id = 'a'", publish) == ["sensor_msgs/msg/Image"]
@@ -121,20 +121,20 @@ def test_images_and_transforms() -> None:
         "m = self.filled()",
     ],
 )
-def test_perhaps_set(line: str) -> None:
+def test_stamp_possibly_set(line: str) -> None:
     lines = ("m = Temperature()", "m.header.frame_id = 'a'", line, "self.publisher.publish(m)")
     assert found(*lines) == []
 
 
-def test_set_elsewhere() -> None:
+def test_stamp_set_in_another_method() -> None:
     other = "self.kept.header.stamp = self.now()"
     assert found("self.publisher.publish(self.kept)", other=other) == []
 
 
-def test_header_that_nobody_uses() -> None:
+def test_unused_header_needs_no_stamp() -> None:
     assert found("self.publisher.publish(Temperature())") == []
 
 
-def test_zero_means_the_latest() -> None:
+def test_zero_stamp_of_a_pose_means_latest() -> None:
     pose = ("m = PoseStamped()", "m.header.frame_id = 'map'", "self.poses.publish(m)")
     assert found(*pose) == []

@@ -1,4 +1,4 @@
-"""What waits for ever in a program with one thread, and what may not."""
+"""Calls that block forever in a single-threaded program."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def main():
 
 
 def waits(main: str, constructor: str = "pass", executor: str = "SingleThreaded") -> list[str]:
-    """Return what the waiting thread does at each call of ``sleep``."""
+    """Return the state of the blocked thread at each call of ``sleep``."""
     text = NODE.format(main=main, constructor=constructor, executor=executor)
     files = {"package.xml": MANIFEST, "setup.py": SETUP, "demo/talker.py": text}
 
@@ -75,7 +75,7 @@ SPIN = "executor = {}Executor(); executor.add_node(node); executor.spin()"
         ("node.spin_speed = 1; node.tick(); print(node.spin_speed)", "pass", BLOCKED),
     ],
 )
-def test_nobody_else_spins(main: str, constructor: str, where: str) -> None:
+def test_blocks_if_no_other_thread_spins(main: str, constructor: str, where: str) -> None:
     assert waits(main, constructor) == [where]
 
 
@@ -92,9 +92,9 @@ def test_nobody_else_spins(main: str, constructor: str, where: str) -> None:
         "rclpy.spin(node)",
     ],
 )
-def test_somebody_may_spin(main: str) -> None:
+def test_does_not_block_if_another_thread_may_spin(main: str) -> None:
     assert waits(main) == []
 
 
-def test_more_threads() -> None:
+def test_does_not_block_with_more_threads() -> None:
     assert waits(SPIN.format("MultiThreaded"), TIMER, "MultiThreaded") == []

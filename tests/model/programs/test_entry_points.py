@@ -1,4 +1,4 @@
-"""Where programs begin, and what can be told of rclpy.init before they make a node."""
+"""Entry points of programs, and whether rclpy.init is called before a node is created."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ def package_of(before: str, imports: str = "", **more: str) -> Package:
     return Package.of({**files, **others})
 
 
-def found(package: Package) -> int:
-    """Count what the rule on missing initialization says."""
+def count_findings(package: Package) -> int:
+    """Count the findings of the rule on missing initialization."""
     return len(runner.check(package, [INIT_MISSING()]))
 
 
-def test_console_script() -> None:
+def test_entry_point_of_console_script() -> None:
     package = package_of("")
     [start] = starts_of(package)
     run = run_of(package, start.path, start.function)
@@ -61,7 +61,7 @@ def test_console_script() -> None:
     assert [owner.name for _, owner in run.nodes()] == ["Talker"]
 
 
-def test_files_that_are_imported() -> None:
+def test_imported_files_of_the_program() -> None:
     package = package_of(
         "",
         "from .tools import start",
@@ -82,8 +82,8 @@ def test_files_that_are_imported() -> None:
         ("Other()", "from .other import Other"),
     ],
 )
-def test_surely_missing(before: str, imports: str) -> None:
-    assert found(package_of(before, imports, other="class Other:\n    pass\n")) == 1
+def test_init_certainly_missing(before: str, imports: str) -> None:
+    assert count_findings(package_of(before, imports, other="class Other:\n    pass\n")) == 1
 
 
 @pytest.mark.parametrize(
@@ -97,11 +97,11 @@ def test_surely_missing(before: str, imports: str) -> None:
         ("start(rclpy)", "from demo import tools as start"),
     ],
 )
-def test_perhaps_somewhere_else(before: str, imports: str) -> None:
+def test_init_possibly_called_elsewhere(before: str, imports: str) -> None:
     tools = "import rclpy\n\ndef start():\n    rclpy.init()\n"
-    assert found(package_of(before, imports, tools=tools)) == 0
+    assert count_findings(package_of(before, imports, tools=tools)) == 0
 
 
-def test_initialized_on_import() -> None:
+def test_init_called_on_import() -> None:
     package = package_of("", "", __init__="import rclpy\nrclpy.init()\n")
-    assert found(package) == 0
+    assert count_findings(package) == 0

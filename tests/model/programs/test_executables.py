@@ -1,4 +1,4 @@
-"""What programs a package has, and what nodes they are."""
+"""Programs of a package, and their nodes."""
 
 from __future__ import annotations
 

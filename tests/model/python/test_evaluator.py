@@ -1,4 +1,4 @@
-"""Values of expressions without running them: sure, or UNKNOWN."""
+"""Static evaluation of expressions: certain values, or UNKNOWN."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_literals_and_operators(text: str, expected: object) -> None:
         ("from pathlib import Path\nx = Path('a').joinpath('b').as_posix()", "a/b"),
     ],
 )
-def test_texts_and_paths(text: str, expected: object) -> None:
+def test_strings_and_paths(text: str, expected: object) -> None:
     assert value(text + "\n") == expected
 
 
@@ -107,11 +107,11 @@ def test_texts_and_paths(text: str, expected: object) -> None:
         ("x = list(('a', 'b'))", ["a", "b"]),
     ],
 )
-def test_names(text: str, expected: object) -> None:
+def test_values_of_names(text: str, expected: object) -> None:
     assert value(text + "\n") == expected
 
 
-def test_a_list_is_worth_what_it_is_where_it_is_used() -> None:
+def test_list_has_its_value_at_the_place_of_use() -> None:
     module = PythonModule.parse(Source("a.py", "p = ['a']\nx = p\np.append('b')\ny = p\n"))
     evaluator = Evaluator(module)
     found = {
@@ -121,7 +121,7 @@ def test_a_list_is_worth_what_it_is_where_it_is_used() -> None:
     assert found == {"p": ["a"], "x": ["a"], "y": ["a", "b"]}
 
 
-def test_a_name_in_a_function_is_the_functions_own() -> None:
+def test_local_names_of_functions() -> None:
     module = PythonModule.parse(
         Source("a.py", "p = 'a'\ndef f():\n    p = 'b'\n    x = p\ndef g():\n    y = p\n")
     )
@@ -174,7 +174,7 @@ def test_a_name_in_a_function_is_the_functions_own() -> None:
         "from os import path as p\nx = p",
     ],
 )
-def test_unknown(text: str) -> None:
+def test_unknown_values(text: str) -> None:
     assert value(text + "\n") is UNKNOWN
 
 
@@ -198,7 +198,7 @@ def test_unknown(text: str) -> None:
         + "x = a49 + unknown",
     ],
 )
-def test_nothing_grows_without_bounds(text: str) -> None:
+def test_values_are_bounded(text: str) -> None:
     assert value(text + "\n") is UNKNOWN
 
 
@@ -221,16 +221,16 @@ def test_nothing_grows_without_bounds(text: str) -> None:
         ),
     ],
 )
-def test_globs(text: str, expected: object) -> None:
+def test_values_of_globs(text: str, expected: object) -> None:
     assert value(text + "\n") == expected
 
 
-def test_what_is_done_with_matches_is_not_known() -> None:
+def test_values_computed_from_glob_matches_are_unknown() -> None:
     assert value("from glob import glob\nx = [f + 'a' for f in glob('b/*')]\n") is UNKNOWN
     assert value("from glob import glob\nx = glob('b/*')[0]\n") is UNKNOWN
 
 
-def test_elements_know_their_places() -> None:
+def test_elements_have_locations() -> None:
     module = PythonModule.parse(
         Source("a.py", "p = ['a']\nif c:\n    p.append('b')\nx = ['z'] + p + unknown\n")
     )
@@ -243,13 +243,13 @@ def test_elements_know_their_places() -> None:
     ] == [("z", 4, False), ("a", 1, False), ("b", 3, True)]
 
 
-def test_is_known() -> None:
+def test_is_known_with_nested_unknown() -> None:
     assert is_known(["a", ("b", {"c": 1}), PathValue("d")])
     assert not is_known(["a", (UNKNOWN,)])
     assert not is_known({"a": [Glob("*")]})
 
 
-def test_unknown_is_false_and_readable() -> None:
+def test_unknown_is_falsy_and_has_a_repr() -> None:
     assert not UNKNOWN
     assert f"{UNKNOWN}" == "UNKNOWN"
 
@@ -285,7 +285,7 @@ PRELUDE = "from glob import glob\nfrom os.path import join\nfrom pathlib import 
 
 
 @given(EXPRESSIONS, EXPRESSIONS, EXPRESSIONS)
-def test_any_expression_has_a_value_or_is_unknown(first: str, second: str, third: str) -> None:
+def test_evaluator_never_raises(first: str, second: str, third: str) -> None:
     try:
         value(f"{PRELUDE}p = {first}\nq = {second}\nx = {third}\n")
     except (ParseError, NewerSyntaxError):
@@ -313,7 +313,7 @@ PLAIN = st.recursive(
 
 @pytest.mark.filterwarnings("ignore::SyntaxWarning")
 @given(PLAIN)
-def test_a_known_value_is_pythons_own(text: str) -> None:
+def test_known_values_equal_those_of_python(text: str) -> None:
     found = value(f"x = {text}\n")
     if found is UNKNOWN or not is_known(found):
         return

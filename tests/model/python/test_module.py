@@ -1,4 +1,4 @@
-"""Python files as data: places, imports, names, syntax errors."""
+"""Python files as data: locations, imports, names, syntax errors."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_columns_are_characters_not_bytes() -> None:
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("bom", ["", "\ufeff"])
-def test_spans_with_any_line_ending_and_mark(newline: str, bom: str) -> None:
+def test_spans_with_any_line_ending_and_byte_order_mark(newline: str, bom: str) -> None:
     text = bom + newline.join(["# ü", "first = 1", "zweite_größe = 'é'", ""])
     view = module(text)
     last = view.tree.body[1]
@@ -52,12 +52,12 @@ def test_spans_with_any_line_ending_and_mark(newline: str, bom: str) -> None:
     assert view.has_bom == bool(bom)
 
 
-def test_mark_counts_as_a_character_of_the_first_line() -> None:
+def test_byte_order_mark_counts_as_a_character() -> None:
     view = module("\ufeffimport os\n")
     assert place(view.imports[0].location) == (1, 2, 1, 11)
 
 
-def test_place_inside_an_f_string_is_the_string_on_every_python() -> None:
+def test_location_inside_an_f_string_is_the_whole_string() -> None:
     view = module("x = 1\ny = f'a {x} b'\n")
     used = view.walk(ast.Name)[-1]
     assert used.id == "x"
@@ -69,13 +69,13 @@ def test_form_feed_does_not_end_a_line() -> None:
     assert place(view.location(view.tree.body[1])) == (3, 1, 3, 6)
 
 
-def test_nodes_without_a_place_are_where_their_parent_is() -> None:
+def test_nodes_without_a_location_have_that_of_their_parent() -> None:
     view = module("def f(a, b): pass\n")
     assert view.text(view.walk(ast.arguments)[0]) == "def f(a, b): pass"
     assert view.text(view.tree) == view.source.text
 
 
-def test_walk_is_in_the_order_of_the_text() -> None:
+def test_walk_is_in_source_order() -> None:
     view = module("@first()\ndef f(a=second()):\n    return third(fourth())\nfifth()\n")
     names = [view.text(call.func) for call in view.walk(ast.Call)]
     assert names == ["first", "second", "third", "fourth", "fifth"]
@@ -93,7 +93,7 @@ def test_shebang() -> None:
     )
 
 
-def test_shebang_behind_a_mark_is_seen_with_the_mark() -> None:
+def test_shebang_after_a_byte_order_mark() -> None:
     view = module("\ufeff#!/usr/bin/python3\n")
     assert view.has_bom
     assert view.shebang is not None
@@ -145,7 +145,7 @@ def test_no_main_guard(text: str) -> None:
         ("demo/latest.py", False),
     ],
 )
-def test_in_tests(path: str, *, expected: bool) -> None:
+def test_is_test_file(path: str, *, expected: bool) -> None:
     assert module("import os\n", path).in_tests is expected
     assert module("import os\n", path).imports[0].in_tests is expected
 
@@ -203,7 +203,7 @@ def test_imports() -> None:
     ]
 
 
-def test_import_places() -> None:
+def test_import_locations() -> None:
     view = module(IMPORTS)
     os_, system, node = view.imports[:3]
     assert place(os_.location) == (1, 8, 1, 10)
@@ -213,7 +213,7 @@ def test_import_places() -> None:
     assert node.names[1].asname == "Pub"
 
 
-def test_import_contexts() -> None:
+def test_context_of_imports() -> None:
     by_module = {
         item.module: item for item in module(IMPORTS.replace("sys as s", "sys; s")).imports
     }
@@ -249,7 +249,7 @@ def test_imports_by_root() -> None:
     }
 
 
-def test_an_import_for_the_else_of_type_checking_is_run() -> None:
+def test_import_in_the_else_of_type_checking_is_executed() -> None:
     view = module("if TYPE_CHECKING:\n    import a\nelse:\n    import b\n")
     assert [(item.module, item.type_checking) for item in view.imports] == [
         ("a", True),
@@ -260,7 +260,7 @@ def test_an_import_for_the_else_of_type_checking_is_run() -> None:
 # -- names
 
 
-def test_functions_and_classes_with_the_places_of_their_names() -> None:
+def test_name_locations_of_functions_and_classes() -> None:
     view = module(
         "def main(args=None):\n    pass\n\n\nasync  def  wait():\n    pass\n\n\n"
         "@decorated\nclass Talker(Node):\n    def inner(self):\n        pass\n"
@@ -323,7 +323,7 @@ def test_does_not_define(text: str) -> None:
         "main = 1\ndel main",
     ],
 )
-def test_nobody_knows_what_is_defined(text: str) -> None:
+def test_defined_names_are_unknown(text: str) -> None:
     assert module(text + "\n").defines("main") is None
 
 
@@ -396,12 +396,12 @@ def test_coding_cookie() -> None:
     assert view.text(view.tree.body[0]) == "name = 'Jürgen'"
 
 
-def test_cookie_below_the_second_line_or_behind_code_is_a_comment() -> None:
+def test_coding_cookie_only_in_first_two_lines() -> None:
     for text in ("\n\n# coding: latin-1\n", "x = 1\n# coding: latin-1\n"):
         assert PythonModule.parse_bytes("a.py", text.encode()).source.encoding == "utf-8"
 
 
-def test_byte_order_mark_beats_the_default() -> None:
+def test_byte_order_mark_overrides_the_default_encoding() -> None:
     view = PythonModule.parse_bytes("a.py", codecs.BOM_UTF8 + b"# coding: utf-8\nx = 1\n")
     assert view.has_bom
     assert view.source.encoding == "utf-8"
@@ -416,7 +416,7 @@ def test_byte_order_mark_beats_the_default() -> None:
         (b"# coding: undefined\n", 1, "the bytes are not valid UNDEFINED"),
     ],
 )
-def test_undecodable(data: bytes, line: int, message: str) -> None:
+def test_undecodable_bytes(data: bytes, line: int, message: str) -> None:
     with pytest.raises(ParseError) as caught:
         PythonModule.parse_bytes("a.py", data)
     assert caught.value.message == message
@@ -485,23 +485,23 @@ def test_syntax_error(text: str, message: str, at: tuple[int, int, int, int] | N
         "x = " + "{1:" * 5_000,
     ],
 )
-def test_deep_nesting_is_refused(text: str) -> None:
+def test_deep_nesting_is_rejected(text: str) -> None:
     assert failure(text).message in {"nested too deeply", "'[' is never closed"}
 
 
-def test_depth_of_generated_but_real_code_is_fine() -> None:
+def test_nesting_of_real_generated_code_is_accepted() -> None:
     chain = "if a == 0:\n    pass\n" + "".join(f"elif a == {n}:\n    pass\n" for n in range(100))
     assert len(module(chain).walk(ast.If)) == 101
 
 
-def test_a_huge_file_is_refused() -> None:
+def test_huge_file_is_rejected() -> None:
     assert failure("x = 1\n" * 400_000).message == (
         "too large to be read: more than 2000000 characters"
     )
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_doubtful_escape_is_no_error() -> None:
+def test_invalid_escape_sequence_is_no_error() -> None:
     assert module("x = '\\d'\n").defines("x")
 
 
@@ -520,7 +520,7 @@ NEWER = [
 
 
 @pytest.mark.parametrize(("text", "version"), NEWER)
-def test_newer_syntax_is_told_apart(text: str, version: tuple[int, int]) -> None:
+def test_newer_syntax_is_recognized(text: str, version: tuple[int, int]) -> None:
     if sys.version_info >= version:
         assert module(text).tree.body
         return
@@ -534,7 +534,7 @@ def test_newer_syntax_is_told_apart(text: str, version: tuple[int, int]) -> None
     "text",
     ["x = f'{a b}'\n", "x = f'{'\n", "x = f'{}'\n", "x = f'{a!z}'\n", "f'{d['\n", "f'{a'\n"],
 )
-def test_a_broken_f_string_is_an_error_everywhere(text: str) -> None:
+def test_broken_f_string_is_an_error_on_every_python(text: str) -> None:
     assert failure(text).location.line == 1
 
 
@@ -611,7 +611,7 @@ CODECS = [
 
 
 def use_everything(view: PythonModule) -> None:
-    """Ask a view for all it has: nothing may fail."""
+    """Access all properties of a module: none may fail."""
     for node in ast.walk(view.tree):
         start, end = view.span(node)
         assert 0 <= start <= end <= len(view.source.text)
@@ -671,7 +671,7 @@ SNIPPETS = st.lists(
 
 
 @given(SNIPPETS, st.sampled_from(["\n", "\r\n", "\r"]), st.sampled_from(["", "\ufeff"]))
-def test_spans_are_what_ast_says(snippets: list[str], newline: str, bom: str) -> None:
+def test_spans_equal_those_of_ast(snippets: list[str], newline: str, bom: str) -> None:
     plain = "\n".join([*snippets, ""])
     view = module(bom + plain.replace("\n", newline))
     for node in ast.walk(view.tree):
@@ -681,7 +681,7 @@ def test_spans_are_what_ast_says(snippets: list[str], newline: str, bom: str) ->
             assert view.text(node).replace(newline, "\n") == expected
 
 
-def test_nodes_below_a_function_of_this_module_or_another() -> None:
+def test_nodes_below_a_function() -> None:
     text = "def f():\n    while a:\n        def g():\n            while b:\n                c()\n"
     module, other = (PythonModule.parse(Source("a.py", text)) for _ in range(2))
     for function in (*module.function_nodes, *other.function_nodes):

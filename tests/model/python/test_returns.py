@@ -1,4 +1,4 @@
-"""What functions return, and whether they may end without it."""
+"""Return values of functions, and whether they may end without one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scaffold.model.python.returns import may_end
         ("    try:\n        return ask()\n    except OSError:\n        raise\n", False),
     ],
 )
-def test_handlers_of_what_cannot_fail_are_not_reached(body: str, ends: bool) -> None:
+def test_handlers_of_code_that_cannot_raise_are_unreachable(body: str, ends: bool) -> None:
     function = ast.parse(f"def f():\n{body}").body[0]
     assert isinstance(function, ast.FunctionDef)
     assert may_end(function) is ends
@@ -28,7 +28,7 @@ def test_handlers_of_what_cannot_fail_are_not_reached(body: str, ends: bool) -> 
     ("condition", "ends"),
     [("True", False), ("rclpy.ok()", False), ("rclpy.ok() and self.is_busy", True), ("0", True)],
 )
-def test_a_loop_until_the_shutdown_is_not_left_before(condition: str, *, ends: bool) -> None:
+def test_loop_until_shutdown_does_not_end_early(condition: str, *, ends: bool) -> None:
     function = ast.parse(f"def f():\n    while {condition}:\n        step()\n").body[0]
     assert isinstance(function, ast.FunctionDef)
     assert may_end(function) is ends

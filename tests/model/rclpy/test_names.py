@@ -1,4 +1,4 @@
-"""Names of ROS: the verdict equals rclpy's own, where rclpy is installed."""
+"""ROS names: checks equal those of rclpy, where it is installed."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ PIECES = ("a", "B", "_", "/", "~", "{", "}", "1", "-", " ", "node", "{ns}", "{no
         ("{robot}/a", "'{robot}' is not one of {node}, {ns} and {namespace}"),
     ],
 )
-def test_topic(name: str, problem: str | None) -> None:
+def test_topic_problems(name: str, problem: str | None) -> None:
     assert topic_problem(name) == problem
 
 
 def accepts(*checks: Callable[[str], object]) -> Callable[[str], bool]:
-    """Return a function that tells whether no check raises."""
+    """Return a function that tells whether rclpy accepts a name."""
 
     def verdict(name: str) -> bool:
         try:
@@ -46,7 +46,7 @@ def accepts(*checks: Callable[[str], object]) -> Callable[[str], bool]:
     return verdict
 
 
-def test_verdicts_equal_those_of_rclpy() -> None:
+def test_rclpy_agrees() -> None:
     pytest.importorskip("rclpy", reason="rclpy is in the extra [ros]")
     from rclpy.expand_topic_name import expand_topic_name
     from rclpy.validate_full_topic_name import validate_full_topic_name

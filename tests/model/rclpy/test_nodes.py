@@ -1,4 +1,4 @@
-"""What rclpy code says: nodes, what they create, parameters, quality of service, running."""
+"""Facts about rclpy code: nodes, their entities, parameters, quality of service, spinning."""
 
 from __future__ import annotations
 
@@ -146,13 +146,13 @@ def test_node_class() -> None:
         ("from rclpy.node import Node\nclass Mixin: pass", "Mixin, Node", False),
     ],
 )
-def test_ways_to_inherit(head: str, base: str, *, lifecycle: bool) -> None:
+def test_spellings_of_the_base_class(head: str, base: str, *, lifecycle: bool) -> None:
     view = facts(f"{head}\nclass Talker({base}):\n    pass\n")
     found = [(item.name, item.is_lifecycle) for item in view.classes]
     assert (("Talker", lifecycle) in found) is bool(base)
 
 
-def test_a_class_that_inherits_from_itself_is_no_node() -> None:
+def test_class_that_inherits_from_itself_is_no_node() -> None:
     assert facts("class A(B): pass\nclass B(A): pass\nclass C(C): pass\n").classes == []
 
 
@@ -180,7 +180,7 @@ def test_calls_of_the_base_constructor(constructor: str, name: object, *, calls:
     assert talker.node_name == name
 
 
-def test_constructor_of_a_mixin_comes_first() -> None:
+def test_constructor_of_a_mixin_is_called_first() -> None:
     text = (
         "from rclpy.node import Node\nclass Mixin:\n    {}\n"
         "class Talker(Mixin, Node):\n    def __init__(self):\n        super().__init__('a')\n"
@@ -248,7 +248,7 @@ def test_base_class_in_another_file_of_the_package() -> None:
     ]
 
 
-def test_relative_base_and_a_circle_of_files() -> None:
+def test_relative_import_of_base_and_import_cycle() -> None:
     package = Package.of(
         {
             "demo/a.py": "from .b import B\nclass A(B): pass\n",
@@ -291,12 +291,12 @@ def test_node_kept_in_an_attribute() -> None:
     assert view.publishers[0].owner is view.objects[0]
 
 
-def test_owner_that_is_not_known() -> None:
+def test_unknown_owner() -> None:
     view = facts("import rclpy\ndef f(node):\n    node.create_publisher(str, 'a', 1)\n")
     assert [(item.topic, item.owner) for item in view.publishers] == [("a", None)]
 
 
-def test_other_things_with_such_methods_are_left_alone() -> None:
+def test_same_methods_of_other_objects_are_ignored() -> None:
     assert facts("import boto3\nboto3.create_client('a', 'b')\n").entities == []
 
 
@@ -399,11 +399,11 @@ def test_interface_types(head: str, expression: str, expected: str | None) -> No
         ("self.create_publisher(String, self._name('a'), 1)", UNKNOWN),
     ],
 )
-def test_topics(body: str, expected: object) -> None:
+def test_topic_of_publisher(body: str, expected: object) -> None:
     assert node(body, "TOPIC = 'constant'").publishers[0].topic == expected
 
 
-def test_constant_of_the_class_and_of_another_object() -> None:
+def test_topic_from_class_constant() -> None:
     text = (
         "import rclpy\nfrom rclpy.node import Node\nclass Talker(Node):\n    TOPIC = 'a'\n"
         "    def __init__(self):\n        super().__init__('t')\n"
@@ -434,7 +434,7 @@ def test_missing_and_unknown_arguments() -> None:
     assert (second.qos, second.has_unknown_arguments) == (None, True)
 
 
-def test_swapped_arguments_are_seen_as_they_are() -> None:
+def test_swapped_arguments_are_kept_as_written() -> None:
     view = node("self.create_publisher('a', String, 1)\nself.create_timer(self.tick, 0.5)")
     (publisher,) = view.publishers
     assert publisher.type_argument is not None
@@ -459,7 +459,7 @@ def test_swapped_arguments_are_seen_as_they_are() -> None:
         ("try:\n    pass\nexcept OSError:\n    self.create_timer(1, f)", True),
     ],
 )
-def test_conditional(body: str, *, conditional: bool) -> None:
+def test_conditional_entities(body: str, *, conditional: bool) -> None:
     assert node(body).timers[0].is_conditional is conditional
 
 
@@ -507,7 +507,7 @@ def test_conditional(body: str, *, conditional: bool) -> None:
         ("PROFILE", (None, 7, "KEEP_LAST", "RELIABLE", "VOLATILE")),
     ],
 )
-def test_qos(expression: str, expected: Sequence[object]) -> None:
+def test_qos_of_publisher(expression: str, expected: Sequence[object]) -> None:
     view = node(
         f"self.create_publisher(String, 'a', {expression})",
         "from rclpy import qos\nDEPTH = 3\nPROFILE = qos.QoSProfile(depth=7)",
@@ -530,7 +530,7 @@ def test_qos_changed_before_the_use() -> None:
     assert (found.depth, found.durability) == (5, "TRANSIENT_LOCAL")
 
 
-def test_qos_changed_after_the_use_or_perhaps() -> None:
+def test_qos_changed_after_use_or_conditionally() -> None:
     after = qos_after(
         "qos = QoSProfile(depth=1)\nself.create_publisher(String, 'a', qos)\nqos.depth = 5"
     )
@@ -560,7 +560,7 @@ def test_qos_changed_after_the_use_or_perhaps() -> None:
         ("self.create_timer('1', self.f)", UNKNOWN),
     ],
 )
-def test_periods(body: str, expected: object) -> None:
+def test_timer_periods(body: str, expected: object) -> None:
     assert node(body).timers[0].period == expected
 
 
@@ -617,7 +617,7 @@ def test_parameter_values(body: str, expected: object) -> None:
     assert bool(view.timers[0].from_parameters) is depends
 
 
-def test_parameters_of_another_node_do_not_count() -> None:
+def test_parameters_of_another_node_are_ignored() -> None:
     view = facts(
         "import rclpy\nfrom rclpy.node import Node\nclass A(Node):\n    def __init__(self):\n"
         "        super().__init__('a')\n        self.declare_parameter('p', 1.0)\n"
@@ -627,7 +627,7 @@ def test_parameters_of_another_node_do_not_count() -> None:
     assert view.timers[0].period is UNKNOWN
 
 
-def test_parameters() -> None:
+def test_declared_parameters() -> None:
     view = node(
         "self.declare_parameter('a', 1.0)\nself.declare_parameter('b')\n"
         "self.declare_parameter('c', Parameter.Type.STRING_ARRAY)\n"
@@ -689,7 +689,7 @@ def test_parameter_type(value: object, expected: str | None) -> None:
         "**options",
     ],
 )
-def test_automatic_declaration(argument: str) -> None:
+def test_automatic_parameter_declaration(argument: str) -> None:
     view = facts(
         "from rclpy.node import Node\nclass A(Node):\n    def __init__(self):\n"
         f"        super().__init__('a', {argument})\n"
@@ -715,7 +715,7 @@ def test_automatic_declaration(argument: str) -> None:
         ("table['a']", None, None, False, False, False),
     ],
 )
-def test_callbacks(
+def test_callback_of_timer(
     expression: str, name: str | None, line: int | None, *, called: bool, bound: bool, partial: bool
 ) -> None:
     view = facts(
@@ -733,7 +733,7 @@ def test_callbacks(
     assert place(found.location) == (8, 30, 8, 30 + len(expression))
 
 
-def test_what_a_callback_reaches() -> None:
+def test_functions_called_by_a_callback() -> None:
     view = facts(
         "import rclpy\nfrom rclpy.node import Node\nclass Talker(Node):\n    def __init__(self):\n"
         "        super().__init__('t')\n        self.create_timer(1, self.a)\n"
@@ -755,7 +755,7 @@ def test_what_a_callback_reaches() -> None:
 # -- running
 
 
-def test_running() -> None:
+def test_calls_of_init_spin_and_shutdown() -> None:
     view = facts(TALKER)
     assert [(call.name, place(call.location)) for call in view.rclpy_calls] == [
         ("init", (40, 9, 40, 30)),
@@ -789,7 +789,7 @@ def test_running() -> None:
         ),
     ],
 )
-def test_handlers(body: str, *, keyboard: bool, external: bool) -> None:
+def test_exception_handlers_around_spin(body: str, *, keyboard: bool, external: bool) -> None:
     lines = "".join(f"    {line}\n" for line in body.splitlines())
     view = facts(
         "import rclpy\nfrom contextlib import suppress\n"
@@ -802,7 +802,7 @@ def test_handlers(body: str, *, keyboard: bool, external: bool) -> None:
     assert (not spin.handlers.isdisjoint(names)) is external
 
 
-def test_handlers_around_the_callers() -> None:
+def test_exception_handlers_around_callers_of_spin() -> None:
     text = (
         "import rclpy\ndef run(): rclpy.spin(1)\n"
         "def main():\n    try:\n        run()\n    except KeyboardInterrupt:\n        pass\n"
@@ -814,7 +814,7 @@ def test_handlers_around_the_callers() -> None:
     assert twice.outer_handlers == set()
 
 
-def test_executors_init_in_with_and_ok() -> None:
+def test_executors_and_init_as_context_manager() -> None:
     view = facts(
         "import rclpy\nfrom rclpy.executors import MultiThreadedExecutor\n"
         "def main():\n    with rclpy.init(args=None) as context:\n"
@@ -861,7 +861,7 @@ def rate(methods: str, constructor: str = "") -> object:
         ),
     ],
 )
-def test_rate(methods: str) -> None:
+def test_publish_rate(methods: str) -> None:
     assert rate(methods) == 2.0
 
 
@@ -897,11 +897,11 @@ def test_rate(methods: str) -> None:
         ("def tick(self):\n    self.pub.publish(1)\ndef tick(self):\n    pass", ""),
     ],
 )
-def test_rate_that_is_in_doubt(methods: str, constructor: str) -> None:
+def test_unknown_publish_rate(methods: str, constructor: str) -> None:
     assert rate(methods, constructor) is UNKNOWN
 
 
-def test_rate_of_a_conditional_timer_or_lifecycle_publisher() -> None:
+def test_publish_rate_of_conditional_timer_or_lifecycle_publisher() -> None:
     view = node(
         "self.pub = self.create_publisher(String, 'a', 1)\nif slow:\n"
         "    self.create_timer(1, lambda: self.pub.publish(String()))"
@@ -952,7 +952,7 @@ print(json.dumps({'positional': positional, 'profiles': profiles}))
 
 
 @pytest.fixture(scope="module")
-def rclpy_says() -> Any:  # noqa: ANN401  JSON
+def rclpy_data() -> Any:  # noqa: ANN401  JSON
     if importlib.util.find_spec("rclpy") is None:
         pytest.skip("rclpy is not installed")
     done = subprocess.run(
@@ -965,15 +965,15 @@ def rclpy_says() -> Any:  # noqa: ANN401  JSON
     return json.loads(done.stdout)
 
 
-def test_signatures_are_those_of_rclpy(rclpy_says: Any) -> None:  # noqa: ANN401
-    positional = rclpy_says["positional"]
+def test_signatures_equal_those_of_rclpy(rclpy_data: Any) -> None:  # noqa: ANN401
+    positional = rclpy_data["positional"]
     for name, parameters in _SIGNATURES.items():
         if name != "create_lifecycle_publisher":  # takes *args and hands them on
             assert positional[name] == list(parameters), name
 
 
 @pytest.mark.parametrize("class_", sorted(_FILTERS))
-def test_signatures_of_message_filters_are_those_of_the_stubs(class_: str) -> None:
+def test_signatures_of_message_filters_equal_those_of_the_stubs(class_: str) -> None:
     tree = ast.parse(library_stubs(distributions.JAZZY)["message_filters/__init__.pyi"])
     (definition,) = (x for x in ast.walk(tree) if isinstance(x, ast.ClassDef) and x.name == class_)
     (constructor,) = (
@@ -983,8 +983,8 @@ def test_signatures_of_message_filters_are_those_of_the_stubs(class_: str) -> No
     assert [argument.arg for argument in arguments[1:]] == list(_FILTERS[class_])
 
 
-def test_profiles_are_those_of_rclpy(rclpy_says: Any) -> None:  # noqa: ANN401
-    said = rclpy_says["profiles"]
+def test_qos_profiles_equal_those_of_rclpy(rclpy_data: Any) -> None:  # noqa: ANN401
+    said = rclpy_data["profiles"]
     del said["unknown"]
     assert {name: tuple(profile) for name, profile in said.items()} == PROFILES
 
@@ -1023,7 +1023,7 @@ LINES = st.lists(
 
 
 @given(LINES, LINES)
-def test_any_code_can_be_asked(first: list[str], second: list[str]) -> None:
+def test_facts_of_any_code_never_raise(first: list[str], second: list[str]) -> None:
     text = (
         "import rclpy\nfrom contextlib import suppress\nfrom rclpy.node import Node\n"
         "from rclpy.qos import QoSProfile\nfrom std_msgs.msg import String\n"
@@ -1087,7 +1087,7 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
-def test_hostile_code_ends_soon(text: str) -> None:
+def test_hostile_code_is_analyzed_quickly(text: str) -> None:
     view = facts(f"import rclpy\nfrom rclpy.node import Node\n{text}")
     assert all(item.node_name is UNKNOWN for item in view.nodes)
     assert all(call.outer_handlers == set() for call in view.rclpy_calls)

@@ -32,7 +32,7 @@ def declared(body: str) -> list[Parameter]:
         "pairs = [('rate', 1.0), ('mode', 'slow')]\nfor name, default in pairs:",
     ],
 )
-def test_loop_over_what_is_written(loop: str) -> None:
+def test_loop_over_a_literal(loop: str) -> None:
     found = declared(f"{loop}\n    self.declare_parameter(name, default)")
     assert [(one.name, one.type) for one in found] == [("rate", "double"), ("mode", "string")]
 
@@ -46,7 +46,7 @@ def test_loop_over_what_is_written(loop: str) -> None:
         "for name, default in {'rate': 1.0, **more}.items():",
     ],
 )
-def test_loop_over_what_is_not_known(loop: str) -> None:
+def test_loop_over_an_unknown_value(loop: str) -> None:
     found = declared(f"{loop}\n    self.declare_parameter(name, default)")
     assert [isinstance(one.name, str) for one in found] == [False]
 
@@ -61,7 +61,7 @@ def test_loop_over_what_is_not_known(loop: str) -> None:
         ("limits = load()", None),
     ],
 )
-def test_ranges(body: str, limits: list[str] | None) -> None:
+def test_parameter_ranges(body: str, limits: list[str] | None) -> None:
     body += "\ndescriptor = ParameterDescriptor()\ndescriptor.integer_range.append(limits)"
     (found,) = declared(f"{body}\nself.declare_parameter('count', 5, descriptor)")
     descriptor = found.descriptor
@@ -72,7 +72,7 @@ def test_ranges(body: str, limits: list[str] | None) -> None:
     ("value", "allowed"),
     [("0.3", True), ("1.0", True), ("0.25", False), ("1.1", False), ("-1e-9", False)],
 )
-def test_steps_as_rclpy_counts_them(value: str, allowed: bool) -> None:
+def test_steps_of_ranges_follow_rclpy(value: str, allowed: bool) -> None:
     (found,) = declared(
         "limits = FloatingPointRange(from_value=0.0, to_value=1.0, step=0.1)\n"
         "descriptor = ParameterDescriptor(floating_point_range=[limits])\n"

@@ -1,4 +1,4 @@
-"""What xacro makes of a file: compared with what it says itself, in its documentation."""
+"""Expansion of xacro files, compared with the documentation of xacro."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def links(**files: str) -> list[str]:
     return [part.get("name") or "" for part in robot.root.all("link")]
 
 
-def test_a_macro_gets_its_parameters_their_defaults_and_forwarded_values() -> None:
+def test_macro_parameters_defaults_and_forwarded_values() -> None:
     text = (
         '<xacro:property name="side" value="left"/>'
         '<xacro:macro name="wheel" params="name n:=${1 + 1} side:=^|right size:=^|big">'
@@ -39,7 +39,7 @@ def test_a_macro_gets_its_parameters_their_defaults_and_forwarded_values() -> No
     assert links(a=text) == ["left_big_front_2", "left_big_rear_7"]
 
 
-def test_a_block_is_inserted_with_the_values_of_the_caller() -> None:
+def test_block_is_expanded_in_the_scope_of_the_caller() -> None:
     text = (
         '<xacro:property name="a" value="outer"/>'
         '<xacro:macro name="m" params="a *one **two"><xacro:insert_block name="one"/>'
@@ -50,7 +50,7 @@ def test_a_block_is_inserted_with_the_values_of_the_caller() -> None:
     assert links(a=text) == ["outer", "x", "y"]
 
 
-def test_what_an_argument_decides_may_be_there_or_not() -> None:
+def test_elements_conditional_on_an_argument_are_optional() -> None:
     text = (
         '<xacro:arg name="arm" default="true"/><link name="base"/>'
         '<xacro:if value="$(arg arm)"><link name="arm"/></xacro:if>'
@@ -65,13 +65,13 @@ def test_what_an_argument_decides_may_be_there_or_not() -> None:
     ]
 
 
-def test_an_included_file_is_no_robot_of_its_own() -> None:
+def test_included_file_is_no_separate_robot() -> None:
     included = '<link name="${prefix}wheel"/>'
     text = '<xacro:property name="prefix" value="my_"/><xacro:include filename="b.xacro"/>'
     assert links(a=text, b=included) == ["my_wheel"]
 
 
-def test_a_file_that_is_not_known_leaves_names_open() -> None:
+def test_unknown_included_file_makes_names_unknown() -> None:
     text = (
         '<xacro:include filename="$(find other)/urdf/parts.xacro"/>'
         '<link name="${radius}"/><xacro:gripper/>'
@@ -81,7 +81,7 @@ def test_a_file_that_is_not_known_leaves_names_open() -> None:
     assert robot.problems.undefined == []
 
 
-def test_macros_that_call_themselves_end() -> None:
+def test_recursive_macros_are_bounded() -> None:
     text = '<xacro:macro name="m"><link name="a"/><xacro:m/></xacro:macro><xacro:m/>'
     (robot,) = robots(package(a=text)).whole
     assert robot.problems.is_open
@@ -97,11 +97,11 @@ def test_macros_that_call_themselves_end() -> None:
         ("max(1, 2.5)", 2.5),
     ],
 )
-def test_evaluates_like_python(expression: str, value: object) -> None:
+def test_expressions_are_evaluated_like_python(expression: str, value: object) -> None:
     assert evaluate(expression, lambda name: {"False": False}[name]) == value
 
 
-def test_a_property_is_a_number_where_it_looks_like_one() -> None:
+def test_numeric_property_is_a_number() -> None:
     assert [literal(text) for text in ("1", "1.5", "true", "1_0", "'1'", "x")] == [
         1,
         1.5,
@@ -112,13 +112,13 @@ def test_a_property_is_a_number_where_it_looks_like_one() -> None:
     ]
 
 
-def test_a_condition_is_a_truth_or_refused() -> None:
+def test_invalid_condition_is_rejected() -> None:
     assert [truth(value) for value in ("true", "0", 1.0, False)] == [True, False, True, False]
     with pytest.raises(ValueError, match="invalid literal"):
         truth("yes")
 
 
-def test_a_default_may_have_a_quote_too_many() -> None:
+def test_surplus_quote_in_a_default_is_accepted() -> None:
     text = (
         '<xacro:macro name="m" params="a:=\'\'\'"><link name="[${a}]"/></xacro:macro>'
         '<xacro:m a="given"/>'
@@ -126,7 +126,7 @@ def test_a_default_may_have_a_quote_too_many() -> None:
     assert links(a=text) == ["[given]"]
 
 
-def test_an_element_of_other_readers_needs_no_namespace_in_urdf() -> None:
+def test_undeclared_namespace_is_accepted_in_urdf() -> None:
     text = b'<robot name="a"><link name="a"/><drake:proximity_properties/></robot>'
     files = Package(MemoryTree({"a.urdf": text, "a.xacro": text}))
     assert robot_file(files, "a.urdf") is not None
@@ -144,7 +144,7 @@ def test_an_element_of_other_readers_needs_no_namespace_in_urdf() -> None:
         ('<robot name="a"/><link><robot>', "", False),
     ],
 )
-def test_urdfdom_does_not_look_outside_of_the_robot(text: str, launch: str, is_read: bool) -> None:
+def test_text_around_the_robot_element(text: str, launch: str, is_read: bool) -> None:
     files = Package.of({"a.urdf": text, "launch/a.launch.py": launch})
     with pytest.raises(ParseError) as raised:
         robot_file(files, "a.urdf")

@@ -69,7 +69,7 @@ def place(at: Location) -> tuple[int, int, int, int]:
 # -- the call
 
 
-def test_keywords() -> None:
+def test_keywords_of_setup() -> None:
     setup = view(SETUP)
     assert place(setup.location) == (8, 1, 8, 6)
     assert (setup.name, setup.version) == ("demo", "0.1.0")
@@ -110,7 +110,7 @@ def test_ways_to_call_setup(text: str) -> None:
         "import setuptools\nsetuptools.find(name='a')\n",
     ],
 )
-def test_no_call_of_setup(text: str) -> None:
+def test_file_without_call_of_setup(text: str) -> None:
     setup = view(text)
     assert setup.call is None
     assert setup.name is None
@@ -119,7 +119,7 @@ def test_no_call_of_setup(text: str) -> None:
     assert not setup.entry_points
 
 
-def test_known_dictionary_of_keywords() -> None:
+def test_known_keyword_dictionary() -> None:
     setup = view(
         "from setuptools import setup\noptions = {'name': 'a', 'version': v()}\nsetup(**options)\n"
     )
@@ -131,7 +131,7 @@ def test_known_dictionary_of_keywords() -> None:
     assert place(name.location) == (2, 20, 2, 23)
 
 
-def test_unknown_dictionary_of_keywords() -> None:
+def test_unknown_keyword_dictionary() -> None:
     setup = call("version='1', **generated()")
     assert setup.version == "1"
     assert setup.name is UNKNOWN
@@ -222,7 +222,7 @@ def test_data_files() -> None:
         ("files = generate()", [], False),
     ],
 )
-def test_data_files_as_people_write_them(
+def test_common_spellings_of_data_files(
     text: str, expected: list[object], *, complete: bool
 ) -> None:
     setup = view(f"from setuptools import setup\n{text}\nsetup(data_files=files)\n")
@@ -279,7 +279,7 @@ def test_missing_comma() -> None:
     assert [place(at) for at in point.joined] == [(26, 13, 26, 40), (27, 13, 27, 51)]
 
 
-def test_a_long_entry_in_two_pieces_is_right() -> None:
+def test_entry_concatenated_from_two_strings() -> None:
     (point,) = call(
         "entry_points={'console_scripts': ['a = demo.'  # why\n 'b:main']}"
     ).entry_points
@@ -310,7 +310,7 @@ def test_malformed_entry_points(entry: str, problem: str) -> None:
     assert point.text == entry
 
 
-def test_other_groups_need_no_function() -> None:
+def test_other_entry_point_groups_need_no_function() -> None:
     (point,) = call("entry_points={'ros2cli.command': ['a = demo.b [extra]']}").entry_points
     assert (point.group, point.module, point.function) == ("ros2cli.command", "demo.b", "")
     assert point.malformed is None
@@ -353,11 +353,11 @@ def test_entry_points_by_name_and_in_tuples() -> None:
         "entry_points={group(): ['a = b:c']}",
     ],
 )
-def test_entry_points_that_cannot_be_seen(keywords: str) -> None:
+def test_unknown_entry_points(keywords: str) -> None:
     assert not call(keywords).entry_points_complete
 
 
-def test_pieces_of_a_string() -> None:
+def test_parts_of_a_concatenated_string() -> None:
     module = PythonModule.parse(Source("a.py", "x = ('a\\'' r\"b\"  # 'no'\n  '''c\n''')\n"))
     setup = SetupPy.parse(module)
     node = module.tree.body[0]
@@ -370,21 +370,21 @@ def test_pieces_of_a_string() -> None:
 # -- edits
 
 
-def applied(text: str, edit: Edit | None) -> str:
+def apply_edits(text: str, edit: Edit | None) -> str:
     assert edit is not None
     assert edit.path == "setup.py"
     return text[: edit.start] + edit.text + text[edit.end :]
 
 
 def with_script(text: str) -> str:
-    return applied(text, add_console_script(view(text), "new", "demo.new:main"))
+    return apply_edits(text, add_console_script(view(text), "new", "demo.new:main"))
 
 
 def with_files(text: str) -> str:
-    return applied(text, add_data_files(view(text), "'share/new'", "['new.txt']"))
+    return apply_edits(text, add_data_files(view(text), "'share/new'", "['new.txt']"))
 
 
-def test_add_to_a_list_with_a_line_for_each() -> None:
+def test_add_to_a_list_with_one_item_per_line() -> None:
     assert with_script(SETUP) == SETUP.replace(
         "Listener.main',\n", "Listener.main',\n            'new = demo.new:main',\n"
     )
@@ -487,7 +487,7 @@ def test_add_console_script(before: str, after: str, newline: str) -> None:
     assert add_console_script(view(after), "new", "demo.new:main") is None
 
 
-def test_an_entry_that_would_be_too_long_is_written_in_two_pieces() -> None:
+def test_long_entry_is_split_into_two_strings() -> None:
     before = view(
         f"{HEAD}setup(\n    entry_points={{\n        'console_scripts': [],\n    }},\n)\n"
     )
@@ -502,7 +502,7 @@ def test_an_entry_that_would_be_too_long_is_written_in_two_pieces() -> None:
     ]
 
 
-def test_a_line_that_would_be_too_long_is_broken() -> None:
+def test_long_line_is_wrapped() -> None:
     before = (
         HEAD + "setup(entry_points={'console_scripts': ['a = b:c', 'd = e:f', 'g = hhhhhh:i']})\n"
     )
@@ -521,11 +521,11 @@ def test_a_line_that_would_be_too_long_is_broken() -> None:
         "**options()",
     ],
 )
-def test_no_sure_place_for_a_script(keywords: str) -> None:
+def test_script_is_not_added_where_unsafe(keywords: str) -> None:
     assert add_console_script(call(keywords), "new", "demo.new:main") is None
 
 
-def test_a_script_that_is_there_is_not_added_again() -> None:
+def test_existing_script_is_not_added_again() -> None:
     assert add_console_script(view(SETUP), "talker", "demo.other:main") is None
 
 
@@ -537,7 +537,7 @@ def test_add_data_files_without_any() -> None:
     )
 
 
-def test_no_sure_place_for_data_files() -> None:
+def test_data_files_are_not_added_where_unsafe() -> None:
     for keywords in ("data_files=files()", "**options()"):
         assert add_data_files(call(keywords), "'a'", "['b']") is None
     assert add_data_files(view("x = 1\n"), "'a'", "['b']") is None
@@ -571,7 +571,7 @@ def test_package_expression() -> None:
 )
 def test_add_import(before: str, statement: str, after: str) -> None:
     module = PythonModule.parse(Source("setup.py", before))
-    assert applied(before, add_import(module, statement)) == after
+    assert apply_edits(before, add_import(module, statement)) == after
     assert add_import(PythonModule.parse(Source("setup.py", after)), statement) is None
 
 
@@ -593,7 +593,7 @@ CLOSINGS = st.sampled_from(["]", ",]", "\n    ]", ",\n    ]", ",  # end\n    ]",
     closing=CLOSINGS,
     newline=st.sampled_from(["\n", "\r\n"]),
 )
-def test_an_added_script_is_the_only_difference(
+def test_added_script_is_the_only_change(
     entries: list[str], glue: str, closing: str, newline: str
 ) -> None:
     scripts = glue.join(entry.replace("# why\n", "") for entry in entries)
@@ -606,7 +606,7 @@ def test_an_added_script_is_the_only_difference(
     if edit is None:
         assert not before.entry_points_complete
         return
-    after = view(applied(text, edit))
+    after = view(apply_edits(text, edit))
     *kept, added = [point.text for point in after.entry_points]
     assert kept == [point.text for point in before.entry_points]
     assert added in {"new = demo.new:main", "new=demo.new:main"}
@@ -639,7 +639,7 @@ KEYWORDS = st.lists(
 
 
 @given(KEYWORDS)
-def test_any_call_of_setup_can_be_asked(keywords: list[str]) -> None:
+def test_any_call_of_setup_never_raises(keywords: list[str]) -> None:
     text = f"from setuptools import setup, find_packages\nsetup({', '.join(keywords)})\n"
     try:
         setup = view(text)
@@ -653,4 +653,4 @@ def test_any_call_of_setup_can_be_asked(keywords: list[str]) -> None:
         add_data_files(setup, "'a'", "['b']"),
     ):
         if edit is not None:
-            assert view(applied(text, edit)).call is not None
+            assert view(apply_edits(text, edit)).call is not None

@@ -1,4 +1,4 @@
-"""A package may be put together of directories of its checkout."""
+"""A package may consist of several directories of its checkout."""
 
 from __future__ import annotations
 
@@ -21,9 +21,7 @@ from scaffold.model.workspace.workspace import Workspace
         ("robot/other.py", False),
     ],
 )
-def test_a_module_above_the_package_is_found(
-    tmp_path: Path, module: str, *, expected: bool
-) -> None:
+def test_module_above_the_package_is_found(tmp_path: Path, module: str, *, expected: bool) -> None:
     (tmp_path / ".git").mkdir()
     (tmp_path / "conf" / "ros2").mkdir(parents=True)
     (tmp_path / module).parent.mkdir(parents=True, exist_ok=True)
@@ -32,7 +30,7 @@ def test_a_module_above_the_package_is_found(
     assert is_elsewhere(package, "robot.node") is expected
 
 
-def test_a_module_next_to_setup_py_is_not_elsewhere(tmp_path: Path) -> None:
+def test_module_next_to_setup_py_belongs_to_the_package(tmp_path: Path) -> None:
     (tmp_path / ".git").mkdir()
     (tmp_path / "robot").mkdir()
     (tmp_path / "robot" / "node.py").touch()

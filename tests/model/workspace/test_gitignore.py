@@ -1,4 +1,4 @@
-"""Files that git leaves out are made on each machine."""
+"""Files ignored by git are created on each machine."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scaffold.model.workspace.workspace import Workspace
 
 
 @pytest.mark.parametrize(("checkout", "expected"), [("src", True), ("", True), (None, False)])
-def test_the_files_of_the_checkout_count(
+def test_gitignore_files_of_the_checkout_are_used(
     tmp_path: Path, checkout: str | None, *, expected: bool
 ) -> None:
     directory = tmp_path / "src" / "talker"
@@ -42,12 +42,12 @@ def test_the_files_of_the_checkout_count(
         ("!lib/", "lib", False),
     ],
 )
-def test_patterns_name_directories_and_paths(pattern: str, path: str, *, expected: bool) -> None:
+def test_patterns_match_directories_and_paths(pattern: str, path: str, *, expected: bool) -> None:
     package = Package.of({".gitignore": f"{pattern}\n"})
     assert is_untracked(package, path) is expected
 
 
-def test_a_file_in_a_directory_counts_for_what_is_below_it() -> None:
+def test_nested_gitignore_applies_below_its_directory() -> None:
     package = Package.of({"simulator/.gitignore": "/controller\n*.log\n"})
     assert is_untracked(package, "simulator/controller")
     assert is_untracked(package, "simulator/logs/run.log")
