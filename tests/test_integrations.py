@@ -19,10 +19,10 @@ from tests import PATIENCE
 from tests.generate.test_pre_commit import (
     FINDING,
     PERSON,
-    break_,
     clone,
     installing,
     needs_index,
+    remove_dependency,
 )
 from tests.reporters.sarif_schema import SCHEMA as SARIF
 from tests.reporters.test_gitlab import SCHEMA as CODE_QUALITY
@@ -49,7 +49,7 @@ def checkout(tmp_path: Path) -> Path:
     top = tmp_path / "checkout"
     place = top / "my packages"
     assert main(["new", "talker", *PERSON, "--destination-directory", str(place)]) == 0
-    break_(place / "talker")
+    remove_dependency(place / "talker")
     subprocess.run(["git", "init", "-q", str(top)], check=True)
     return top
 

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 
 from scaffold.cli.main import main
-from tests.generate.test_generated import KINDS, TEMPLATES, missing, write
+from tests.generate.test_generated import KINDS, TEMPLATES, missing_libraries, write
 
 TYPED_KINDS = [
     kind
     for kind in KINDS
     if "python3-serial" not in TEMPLATES[kind].depends["exec"]
-    and not any(name.startswith("python3-") for name in missing(kind))
+    and not any(name.startswith("python3-") for name in missing_libraries(kind))
 ]
 """All but those whose libraries come from elsewhere than ROS, and have no types here."""
 

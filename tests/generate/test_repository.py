@@ -19,7 +19,7 @@ from scaffold.generate.update import provenance, update
 from scaffold.generate.update.provenance import NAME
 from scaffold.model.discovery import colcon
 from scaffold.writing.plan import WritePlan
-from tests.generate.test_pre_commit import CONFIG, FINDING, Repository, break_, variables
+from tests.generate.test_pre_commit import CONFIG, FINDING, Repository, remove_dependency, variables
 
 __all__ = ["variables"]
 
@@ -182,7 +182,7 @@ def test_pre_commit_checks_the_package_directory(
     assert "Passed" in shared.commit()
     (workspace / "other.py").write_text("import nothing\n")
     assert "Skipped" in shared.commit()
-    break_(workspace / "src" / "talker")
+    remove_dependency(workspace / "src" / "talker")
     assert f"src/talker/talker/minimal_publisher.py:35:1: error PX020 {FINDING}" in (
         shared.commit(code=1)
     )
@@ -225,7 +225,7 @@ def test_existing_pre_commit_configuration_is_kept(
     shared = Repository(workspace, variables)
     shared.run("pre-commit", "install")
     assert shared.commit().count("Passed") == 2
-    break_(package)
+    remove_dependency(package)
     assert FINDING in shared.commit(code=1)
 
 

@@ -16,7 +16,7 @@ import pytest
 from scaffold.generate import payload
 from scaffold.generate.payload import Payload
 from scaffold.generate.payload.processing import PROCESSES, Process
-from tests.generate.payload.test_payload import Node, need_installed, transported
+from tests.generate.payload.test_payload import Node, need_installed, round_trip
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"),  # of lark
@@ -81,8 +81,8 @@ def run(
     exec(source("", "is_right(message, item)", [f"return {process.expected}"], "None"), names)
     node, results = TimedNode(), []
     for node.count in range(COUNT):
-        item = transported(names["send"](node))
-        message = transported(names["process"](node, transported(item)))
+        item = round_trip(names["send"](node))
+        message = round_trip(names["process"](node, round_trip(item)))
         results.append(names["is_right"](message, item))
     return all(results)
 
