@@ -1,4 +1,4 @@
-"""What every example of a rule is tried with."""
+"""Assertions about the examples of rules."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scaffold.check.rules.rule import Example, Rule
 
 
 def assert_reported(rule: type[Rule], example: Example) -> None:
-    """Fail unless a rule reports and fixes what an example has, word for word."""
+    """Fail unless the reports and fixes of a rule equal those of an example exactly."""
     with example.targeting():
         _assert_reported(rule, example)
 
@@ -35,7 +35,7 @@ def _assert_reported(rule: type[Rule], example: Example) -> None:
 
 
 def assert_suppressible(examples: Iterable[tuple[type[Rule], Example]]) -> None:
-    """Fail unless a rejected Python or CMake example falls silent with ``noqa`` on its line."""
+    """Fail unless ``noqa`` suppresses the reports of a Python or CMake example."""
     silenced = 0
     for rule, example in examples:
         if len(example.reports) != 1:

@@ -1,4 +1,4 @@
-"""A type checker is told what functions are given, in lines that nobody sees."""
+"""Inserted lines that tell the type checker the arguments of functions."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ Talker(rate())
 
 
 def added(source: str) -> list[str]:
-    """Return the lines that are added to a file, which is the same without them."""
+    """Return the lines inserted into a file that is otherwise unchanged."""
     return changed(source, source)
 
 
 def changed(source: str, expected: str) -> list[str]:
-    """Return the lines that are added to a file, which is as expected without them."""
+    """Return the lines inserted into a file that is otherwise as expected."""
     extended = with_arguments(source.encode())
     text = extended.data.decode()
     ast.parse(text)
@@ -44,14 +44,14 @@ def changed(source: str, expected: str) -> list[str]:
     return [lines[at - 1].strip() for at in extended.added]
 
 
-def given(call: str) -> list[str]:
-    """Return what is added for a call in ``run``, without what is for the constructor."""
+def inserted_for_call(call: str) -> list[str]:
+    """Return the lines inserted for a call in ``run``, without those for the constructor."""
     source = CLASS.format("".join(f"        {line}\n" for line in call.split("\n")))
     return [line for line in added(source) if "rate" not in line]
 
 
-def test_an_argument_is_kept_before_the_call_and_taken_in_the_function() -> None:
-    taken, kept = given("self.say(name)")
+def test_argument_is_stored_before_the_call_and_read_in_the_function() -> None:
+    taken, kept = inserted_for_call("self.say(name)")
     name = taken.removeprefix("text = (").partition(")")[0]
     assert taken == f"text = ({name})[0]; times = ([1])[0]"
     assert kept == f"global {name}; {name} = [name]"
@@ -67,16 +67,18 @@ def test_an_argument_is_kept_before_the_call_and_taken_in_the_function() -> None
         ("# x,\nself.say('x')", "text = (['x'])[0]; times = ([1])[0]"),
     ],
 )
-def test_calls_that_begin_on_the_line_of_their_statement(call: str, taken: str) -> None:
-    assert sorted(given(call)[0].split("; ")) == sorted(taken.split("; "))
+def test_calls_at_the_start_of_their_statement(call: str, taken: str) -> None:
+    assert sorted(inserted_for_call(call)[0].split("; ")) == sorted(taken.split("; "))
 
 
-def test_calls_in_strings_with_braces() -> None:
-    assert given("print(f'it said {self.say(2):.2f}')") == ["text = ([2])[0]; times = ([1])[0]"]
+def test_calls_in_f_strings() -> None:
+    assert inserted_for_call("print(f'it said {self.say(2):.2f}')") == [
+        "text = ([2])[0]; times = ([1])[0]"
+    ]
 
 
-def test_calls_that_differ_give_one_of_both() -> None:
-    assert given("self.say('x')\nself.say(2)")[0].startswith(
+def test_different_calls_give_a_union() -> None:
+    assert inserted_for_call("self.say('x')\nself.say(2)")[0].startswith(
         "text = (['x'] if _ros2_either else [2])[0]"
     )
 
@@ -102,8 +104,8 @@ def test_calls_that_differ_give_one_of_both() -> None:
         "self.say(\n    'x',  # loud, and\n    2,\n)",
     ],
 )
-def test_calls_that_are_left_alone(call: str) -> None:
-    assert given(call) == []
+def test_unsupported_calls(call: str) -> None:
+    assert inserted_for_call(call) == []
 
 
 @pytest.mark.parametrize(
@@ -121,7 +123,7 @@ def test_calls_that_are_left_alone(call: str) -> None:
         "class A:\n    f = staticmethod(print)\n\n\nf(1)\n",
     ],
 )
-def test_functions_that_are_left_alone(source: str) -> None:
+def test_unsupported_functions(source: str) -> None:
     assert added(source) == []
 
 
@@ -129,7 +131,7 @@ def test_functions_that_are_left_alone(source: str) -> None:
     "annotation",
     [": str", ": dict[str, int]", " : Callable[[A, A], a]", ": float = 1.0", ":int=2"],
 )
-def test_what_the_author_says_about_a_parameter_is_left_out(annotation: str) -> None:
+def test_annotations_of_parameters_are_removed(annotation: str) -> None:
     source = "def f(a{}, *, b=0):\n    pass\n\n\nf('x', b=1)\n"
     two = "def f(no_a: A, a: A):\n    pass\n\n\nf(1, 2)\n"
     assert len(changed(two, two.replace(": A", "   "))) == 1

@@ -1,4 +1,4 @@
-"""Files in which a real merge has left a conflict: reported as one, not as a mistake of syntax."""
+"""Files with merge conflicts: reported as such, not as syntax errors."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def git(directory: Path, *words: str) -> int:
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a package in a repository of its own."""
+    """Return a package in its own repository."""
     monkeypatch.chdir(tmp_path)
     assert main(["new", "talker", "--topic", "chatter"]) == 0
     package = tmp_path / "talker"
@@ -57,7 +57,7 @@ def conflict(package: Path, path: str) -> int:
 
 
 @pytest.mark.parametrize("path", LINES)
-def test_a_conflict_is_reported_once_and_as_such(
+def test_conflict_is_reported_once(
     package: Path, path: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     line = conflict(package, path)
@@ -71,7 +71,9 @@ def test_a_conflict_is_reported_once_and_as_such(
     assert [item["severity"] for item in here] == ["error"]
 
 
-def test_underlines_are_no_conflict(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_underlined_headings_are_no_conflict(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     node = package / "talker/minimal_publisher.py"
     node.write_text(f"{node.read_text()}\n=======\n>>>>>>>\n")
     capsys.readouterr()
@@ -81,7 +83,7 @@ def test_underlines_are_no_conflict(package: Path, capsys: pytest.CaptureFixture
     assert "conflict" not in out
 
 
-def test_update_refuses_a_file_with_a_conflict(
+def test_update_rejects_a_file_with_a_conflict(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     line = conflict(package, "CMakeLists.txt")

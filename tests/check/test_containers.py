@@ -1,4 +1,4 @@
-"""A type checker is told what is put into dictionaries and lists, and what functions make."""
+"""Inserted lines that tell the type checker the contents of containers and results of factories."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Keeper:
 """
 
 
-def written(source: str) -> str:
+def rewritten(source: str) -> str:
     text = with_arguments(source.encode()).data.decode()
     ast.parse(text)
     return text
@@ -38,15 +38,15 @@ def written(source: str) -> str:
         ("{'a': None}", "self.latest['a'] = msg", "{'a': None, **_ros2_dict(_ros2_kept_0_0)}"),
     ],
 )
-def test_what_is_put_into_a_container_is_its_contents(made: str, put: str, expected: str) -> None:
-    text = written(KEEPER.replace("{}", put).replace(put, made, 1))
+def test_type_of_container_follows_from_inserted_values(made: str, put: str, expected: str) -> None:
+    text = rewritten(KEEPER.replace("{}", put).replace(put, made, 1))
     assert f"self.latest = {expected}\n" in text
     assert f"        global _ros2_kept_0_0; _ros2_kept_0_0 = [msg]\n        {put}\n" in text
 
 
 @pytest.mark.parametrize("made", ["{name: 1 for name in 'ab'}", "{1, 2}"])
-def test_what_is_no_display_of_a_dictionary_stays(made: str) -> None:
-    text = written(
+def test_other_containers_are_unchanged(made: str) -> None:
+    text = rewritten(
         KEEPER.replace("{}", "self.latest[1] = msg").replace("self.latest[1] = msg", made, 1)
     )
     assert f"self.latest = {made}\n" in text
@@ -65,24 +65,24 @@ def test_what_is_no_display_of_a_dictionary_stays(made: str) -> None:
         "if msg: self.latest[0] = msg",
     ],
 )
-def test_a_container_that_may_hold_anything_stays(put: str) -> None:
+def test_container_with_unknown_contents_is_unchanged(put: str) -> None:
     source = KEEPER.replace("{}", f"self.latest['a'] = 1\n        {put}").replace(
         f"self.latest['a'] = 1\n        {put}", "{}", 1
     )
-    assert "_ros2_dict" not in written(source)
+    assert "_ros2_dict" not in rewritten(source)
 
 
-def test_a_variable_of_one_function_is_not_that_of_another() -> None:
+def test_equal_local_names_of_functions_are_separate() -> None:
     source = (
         "def first(pose):\n    poses = []\n    poses.append(pose)\n    return poses\n\n\n"
         "def second(points):\n    poses = []\n    fill(poses)\n    return poses\n"
     )
-    assert written(source).count("_ros2_list(_ros2_kept_0_0)") == 1
+    assert rewritten(source).count("_ros2_list(_ros2_kept_0_0)") == 1
 
 
-def test_a_function_that_makes_what_it_is_given_has_a_head_for_that() -> None:
+def test_factory_of_a_given_class_gets_an_overload() -> None:
     source = "def make(kind, frame=''):\n    msg = kind()\n    msg.frame = frame\n    return msg\n"
-    text = written(source)
+    text = rewritten(source)
     head = 'def make(kind: "_Ros2Callable[..., _Ros2Made]", frame=\'\') -> "_Ros2Made": ...\n'
     assert f"@_ros2_overload\n{head}{source}" in text
 
@@ -95,8 +95,8 @@ def test_a_function_that_makes_what_it_is_given_has_a_head_for_that() -> None:
         "if frame:\n        return 1\n    return kind()",
     ],
 )
-def test_other_functions_have_none(body: str) -> None:
-    assert "_ros2_overload" not in written(f"def make(kind, frame=''):\n    {body}\n")
+def test_other_functions_get_no_overload(body: str) -> None:
+    assert "_ros2_overload" not in rewritten(f"def make(kind, frame=''):\n    {body}\n")
 
 
 TABLES = """\
@@ -144,7 +144,7 @@ class Listener:
         ),
     ],
 )
-def test_callbacks_are_found_where_they_are_not_named(registered: str, expected: str) -> None:
+def test_callbacks_in_tables_and_loops_are_found(registered: str, expected: str) -> None:
     lines = "".join(f"        {line}\n" for line in registered.split("\n"))
     text = with_callback_types(TABLES.replace("{}\n", lines, 1).encode()).decode()
     assert f"def {expected}:" in text

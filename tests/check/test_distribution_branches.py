@@ -1,4 +1,4 @@
-"""Branches for other distributions: what is in them is right where it runs."""
+"""Branches for other distributions: their code is not checked for the target."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Talker(Node):
 def found(
     capsys: pytest.CaptureFixture[str], package: Path, distro: str
 ) -> list[tuple[str, int, list[str]]]:
-    """Return code, line and distributions of what was removed."""
+    """Return code, line and distributions of findings about removed names."""
     main(["check", str(package), "--distro", distro, "--format", "json", "--select", "IM050,CM110"])
     diagnostics = json.loads(capsys.readouterr().out)["diagnostics"]
     return [(item["code"], item["line"], item["distributions"]) for item in diagnostics]
@@ -78,7 +78,7 @@ def found(
         ("'port' in dir(self)", [11, 13]),
     ],
 )
-def test_python(
+def test_conditions_in_python(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, lines: list[int]
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -269,7 +269,9 @@ _FORMS = {
 
 
 @pytest.mark.parametrize("name", _FORMS)
-def test_forms_of_python(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_kinds_of_branches_in_python(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
     form, lines = _FORMS[name]
     head = "import os, pytest, unittest\nfrom rclpy.logging import get_logger\n"
     head += "L = get_logger('talker')\nD = os.environ['ROS_DISTRO']\n"
@@ -294,7 +296,7 @@ _MODULE = "import pytest\nfrom importlib.util import find_spec\nfrom typing impo
         ("pytest.importorskip('rclpy.event_handler')\nimport rclpy.qos_event\n", [5]),
     ],
 )
-def test_modules_that_are_asked_for(
+def test_imports_guarded_by_a_check_of_the_module(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], code: str, lines: list[int]
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -302,7 +304,7 @@ def test_modules_that_are_asked_for(
     assert found(capsys, tmp_path, "lyrical") == [("IM050", line, ["lyrical"]) for line in lines]
 
 
-def test_several_distributions_and_a_chain(
+def test_if_chain_for_several_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -312,7 +314,7 @@ def test_several_distributions_and_a_chain(
     assert found(capsys, tmp_path, "jazzy,rolling") == [("IM050", 13, ["rolling"])]
 
 
-def test_a_suppression_in_another_branch_is_not_unused(
+def test_suppression_in_another_branch_is_not_unused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -362,7 +364,7 @@ endif()
         ("rclcpp_VERSION VERSION_LESS ${minimum}", []),
     ],
 )
-def test_cmake(condition: str, lines: list[tuple[int, int]]) -> None:
+def test_conditions_in_cmake(condition: str, lines: list[tuple[int, int]]) -> None:
     package = Package.of({"CMakeLists.txt": _LISTS.format(condition)})
     with targeting(named("lyrical")):
         assert list(lines_not_run(package.cmake)) == lines
@@ -452,7 +454,7 @@ _FORMS_OF_CMAKE = {
 
 
 @pytest.mark.parametrize("name", _FORMS_OF_CMAKE)
-def test_forms_of_cmake(name: str) -> None:
+def test_kinds_of_branches_in_cmake(name: str) -> None:
     form, lines = _FORMS_OF_CMAKE[name]
     text = "project(talker)\n" + form.replace("HERE", "here()")
     with targeting(named("lyrical")):
@@ -460,7 +462,7 @@ def test_forms_of_cmake(name: str) -> None:
         assert [line for first, last in found for line in range(first, last + 1)] == lines
 
 
-def test_rolling_may_be_later_than_what_is_known_of_it() -> None:
+def test_versions_of_rolling_may_be_newer_than_known() -> None:
     text = "if(rclcpp_VERSION VERSION_LESS {})\n  here()\nendif()\n"
     for version, lines in (("29", [(2, 2)]), ("40", [])):
         package = Package.of({"CMakeLists.txt": text.format(version)})
@@ -468,7 +470,7 @@ def test_rolling_may_be_later_than_what_is_known_of_it() -> None:
             assert list(lines_not_run(package.cmake)) == lines
 
 
-def test_a_command_in_a_branch_for_older_distributions(
+def test_cmake_command_in_a_branch_for_older_distributions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -543,7 +545,7 @@ def generate_launch_description():
         ("IfCondition(PythonExpression(['not a $ condition', D]))", True),
     ],
 )
-def test_conditions_of_launch(
+def test_conditions_in_launch_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, *, runs: bool
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -553,12 +555,12 @@ def test_conditions_of_launch(
 
 
 def found_in_launch(capsys: pytest.CaptureFixture[str], package: Path) -> list[int]:
-    """Return the lines of transforms with arguments that Lyrical refuses."""
+    """Return the lines of transforms with arguments that Lyrical rejects."""
     main(["check", str(package), "--distro", "lyrical", "--format", "json", "--select", "LF080"])
     return [item["line"] for item in json.loads(capsys.readouterr().out)["diagnostics"]]
 
 
-def test_a_group_with_a_condition(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_launch_group_with_a_condition(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
     (tmp_path / "launch").mkdir()
     node = _LAUNCH.partition("        Node(")[2].partition(",\n             condition")[0]
@@ -600,7 +602,7 @@ _MARKUP = [
 
 @pytest.mark.parametrize("place", ["node", "group"])
 @pytest.mark.parametrize(("condition", "runs"), _MARKUP)
-def test_conditions_of_launch_in_xml(
+def test_conditions_in_xml_launch_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, place: str, *, runs: bool
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -629,7 +631,7 @@ def test_conditions_of_launch_in_xml(
         ("""if: false""", True),
     ],
 )
-def test_conditions_of_launch_in_yaml(
+def test_conditions_in_yaml_launch_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], condition: str, *, runs: bool
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>talker</name></package>\n")
@@ -645,7 +647,7 @@ def test_conditions_of_launch_in_yaml(
     assert len(lines) == 1 + runs
 
 
-def test_the_linters_of_ament_read_all_branches(
+def test_style_is_checked_in_all_branches(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     (tmp_path / "package.xml").write_text("<package><name>rover</name></package>\n")

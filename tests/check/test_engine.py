@@ -62,7 +62,7 @@ class Loud(Rule):
 
 
 class Crashing(Loud):
-    """Fails after its first diagnostic."""
+    """Raises after its first diagnostic."""
 
     code = "CM901"
 
@@ -83,7 +83,7 @@ class ReadsNotesOfListener(Rule):
 
 
 class NeedsManifest(Loud):
-    """Wants package.xml."""
+    """Reads package.xml."""
 
     code = "CM902"
 
@@ -91,7 +91,7 @@ class NeedsManifest(Loud):
         yield self.report(package.manifest.root, "never")
 
 
-def test_registry_finds_what_is_there(tmp_path: Path) -> None:
+def test_registry_finds_rules(tmp_path: Path) -> None:
     write_rule(tmp_path, "some_flaw", "CM001", "some-flaw")
     write_rule(tmp_path, "_helper", "CM009", "ignored")
     assert [rule.code for rule in registry.load([str(tmp_path)])] == ["CM001"]
@@ -105,14 +105,16 @@ def test_registry_finds_what_is_there(tmp_path: Path) -> None:
         ("broken", "CM003", '" + 1 + "', "TypeError"),
     ],
 )
-def test_registry_refuses(tmp_path: Path, file: str, code: str, rule: str, message: str) -> None:
+def test_registry_rejects_invalid_rules(
+    tmp_path: Path, file: str, code: str, rule: str, message: str
+) -> None:
     write_rule(tmp_path, "first_flaw", "CM001", "first-flaw")
     write_rule(tmp_path, file, code, rule)
     with pytest.raises(ContentError, match=message):
         registry.load([str(tmp_path)])
 
 
-def test_roots_with_equal_file_names_do_not_mix(tmp_path: Path) -> None:
+def test_roots_may_have_equal_file_names(tmp_path: Path) -> None:
     write_rule(tmp_path / "a", "flaw_a", "CM001", "flaw-a")
     write_rule(tmp_path / "b", "flaw_b", "CM002", "flaw-b")
     (tmp_path / "a" / "cmake" / "flaw_c.py").write_text(
@@ -136,13 +138,13 @@ def test_area_may_have_subdirectories(tmp_path: Path) -> None:
     assert area_prefixes(rules) == {"cmake": "CM"}
 
 
-def test_a_crash_is_a_diagnostic_and_the_others_run() -> None:
+def test_crash_is_a_diagnostic_and_other_rules_run() -> None:
     said = runner.check(Package.of({"CMakeLists.txt": ""}), [Crashing(), Loud()])
     assert [d.code for d in said] == ["CM900", "CM901", "SC002"]
     assert "CM901 loud failed: ZeroDivisionError: by zero" in said[-1].message
 
 
-def test_a_missing_view_silences_the_rule() -> None:
+def test_rule_is_silent_about_a_missing_file() -> None:
     package = Package.of({"CMakeLists.txt": ""})
     assert runner.check(package, [NeedsManifest()]) == []
     with pytest.raises(MissingFileError):
@@ -150,7 +152,7 @@ def test_a_missing_view_silences_the_rule() -> None:
 
 
 @pytest.mark.parametrize("order", [("talker", "listener"), ("listener", "talker")])
-def test_what_is_read_for_others_is_not_reported(order: tuple[str, str]) -> None:
+def test_unreadable_file_of_another_package_is_not_reported(order: tuple[str, str]) -> None:
     workspace = Workspace()
     notes = {"listener": b"\xff", "talker": b"heard\n"}
     packages: dict[str, Package] = {}
@@ -166,7 +168,7 @@ def test_what_is_read_for_others_is_not_reported(order: tuple[str, str]) -> None
     assert [one.diagnostics for one in results] == [[], []]
 
 
-def test_an_unparsable_file_is_reported_once() -> None:
+def test_unparsable_file_is_reported_once() -> None:
     package = Package.of({"package.xml": "<package>\n<name>x</nam>\n"})
     said = runner.check(package, [NeedsManifest(), NeedsManifest()])
     assert [(d.code, d.location.path, d.location.line) for d in said] == [
@@ -182,7 +184,7 @@ def test_an_unparsable_file_is_reported_once() -> None:
         ("a.msg", Severity.ERROR),
     ],
 )
-def test_bytes_that_are_not_utf8_are_an_error_where_they_stop_something(
+def test_undecodable_bytes_are_an_error_only_where_they_matter(
     path: str, severity: Severity
 ) -> None:
     class NeedsFile(NeedsManifest):
@@ -209,13 +211,13 @@ def test_bytes_that_are_not_utf8_are_an_error_where_they_stop_something(
         (("CM",), ("SC001",), "SC001", False),
     ],
 )
-def test_selection(
+def test_selected_and_ignored_codes(
     select: tuple[str, ...], ignore: tuple[str, ...], code: str, *, wanted: bool
 ) -> None:
     assert Selection(select, ignore).wants(code) is wanted
 
 
-def test_an_unknown_code_is_refused_with_the_nearest() -> None:
+def test_unknown_code_is_rejected_with_a_suggestion() -> None:
     with pytest.raises(ConfigError, match=r"--select: no rule has the code 'CN001'.*CM001"):
         selection.resolve(["PX", "CN001"], {"CM001": "a-name", "PX001": "b-name"}, {}, "--select")
 
@@ -223,18 +225,18 @@ def test_an_unknown_code_is_refused_with_the_nearest() -> None:
 @pytest.mark.parametrize(
     ("prefix", "new"), [("NM041", "IM041$"), ("NM04", "IM041, IM042, IM043, IM044, IM045$")]
 )
-def test_a_former_code_is_refused_with_the_new_one(prefix: str, new: str) -> None:
+def test_former_code_is_rejected_with_the_new_one(prefix: str, new: str) -> None:
     with pytest.raises(ConfigError, match=f"--select: .*{prefix!r}; renamed to {new}"):
         selection.resolve([prefix], {"CM001": "a", "IM041": "b", "NM001": "c"}, {}, "--select")
 
 
-def test_a_suppression_by_a_former_code_says_so() -> None:
+def test_suppression_by_a_former_code_is_reported() -> None:
     package = Package.of({"a.py": "import a  # noqa: NM041\n"})
     (unused,) = suppression.apply(package, [], {"IM041"})
     assert unused.message == "noqa: NM041 suppresses nothing: renamed to IM041"
 
 
-def test_former_codes_are_free_and_lead_to_rules() -> None:
+def test_former_codes_are_unused_and_map_to_rules() -> None:
     codes = {rule.code for rule in all_rules(registry.load(content.roots("rules")))} | set(CODES)
     assert not renamed_codes().keys() & codes
     assert set(renamed_codes().values()) <= codes
@@ -261,24 +263,24 @@ def test_former_codes_are_free_and_lead_to_rules() -> None:
         ("\n# noqa: CM123", ["CM900"]),
     ],
 )
-def test_suppression_on_the_line(comment: str, left: list[str]) -> None:
+def test_suppression_on_the_same_line(comment: str, left: list[str]) -> None:
     package = Package.of({"CMakeLists.txt": f"project(x)  {comment}\n"})
     kept = suppression.apply(package, runner.check(package, [Loud()]), {"CM900"})
     assert [diagnostic.code for diagnostic in kept] == left
 
 
-def test_a_suppression_in_a_file_without_comments_means_nothing() -> None:
+def test_noqa_in_a_file_without_comments_is_ignored() -> None:
     package = Package.of({"CMakeLists.txt": "", "notes.md": "# noqa: CM900\n"})
     assert suppression.apply(package, [], {"CM900"}) == []
 
 
-def test_a_finding_behind_the_end_of_a_file_stays() -> None:
+def test_finding_after_the_end_of_the_file_is_kept() -> None:
     package = Package.of({"CMakeLists.txt": "# noqa\n"})
     said = [Loud().report(Location("CMakeLists.txt", 9, 1, 9, 1), "behind the end")]
     assert suppression.apply(package, said, set()) == said
 
 
-def test_unused_suppression_is_reported_where_it_stands() -> None:
+def test_unused_suppression_is_reported_at_its_place() -> None:
     text = "project(x)\nset(a b)  # noqa: CM900, CM123\n"
     package = Package.of({"CMakeLists.txt": text})
     kept = suppression.apply(package, runner.check(package, [Loud()]), {"CM900"})
@@ -288,12 +290,12 @@ def test_unused_suppression_is_reported_where_it_stands() -> None:
     ]
 
 
-def test_splice() -> None:
+def test_edits_are_spliced() -> None:
     edits = [Edit("f", 4, 4, "X"), Edit("f", 0, 1, "")]
     assert splice("abcdef", edits) == "bcdXef"
 
 
-def test_a_rule_about_python_does_not_need_a_cmakelists_that_can_be_read() -> None:
+def test_python_rule_works_with_a_broken_cmakelists() -> None:
     (rule,) = (one for one in registry.load(content.roots("rules")) if one.code == "PX020")
     package = Package.of(
         {

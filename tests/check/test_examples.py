@@ -12,7 +12,7 @@ from scaffold.errors import ContentError
 
 
 class Unfinished(Rule):
-    """A rule whose author is not done."""
+    """An unfinished rule."""
 
     code = "LY999"
     name = "unfinished"
@@ -22,6 +22,6 @@ class Unfinished(Rule):
         yield self.report(package.no_such_view, "never reported")  # type: ignore[attr-defined]
 
 
-def test_a_crash_is_not_taken_for_a_report() -> None:
+def test_crash_is_no_report() -> None:
     with pytest.raises(ContentError, match=r"LY999, example 'any package': SC002 .*no_such_view"):
         reports(Unfinished, Unfinished.examples[0])

@@ -1,4 +1,4 @@
-"""`check` on packages made to break it: a diagnostic or silence, never a traceback or a hang."""
+"""`check` on hostile packages: a diagnostic or silence, never a traceback or a hang."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _package(directory: Path, files: dict[str, bytes]) -> Path:
 
 
 def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[bytes]:
-    """Run ``check`` with memory for no more than a few of the largest files."""
+    """Run ``check`` with memory for only a few of the largest files."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
@@ -154,7 +154,7 @@ def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[byte
 
 
 def _check(package: Path) -> list[dict[str, Any]]:
-    """Return what is said about a package."""
+    """Return the findings about a package."""
     done = _run("--format", "json", package)
     assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
     found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
@@ -164,27 +164,27 @@ def _check(package: Path) -> list[dict[str, Any]]:
 
 @pytest.mark.parametrize("kind", BYTES)
 def test_bytes_everywhere(tmp_path: Path, kind: str) -> None:
-    """The same odd bytes as every file that is not the manifest."""
+    """The same odd bytes in every file except the manifest."""
     files = {path: BYTES[kind] for name, path in PLACES.items() if name != "manifest"}
     _check(_package(tmp_path, files))
 
 
 @pytest.mark.parametrize("kind", BYTES)
 def test_bytes_as_manifest(tmp_path: Path, kind: str) -> None:
-    """A manifest that is none, or one behind odd bytes."""
+    """A manifest that is no XML, or is preceded by odd bytes."""
     found = _check(_package(tmp_path, {"package.xml": BYTES[kind]}))
     assert "package.xml" in {one["path"].rpartition("/")[2] for one in found}
 
 
 @pytest.mark.parametrize("place", NESTS)
-def test_nesting(tmp_path: Path, place: str) -> None:
-    """Deeper than any recursion goes."""
+def test_deep_nesting(tmp_path: Path, place: str) -> None:
+    """Nesting deeper than the recursion limit."""
     _check(_package(tmp_path, {PLACES[place]: NESTS[place]}))
 
 
 @pytest.mark.parametrize("kind", CHAINS)
-def test_chains(tmp_path: Path, kind: str) -> None:
-    """Syntax trees that are deep, or values that double, without a bracket."""
+def test_deep_syntax_trees(tmp_path: Path, kind: str) -> None:
+    """Deep syntax trees without brackets, or values that double."""
     _check(_package(tmp_path, {PLACES["python"]: CHAINS[kind], PLACES["launch"]: CHAINS[kind]}))
 
 
@@ -195,13 +195,13 @@ def test_one_long_line(tmp_path: Path, place: str) -> None:
 
 
 @pytest.mark.parametrize("place", ["manifest", "launch xml"])
-def test_entities_are_not_expanded(tmp_path: Path, place: str) -> None:
-    """Twenty lines of XML that stand for 10^19 words."""
+def test_xml_entities_are_not_expanded(tmp_path: Path, place: str) -> None:
+    """Twenty lines of XML that would expand to 10^19 words."""
     _check(_package(tmp_path, {PLACES[place]: LAUGHS}))
 
 
 @pytest.mark.parametrize("place", ["parameters", "launch yaml"])
-def test_aliases_are_not_expanded(tmp_path: Path, place: str) -> None:
+def test_yaml_aliases_are_not_expanded(tmp_path: Path, place: str) -> None:
     """The same in YAML."""
     _check(_package(tmp_path, {PLACES[place]: YAML_LAUGHS}))
 
@@ -209,9 +209,9 @@ def test_aliases_are_not_expanded(tmp_path: Path, place: str) -> None:
 @pytest.mark.parametrize("obstacle", ["pipe", "/dev/zero", "loop", ".", "directory"])
 @pytest.mark.parametrize("group", [0, 1])
 def test_only_regular_files_are_read(tmp_path: Path, group: int, obstacle: str) -> None:
-    """A pipe that nobody writes to, a device without an end, a loop, and a directory.
+    """A pipe without a writer, an endless device, a symlink loop, and a directory.
 
-    They take the place of half of the files at a time: a missing file hides what is beside it.
+    They replace half of the files at a time, since a missing file would hide others.
     """
     package = _package(tmp_path, {})
     for place in [place for place in PLACES if place != "manifest"][group::2]:
@@ -229,7 +229,7 @@ def test_only_regular_files_are_read(tmp_path: Path, group: int, obstacle: str) 
 
 @pytest.mark.parametrize("name", ["package.xml", "node.py"])
 def test_pipe_named_on_the_command_line(tmp_path: Path, name: str) -> None:
-    """What is no file is not waited for."""
+    """A pipe is not waited for."""
     os.mkfifo(tmp_path / name)
     for path in (tmp_path / name, tmp_path):
         assert _run(path).returncode == 2
@@ -245,7 +245,7 @@ def test_loop_of_directories(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
-def test_unreadable(tmp_path: Path) -> None:
+def test_unreadable_file_and_directory(tmp_path: Path) -> None:
     """A file and a directory without permission."""
     package = _package(tmp_path, {"hostile/node.py": b"x = 1\n", "launch/a.launch.py": b""})
     (package / "hostile" / "node.py").chmod(0)
@@ -257,7 +257,7 @@ def test_unreadable(tmp_path: Path) -> None:
 
 
 def test_odd_names(tmp_path: Path) -> None:
-    """Names that are no text, hold line ends or escapes, or are as long as they get."""
+    """Undecodable names, names with newlines or escapes, and names of maximum length."""
     package = _package(tmp_path / "package", {})
     names = [b"caf\xe9.py", b"a\nb.py", b"a\x1b[31mb.py", b"n" * 252 + b".py", b"-x.py", b" .py"]
     for name in names:
@@ -274,7 +274,7 @@ def test_odd_names(tmp_path: Path) -> None:
 
 
 def test_odd_directories(tmp_path: Path) -> None:
-    """Packages in directories whose names are no text, hold line ends or escapes."""
+    """Packages in directories with undecodable names, newlines or escapes."""
     for name in (b"caf\xe9", b"a\nb", b"a\x1b[31mb"):
         package = Path(os.fsdecode(os.path.join(os.fsencode(tmp_path), name)))
         _package(package, {"hostile/node.py": b"import os\n", "caf\udce9.py": b"x = 1 \n"})
@@ -289,8 +289,8 @@ def test_odd_directories(tmp_path: Path) -> None:
         assert done.stderr.count(b"\n") == 1
 
 
-def test_terminals_are_not_given_escapes_of_files(tmp_path: Path) -> None:
-    """A patch is exact in a file and spelled out on a terminal."""
+def test_control_characters_in_files_are_escaped_on_terminals(tmp_path: Path) -> None:
+    """A patch is exact in a file and escaped on a terminal."""
     package = _package(tmp_path, {"node.py": b"X = '\x1b[2J\xc2\x9b'  \n"})
     assert b"+X = '\x1b[2J\xc2\x9b'\n" in _run("--diff", package).stdout
     leader, follower = pty.openpty()
@@ -313,8 +313,8 @@ def test_terminals_are_not_given_escapes_of_files(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_too_large(tmp_path: Path, place: str) -> None:
-    """Three megabytes of any kind: nothing is said of what is in it."""
+def test_too_large_file(tmp_path: Path, place: str) -> None:
+    """Three megabytes of any kind: the content is not checked."""
     found = _check(_package(tmp_path, {PLACES[place]: b"# " + b"x \n" * 1_000_000}))
     here = {one["code"] for one in found if one["path"].endswith(PLACES[place])}
     about_the_file = {"SC004", "E902", "LY006", "LY020", "PX050"}
@@ -322,8 +322,8 @@ def test_too_large(tmp_path: Path, place: str) -> None:
 
 
 @pytest.mark.parametrize("place", ["CMakeLists.txt", "package.xml"])
-def test_a_line_that_is_too_long(tmp_path: Path, place: str) -> None:
-    """A line of 60 kB is within the size of a file, and no line that people write."""
+def test_too_long_line(tmp_path: Path, place: str) -> None:
+    """A line of 60 kB is within the size limit of files, but nobody writes such a line."""
     found = _check(_package(tmp_path, {place: b"x;" * 30_000}))
     (told,) = (one for one in found if one["code"] == "SC004")
     assert told["path"].endswith(place)
@@ -340,7 +340,7 @@ TINY = {
 
 @pytest.mark.parametrize("place", TINY)
 def test_too_many_words(tmp_path: Path, place: str) -> None:
-    """The time goes by the words, not by the bytes: in code they have a bound of their own."""
+    """The time depends on the number of words, which has its own limit in code."""
     data, message = TINY[place]
     found = _check(_package(tmp_path, {PLACES[place]: data}))
     told = [one["message"] for one in found if one["code"] == "SC004"]
@@ -349,7 +349,7 @@ def test_too_many_words(tmp_path: Path, place: str) -> None:
 
 @pytest.mark.parametrize("place", ["launch xml", "launch yaml"])
 def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
-    """They are decoded in their own way, and have the bound of all others."""
+    """They are decoded in another way, with the same limit as all other files."""
     node = {"launch xml": b"<node pkg='a' exec='b'/>\n", "launch yaml": b"- node: {pkg: a}\n"}
     head = {"launch xml": b"<launch>\n", "launch yaml": b"launch:\n"}
     tail = {"launch xml": b"</launch>\n", "launch yaml": b""}
@@ -359,7 +359,7 @@ def test_large_launch_files_are_not_read(tmp_path: Path, place: str) -> None:
     assert said == {"SC004"}
 
 
-def test_too_many_words_for_the_style(tmp_path: Path) -> None:
+def test_too_many_words_for_style_checks(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x\n" * 60_000}))
     said = [one["message"] for one in found if one["code"] == "SC004"]
     assert {one["code"] for one in found if one["path"].endswith("node.py")} <= {"SC004", "LY020"}
@@ -380,7 +380,7 @@ OVERSIZED = {
 
 
 @pytest.mark.parametrize("name", OVERSIZED)
-def test_too_much_code(tmp_path: Path, name: str) -> None:
+def test_too_much_repeated_code(tmp_path: Path, name: str) -> None:
     """A few words repeated thousands of times: one diagnostic for rules and style alike."""
     text, message = OVERSIZED[name]
     found = _check(_package(tmp_path, {"hostile/node.py": text.encode()}))
@@ -397,14 +397,14 @@ def test_the_largest_files_that_people_write_are_checked(tmp_path: Path) -> None
     assert {"E402", "F401"} <= codes
 
 
-def test_a_line_that_is_too_long_for_the_style(tmp_path: Path) -> None:
+def test_too_long_line_for_style_checks(tmp_path: Path) -> None:
     found = _check(_package(tmp_path, {"hostile/node.py": b"x;" * 30_000}))
     said = {one["code"] for one in found if one["path"].endswith("node.py")}
     assert said <= {"SC004", "LY020"}
 
 
 def test_too_many_findings(tmp_path: Path) -> None:
-    """A flood ends, and says so."""
+    """The number of findings is limited, with a note."""
     found = _check(_package(tmp_path, {"hostile/node.py": b"# x  \n" * 6000}))
     assert sum(one["code"] == "W291" for one in found) == 5000
     (told,) = (one for one in found if one["code"] == "SC005")
@@ -454,8 +454,8 @@ REPEATED = {
 
 
 @pytest.mark.parametrize("kind", REPEATED)
-def test_steps_grow_with_the_input(kind: str) -> None:
-    """Four times the lines take four times the calls, not sixteen; counted, not timed."""
+def test_steps_are_linear_in_the_number_of_lines(kind: str) -> None:
+    """Four times the lines take four times the calls, not sixteen times."""
     path, head, line = REPEATED[kind]
     rules = registry.load(content.roots("rules", ()))
     session = Session(rules, Selection(select=tuple({rule.code[:2] for rule in rules})))
@@ -480,8 +480,8 @@ def test_steps_grow_with_the_input(kind: str) -> None:
 
 
 @pytest.mark.parametrize("line", ["x;", "[1 ,2 ],", "( x ),"])
-def test_steps_grow_with_a_line(line: str) -> None:
-    """A line four times as long takes four times the steps of the style rules, not sixteen."""
+def test_style_steps_are_linear_in_the_length_of_a_line(line: str) -> None:
+    """A line four times as long takes four times the steps of the style rules."""
 
     def steps(count: int) -> int:
         data = (line * count + "\n").encode()
@@ -504,8 +504,8 @@ def test_steps_grow_with_a_line(line: str) -> None:
     assert steps(800) < 6 * steps(200)
 
 
-def test_files_that_vanish(tmp_path: Path) -> None:
-    """Every file is there when it is listed and gone when it is read."""
+def test_files_removed_during_the_check(tmp_path: Path) -> None:
+    """Every file is removed between listing and reading."""
     package = Package.at(_package(tmp_path, dict.fromkeys(PLACES.values(), b"x = 1\n")))
     assert package.files
     for path in package.files:

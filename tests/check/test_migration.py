@@ -1,4 +1,4 @@
-"""What a move to another distribution reports, fixes and leaves."""
+"""`migrate`: what the move to another distribution reports, fixes and leaves."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def migrate(
     capsys: pytest.CaptureFixture[str], *words: str
 ) -> tuple[dict[str, list[str]], list[dict[str, Any]]]:
-    """Return what is reported: the codes of each kind, and all findings."""
+    """Return the reported codes by kind, and all findings."""
     capsys.readouterr()
     main(["migrate", "--to", "lyrical", "--format", "json", *words])
     data = json.loads(capsys.readouterr().out)
@@ -173,7 +173,7 @@ def migrate(
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_move_reports_what_breaks_what_changes_and_what_is_deprecated(
+def test_report_of_breaks_changes_and_deprecations(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     found, everything = migrate(capsys)
@@ -192,9 +192,7 @@ def test_a_move_reports_what_breaks_what_changes_and_what_is_deprecated(
     assert "  breaks:" in lines
 
 
-def test_fixes_repair_what_is_safe_and_nothing_else(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_only_safe_fixes_are_applied(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = workspace.parent / "before"
     shutil.copytree(workspace, before)
     assert main(["migrate", "--to", "lyrical", "--diff"]) == 1
@@ -228,7 +226,7 @@ def test_fixes_repair_what_is_safe_and_nothing_else(
     capsys.readouterr()
 
 
-def test_fixes_that_need_a_look_are_applied_where_they_are_asked_for(
+def test_unsafe_fixes_are_applied_on_request(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     lists = workspace / "listed" / "CMakeLists.txt"
@@ -239,7 +237,9 @@ def test_fixes_that_need_a_look_are_applied_where_they_are_asked_for(
     assert "${std_msgs_TARGETS} ${shapes_TARGETS})" in lists.read_text()
 
 
-def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_fixes_keep_code_valid_on_kept_distributions(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     main(["migrate", "--to", "lyrical", "--keep", "jazzy", "--fix"])
     node = (workspace / "twenty" / "twenty" / "node.py").read_text()
     assert "from rclpy.topic_endpoint_info import" in node
@@ -258,7 +258,7 @@ def test_what_is_kept_still_runs(workspace: Path, capsys: pytest.CaptureFixture[
     assert main(["check", "--distro", "jazzy", "--select", rules]) == 0
 
 
-def test_a_deprecated_executable_without_a_successor_on_what_is_kept(
+def test_deprecated_executable_without_successor_on_kept_distribution(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     package = tmp_path / "twenty"
@@ -275,7 +275,7 @@ def test_a_deprecated_executable_without_a_successor_on_what_is_kept(
     assert "new in Lyrical: nothing suits Jazzy as well, so write a branch" in out
 
 
-def test_what_is_kept_is_checked_and_recorded_once_nothing_breaks(
+def test_kept_distribution_is_checked_and_recorded_when_nothing_breaks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -306,7 +306,7 @@ def test_what_is_kept_is_checked_and_recorded_once_nothing_breaks(
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_move_to_the_same_distribution_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_move_to_the_same_distribution_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["migrate", "--to", "jazzy"]) == 2
     error = capsys.readouterr().err
     assert "listed, twenty: not moved: no record and no configuration says" in error
@@ -317,7 +317,7 @@ def test_a_move_to_the_same_distribution_is_refused(capsys: pytest.CaptureFixtur
     assert "use --to for the distribution to move to" in capsys.readouterr().err
 
 
-def test_a_move_back_reports_what_breaks_and_not_what_gets_better(
+def test_move_to_an_older_distribution_reports_only_breaks(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     node = workspace / "twenty" / "twenty" / "node.py"
@@ -337,7 +337,7 @@ def test_a_move_back_reports_what_breaks_and_not_what_gets_better(
     )
 
 
-def test_the_record_of_a_package_says_what_it_has_moved_to(
+def test_record_names_the_new_distribution(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -362,7 +362,7 @@ def test_the_record_of_a_package_says_what_it_has_moved_to(
     assert "ROS 2 Lyrical" in (tmp_path / "talker" / "README.md").read_text()
 
 
-def test_each_package_comes_from_what_its_record_says(
+def test_origin_of_a_package_is_in_its_record(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -411,7 +411,7 @@ def test_each_package_comes_from_what_its_record_says(
     assert json.loads(records["c"].read_text())["answers"]["distro"] == ["kilted", "lyrical"]
 
 
-def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
+def test_packages_without_a_record_use_the_configuration(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     main(["migrate", "listed", "--to", "lyrical", "--fix"])
@@ -425,7 +425,7 @@ def test_packages_without_a_record_are_checked_for_what_the_configuration_says(
     assert "check.distribution" not in capsys.readouterr().err
 
 
-def test_a_keyword_that_is_no_field_breaks_where_it_was_dropped_before(
+def test_unknown_field_keyword_breaks_where_it_was_ignored(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     module = workspace / "twenty" / "twenty" / "sent.py"
@@ -451,7 +451,7 @@ def test_a_keyword_that_is_no_field_breaks_where_it_was_dropped_before(
         "return ActionServer({args}) if {asked} else ActionServer({args})",
     ],
 )
-def test_a_call_for_one_distribution_alone_does_not_change(
+def test_call_in_a_branch_for_one_distribution_is_no_change(
     workspace: Path, capsys: pytest.CaptureFixture[str], body: str
 ) -> None:
     module = workspace / "twenty" / "twenty" / "node.py"
@@ -465,7 +465,7 @@ def test_a_call_for_one_distribution_alone_does_not_change(
         assert found["changes"] == ["IM052"] * count
 
 
-def test_a_branch_for_the_target_is_no_change(
+def test_branch_for_the_target_is_no_change(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     module = workspace / "twenty" / "twenty" / "node.py"
@@ -479,7 +479,7 @@ def test_a_branch_for_the_target_is_no_change(
     assert found["changes"] == []
 
 
-def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
+def test_sorted_imports_stay_sorted(workspace: Path) -> None:
     package = workspace / "twenty" / "twenty"
     ordered = "from rclpy.node import Node\nfrom rclpy.qos_event import QoSEventHandler\n"
     unordered = "from rclpy.qos_event import QoSEventHandler\nimport rclpy\n"
@@ -495,9 +495,7 @@ def test_imports_stay_in_order_where_they_were(workspace: Path) -> None:
 @pytest.mark.parametrize(
     ("comment", "is_moved"), [("keep", True), ("noqa: F401", True), ("after the node", False)]
 )
-def test_an_import_is_sorted_with_its_comment_unless_that_is_about_its_place(
-    workspace: Path, comment: str, is_moved: bool
-) -> None:
+def test_import_is_moved_with_its_comment(workspace: Path, comment: str, is_moved: bool) -> None:
     module = workspace / "twenty" / "twenty" / "ordered.py"
     node = "from rclpy.node import (\n    Node,  # base\n)\n"
     name = "SubscriptionEventCallbacks"
@@ -507,9 +505,7 @@ def test_an_import_is_sorted_with_its_comment_unless_that_is_about_its_place(
     assert module.read_text() == (callbacks + node if is_moved else node + callbacks)
 
 
-def test_fixes_leave_no_more_imports_unsorted_than_there_were(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_fixes_cause_no_unsorted_imports(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     _new("talker")
     module = Path("talker/talker/events.py")
@@ -523,7 +519,7 @@ def test_fixes_leave_no_more_imports_unsorted_than_there_were(
     assert "rclpy.event_handler" in module.read_text()
 
 
-def test_the_patch_is_what_is_written(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_patch_equals_written_changes(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _new("talker", "plain")
     ordered = "from rclpy.node import Node\nfrom rclpy.qos_event import QoSEventHandler\n"
     Path("talker/talker/ordered.py").write_text(ordered)
@@ -545,7 +541,7 @@ def test_the_patch_is_what_is_written(workspace: Path, capsys: pytest.CaptureFix
     assert "rclpy.qos_event" not in Path("talker/talker/ordered.py").read_text()
 
 
-def test_a_kept_distribution_is_judged_where_packages_come_from_it(
+def test_kept_distribution_is_checked_for_packages_of_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -558,7 +554,7 @@ def test_a_kept_distribution_is_judged_where_packages_come_from_it(
         assert ("no module 'rclpy.endpoint_info'" in capsys.readouterr().out) == code
 
 
-def test_files_that_the_build_skips_do_not_hold_a_package_back(
+def test_findings_in_files_that_are_not_built_do_not_block(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -573,7 +569,7 @@ def test_files_that_the_build_skips_do_not_hold_a_package_back(
     assert _recorded("talker") == ["lyrical"]
 
 
-def test_one_record_that_names_what_has_ended_does_not_stop_a_check(
+def test_record_with_unsupported_distribution_does_not_stop_a_check(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -594,9 +590,7 @@ def test_one_record_that_names_what_has_ended_does_not_stop_a_check(
             assert shown.out.splitlines()[-1].startswith(titles)
 
 
-def test_an_origin_that_is_assumed_is_named(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_assumed_origin_is_noted(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.rmtree(workspace / "twenty")
     for flags, is_named in (((), True), (("--from", "jazzy"), False)):
         capsys.readouterr()
@@ -605,7 +599,7 @@ def test_an_origin_that_is_assumed_is_named(
         assert (sentence in capsys.readouterr().err) == is_named
 
 
-def test_a_call_with_too_many_arguments_is_one_finding(
+def test_call_with_too_many_arguments_is_one_finding(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "twenty" / "twenty" / "node.py").write_text(
@@ -617,9 +611,7 @@ def test_a_call_with_too_many_arguments_is_one_finding(
     assert message.startswith("Subscription() takes 6 positional arguments at most, not 8")
 
 
-def test_a_message_is_printed_once_with_the_other_lines_below(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_equal_messages_are_grouped(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     node = workspace / "twenty" / "twenty" / "node.py"
     capsys.readouterr()
     main(["migrate", "--to", "lyrical"])
@@ -633,7 +625,7 @@ def test_a_message_is_printed_once_with_the_other_lines_below(
     assert lines[at + 1].strip() == f"also twenty/twenty/node.py:{also}"
 
 
-def test_a_move_to_the_same_under_another_name_says_so(
+def test_move_to_an_alias_of_the_same_distribution_is_noted(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["migrate", str(workspace), "--from", "lyrical", "--to", "rolling"]) == 2
@@ -650,7 +642,7 @@ def _recorded(name: str) -> object:
     return json.loads(Path(name, ".ros2-scaffold.json").read_text())["answers"]["distro"]
 
 
-def test_files_that_cannot_be_read_are_named_and_nothing_is_recorded(
+def test_unreadable_files_are_noted_and_nothing_is_recorded(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -703,7 +695,7 @@ class Server(Node):
 """
 
 
-def test_a_package_is_recorded_once_nothing_is_left(
+def test_package_is_recorded_when_no_finding_is_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -726,7 +718,7 @@ def test_a_package_is_recorded_once_nothing_is_left(
     assert main(["check", "talker", "--select", "IM,SC"]) == 0
 
 
-def test_syntax_and_annotations_that_an_older_python_refuses_break(
+def test_syntax_and_annotations_unsupported_by_older_python_break(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -746,7 +738,7 @@ def test_syntax_and_annotations_that_an_older_python_refuses_break(
     assert found["talker/talker/syntax.py"] == "E999"
 
 
-def test_paths_in_no_package_are_refused(
+def test_paths_outside_of_packages_are_rejected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -756,7 +748,7 @@ def test_paths_in_no_package_are_refused(
         assert f"{name}: not in a ROS 2 package" in capsys.readouterr().err
 
 
-def test_modules_that_setuptools_may_lend_are_among_what_breaks(
+def test_distutils_provided_by_setuptools_is_a_break(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (workspace / "twenty" / "twenty" / "node.py").write_text("from distutils import util\n")
@@ -766,7 +758,7 @@ def test_modules_that_setuptools_may_lend_are_among_what_breaks(
     assert "TY001" in {item["code"] for item in package["breaks"]}
 
 
-def test_packages_that_nothing_is_known_of_are_named(
+def test_packages_of_unknown_origin_are_noted(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shutil.rmtree(workspace / "twenty")
@@ -786,7 +778,7 @@ def test_packages_that_nothing_is_known_of_are_named(
         (["foxy"], ("--from", "jazzy"), "Jazzy"),
     ],
 )
-def test_a_record_of_what_is_supported_no_more_moves(
+def test_record_with_unsupported_distribution_can_move(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -825,7 +817,7 @@ def test_a_record_of_what_is_supported_no_more_moves(
         ["check", "--distro", "jazzy,lyrical"],
     ],
 )
-def test_a_patch_is_not_silent_about_files_that_cannot_be_read(
+def test_patch_notes_unreadable_files(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -842,9 +834,7 @@ def test_a_patch_is_not_silent_about_files_that_cannot_be_read(
     assert capsys.readouterr().err.endswith(note)
 
 
-def test_a_package_of_ros1_is_not_examined(
-    workspace: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_ros1_package_is_not_examined(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     depends = "<buildtool_depend>catkin</buildtool_depend><depend>rospy</depend>"
     (workspace / "listed" / "package.xml").write_text(
         _MANIFEST.format(name="listed", depends=depends, kind="catkin")

@@ -1,4 +1,4 @@
-"""Directories that are sent to a worker of a cluster are there what they are here."""
+"""Directories sent to a worker of a cluster equal the originals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from scaffold.files.disk import MAX_BYTES, Disk
 
 
 def sent(tmp_path: Path, *directories: Path) -> str:
-    """Return where the directories are on a worker: their paths go below it."""
+    """Return the root on a worker below which the paths of the directories are mirrored."""
     packer = mirror.Packer()
     for directory in directories:
         packer.add_tree(str(directory))
@@ -22,7 +22,7 @@ def sent(tmp_path: Path, *directories: Path) -> str:
     return os.path.realpath(there)
 
 
-def test_files_links_and_modes_are_the_same(tmp_path: Path) -> None:
+def test_files_symlinks_and_modes_are_mirrored(tmp_path: Path) -> None:
     here = tmp_path / "here"
     (here / "robot" / "scripts").mkdir(parents=True)
     (here / "elsewhere").mkdir()
@@ -46,7 +46,7 @@ def test_files_links_and_modes_are_the_same(tmp_path: Path) -> None:
     assert Path(there, "absolute").resolve() == Path(there).parent / "elsewhere" / "file"
 
 
-def test_file_that_nobody_reads_keeps_its_size_alone(tmp_path: Path) -> None:
+def test_unread_file_keeps_only_its_size(tmp_path: Path) -> None:
     here = tmp_path / "here"
     here.mkdir()
     with (here / "mesh.stl").open("wb") as file:
@@ -57,7 +57,7 @@ def test_file_that_nobody_reads_keeps_its_size_alone(tmp_path: Path) -> None:
     assert there.read_bytes()[:5] == bytes(5)
 
 
-def test_what_builds_and_git_leave_behind_stays_here(tmp_path: Path) -> None:
+def test_build_products_and_git_data_are_not_sent(tmp_path: Path) -> None:
     here = tmp_path / "here"
     for name in ("build", "src/robot/install", "src/robot/build"):
         (here / name).mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""A file that exhausts the tool costs itself: the other files and packages are reported."""
+"""A file that exhausts memory, time or recursion does not hide other files and packages."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def _run(*arguments: str | os.PathLike[str]) -> subprocess.CompletedProcess[str]
 
 
 def _codes(*arguments: str | os.PathLike[str]) -> set[tuple[str, str]]:
-    """Return the codes of a run by the names of the files."""
+    """Return file names and codes of the findings of a run."""
     done = _run("--format", "json", *arguments)
     assert done.returncode in {0, 1}, (done.stdout[-1500:], done.stderr[-1500:])
     found: list[dict[str, Any]] = json.loads(done.stdout)["diagnostics"]
@@ -74,7 +74,7 @@ def _codes(*arguments: str | os.PathLike[str]) -> set[tuple[str, str]]:
 
 
 @pytest.mark.parametrize("kind", DEEP)
-def test_a_deep_file_does_not_hide_the_others(tmp_path: Path, kind: str) -> None:
+def test_deep_file_does_not_hide_the_others(tmp_path: Path, kind: str) -> None:
     deep = _write(tmp_path / "deep", {"a.py": DEEP[kind], "b.py": "import os\n"})
     other = _write(tmp_path / "other", {"c.py": "import os\n"})
     found = _codes(deep, other)
@@ -82,12 +82,12 @@ def test_a_deep_file_does_not_hide_the_others(tmp_path: Path, kind: str) -> None
     assert "SC002" not in {code for _, code in found}
 
 
-def test_a_deep_file_is_told_of_when_only_style_is_asked_for(tmp_path: Path) -> None:
+def test_deep_file_is_reported_by_style_checks(tmp_path: Path) -> None:
     files = {"a.py": DEEP["a sum of attributes"]}
     assert ("a.py", "SC001") in _codes("--select", "F811,SC", _write(tmp_path / "deep", files))
 
 
-def test_a_file_that_breaks_the_style_is_a_defect_at_that_file(
+def test_crash_of_style_checks_is_reported_at_the_file(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     from scaffold.ament import verdict as rules
@@ -109,7 +109,7 @@ def test_a_file_that_breaks_the_style_is_a_defect_at_that_file(
 
 
 class _Recursive(Rule):
-    """Follows the names of modules as deep as they are long."""
+    """Recurses once per character of a module."""
 
     code = "ND990"
     name = "recursive"
@@ -125,7 +125,7 @@ class _Recursive(Rule):
             self._descend(module, depth - 1)
 
 
-def test_a_file_that_exhausts_a_rule_is_left_out_of_it() -> None:
+def test_file_that_exhausts_a_rule_is_skipped_by_it() -> None:
     package = Package.of({"a.py": "# " * 9000, "b.py": "# b\n", "c.py": "# c" * 6000})
     found = runner.check(package, [_Recursive()])
     assert [(one.location.path, one.code) for one in found] == [
@@ -136,7 +136,7 @@ def test_a_file_that_exhausts_a_rule_is_left_out_of_it() -> None:
 
 
 @pytest.mark.parametrize("encoding", ["idna", "punycode", "utf-7", "unicode_escape", "hz"])
-def test_fixes_in_an_encoding_that_cannot_hold_them(tmp_path: Path, encoding: str) -> None:
+def test_unencodable_style_fixes_are_skipped(tmp_path: Path, encoding: str) -> None:
     text = f"# coding: {encoding}\nimport os\nX = \"a\\n..{'b' * 80}\" + 'é..'\n"
     package = _write(tmp_path / "odd", {"a.py": text, "b.py": "import os\nX = 1\n"})
     done = _run("--fix", package)
@@ -145,7 +145,7 @@ def test_fixes_in_an_encoding_that_cannot_hold_them(tmp_path: Path, encoding: st
     assert (package / "a.py").read_text() == text
 
 
-def test_a_fix_that_an_encoding_cannot_hold_is_not_written() -> None:
+def test_unencodable_fix_is_not_written() -> None:
     package = Package.of({"a.py": "# coding: latin-1\nx = 1\n"})
     rule = _Euro()
     fixed = fixer.fix(package, lambda current: list(rule.check(current)))
@@ -153,7 +153,7 @@ def test_a_fix_that_an_encoding_cannot_hold_is_not_written() -> None:
 
 
 class _Euro(Rule):
-    """Writes a character that is not in Latin-1."""
+    """Fixes with a character that is not in Latin-1."""
 
     code = "ND991"
     name = "euro"
@@ -188,8 +188,8 @@ LARGE = {
 
 
 @pytest.mark.parametrize("path", LARGE)
-def test_a_size_is_asked_for_before_a_file_is_read(tmp_path: Path, path: str) -> None:
-    """A gigabyte that is not on the disk; the process has memory for half of it."""
+def test_size_is_checked_before_reading(tmp_path: Path, path: str) -> None:
+    """A sparse file of a gigabyte; the process has memory for half of it."""
     package = _write(tmp_path / "large", {"b.py": "import os\n"})
     (package / path).parent.mkdir(parents=True, exist_ok=True)
     (package / path).touch()
@@ -200,7 +200,7 @@ def test_a_size_is_asked_for_before_a_file_is_read(tmp_path: Path, path: str) ->
     assert {(name, code) for code in LARGE[path]} <= found
 
 
-def test_a_large_file_counts_by_its_stamp(tmp_path: Path) -> None:
+def test_large_file_is_identified_by_its_time_stamp(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.touch()
     os.truncate(path, SPARSE)
@@ -212,7 +212,7 @@ def test_a_large_file_counts_by_its_stamp(tmp_path: Path) -> None:
     assert not holds(disk.seen)
 
 
-def test_a_file_within_its_bound_that_grows_is_another_one(tmp_path: Path) -> None:
+def test_file_that_grows_beyond_its_limit_is_noticed(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"abc")
     disk = Disk()
@@ -224,8 +224,8 @@ def test_a_file_within_its_bound_that_grows_is_another_one(tmp_path: Path) -> No
         Disk().read(str(path), most=3)
 
 
-def test_files_without_a_size_are_read_to_their_end() -> None:
-    """The kernel's own files say that they have no bytes."""
+def test_files_of_size_zero_in_proc_are_read() -> None:
+    """Files in /proc have a size of 0 bytes."""
     assert Disk().read("/proc/self/status").startswith(b"Name:")
     with pytest.raises(LargeFileError):
         Disk().read("/proc/self/status", most=10)
@@ -262,8 +262,8 @@ def _schema_findings(package: Package) -> Sequence[tuple[str, str]]:
         ("a.rng", f'<externalRef xmlns="{RNG}" href="pipe"/>\n'),
     ],
 )
-def test_a_schema_makes_nobody_open_other_files(tmp_path: Path, name: str, schema: str) -> None:
-    """A pipe that nobody writes to: whoever opens it waits for ever."""
+def test_schema_cannot_open_other_files(tmp_path: Path, name: str, schema: str) -> None:
+    """Opening a pipe without a writer would block forever."""
     use = (
         f'<a {XSI} xsi:noNamespaceSchemaLocation="a.xsd"/>\n'
         if name == "a.xsd"
@@ -276,15 +276,15 @@ def test_a_schema_makes_nobody_open_other_files(tmp_path: Path, name: str, schem
     assert found == [("PX052", message)]
 
 
-def test_a_pipe_as_schema_is_not_waited_for(tmp_path: Path) -> None:
+def test_pipe_as_schema_is_not_waited_for(tmp_path: Path) -> None:
     directory = _write(tmp_path / "schemas", {"a.xml": MODEL.format("")})
     os.mkfifo(directory / "a.rng")
     message = "names the schema a.rng, but there is no file a.rng"
     assert _schema_findings(Package.at(directory)) == [("PX051", message)]
 
 
-def test_a_schema_that_takes_for_ever_is_ended() -> None:
-    """Sixty choices, each of which doubles the ways to go on."""
+def test_endless_schema_validation_is_stopped() -> None:
+    """Sixty choices, each of which doubles the number of states."""
     element = "<element name='b'><{}/></element>"
     choice = f"<choice>{element.format('empty')}{element.format('text')}</choice>"
     doubling = "".join(
@@ -303,7 +303,7 @@ def test_a_schema_that_takes_for_ever_is_ended() -> None:
     assert told.startswith(message)
 
 
-def test_several_documents_have_their_own_verdicts() -> None:
+def test_each_document_has_its_own_findings() -> None:
     schema = f"<element name='a' xmlns='{RNG}'><empty/></element>"
     files = {
         "a.rng": schema,
@@ -319,7 +319,7 @@ def test_several_documents_have_their_own_verdicts() -> None:
 
 
 class Endless(Rule):
-    """Never ends with one file."""
+    """Never returns for one file."""
 
     code = "XX001"
     name = "endless"
@@ -336,7 +336,7 @@ class Endless(Rule):
             yield self.report(package.start_of(path), "seen")
 
 
-def test_a_file_that_takes_too_long_costs_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_that_takes_too_long_is_skipped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(time_limit.limited.__wrapped__, "__defaults__", (0.05,))  # type: ignore[attr-defined]
     package = Package.of({"a.py": "a = 1\n", "b.py": "# endless\n", "c.py": "c = 1\n"})
     reported = [(d.location.path, d.code, d.message) for d in runner.check(package, [Endless()])]
@@ -348,7 +348,7 @@ def test_a_file_that_takes_too_long_costs_itself(monkeypatch: pytest.MonkeyPatch
     assert not package.is_repeatable, "another machine may be faster"
 
 
-def test_the_style_of_a_file_may_not_take_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_style_checks_of_a_file_have_a_time_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     def check(*_: object) -> list[Finding]:
         while True:
             pass

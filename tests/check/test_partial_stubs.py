@@ -1,4 +1,4 @@
-"""The stubs of libraries of Python let everything pass that these libraries have."""
+"""Partial stubs of Python libraries accept everything that the libraries have."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from scaffold.types.stubs.libraries import partial_libraries, partial_stubs
 
 
 @pytest.mark.parametrize("path", sorted(partial_stubs()))
-def test_names_that_are_not_in_a_stub_may_be_anything(path: str) -> None:
+def test_other_names_in_a_stub_are_any(path: str) -> None:
     assert "def __getattr__(name: str) -> Any: ..." in partial_stubs()[path]
 
 
-def test_an_array_has_the_attributes_of_the_real_one() -> None:
+def test_array_has_the_attributes_of_numpy() -> None:
     stub = ast.parse(partial_stubs()["numpy/__init__.pyi"])
     class_ = next(node for node in stub.body if isinstance(node, ast.ClassDef))
     names = {node.name for node in class_.body if isinstance(node, ast.FunctionDef)}

@@ -1,4 +1,4 @@
-"""What one module of a package passes to another is known there."""
+"""Types of arguments passed from one module of a package to another."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ RIGHT = ("get_name", "get_clock", "data")
         ("from . import util", "arm = util.Arm(self)\n        arm.move(String())", 2, 12),
     ],
 )
-def test_what_is_passed_is_known_in_the_other_module(
+def test_argument_types_are_known_in_the_other_module(
     check: Check, source: Path, import_: str, statement: str, wrong: int, found: int
 ) -> None:
     files = {"talker/talk.py": TALK.format(import_, statement)}
@@ -89,14 +89,14 @@ def test_what_is_passed_is_known_in_the_other_module(
         ("from .util import Arm", "self.name_of(self)"),
     ],
 )
-def test_what_is_not_known(check: Check, source: Path, import_: str, statement: str) -> None:
+def test_unknown_argument_types(check: Check, source: Path, import_: str, statement: str) -> None:
     files = {"talker/talk.py": TALK.format(import_, statement)}
     files["talker/util.py"] = UTIL.format("wrong", "get_clock", "data")
     make_package(source, "talker", files)
     assert [item for item in check("talker") if "util" in item] == []
 
 
-def test_a_value_for_one_case_says_nothing_about_the_others(check: Check, source: Path) -> None:
+def test_argument_of_one_call_does_not_affect_other_cases(check: Check, source: Path) -> None:
     util = (
         "def read(message, kind):\n    if kind == 'text':\n        return message.data\n"
         "    return message.pose\n\n\n"
@@ -109,7 +109,7 @@ def test_a_value_for_one_case_says_nothing_about_the_others(check: Check, source
     assert check("talker") == ["talker/talker/util.py:10:TY003"]
 
 
-def test_an_edit_where_a_function_is_called_changes_the_verdict(check: Check, source: Path) -> None:
+def test_edited_call_changes_the_findings(check: Check, source: Path) -> None:
     files = {
         "talker/talk.py": TALK.format("from .util import name_of", "name_of(self)"),
         "talker/util.py": UTIL.format(*RIGHT),
@@ -131,7 +131,7 @@ def test_an_edit_where_a_function_is_called_changes_the_verdict(check: Check, so
     assert check("talker") == []
 
 
-def test_a_function_is_checked_again_only_if_it_gets_other_types(
+def test_function_is_only_checked_again_if_argument_types_change(
     check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     call = "from std_msgs.msg import {0}\n\nfrom .util import read\n\nread({0}(), 3)\n"
@@ -163,7 +163,7 @@ def test_a_function_is_checked_again_only_if_it_gets_other_types(
     assert asked == []
 
 
-def test_types_that_do_not_tell_all() -> None:
+def test_incomplete_types_are_unknown() -> None:
     def known(type_: str, own: str = "") -> bool:
         reported = [TyDiagnostic("revealed-type", 1, 1, 1, 1, f"Revealed type: `{type_}`")]
         package = Package(MemoryTree({}))
@@ -184,7 +184,7 @@ def test_types_that_do_not_tell_all() -> None:
     assert not known("list[int]", "class int(str): pass\n")
 
 
-def test_the_lines_that_are_added() -> None:
+def test_inserted_lines() -> None:
     names = own_names(b"from .arm import Arm, move\nfrom .msg import Beat\n", "robot.main")
     assert names == {"Arm": "robot.arm.Arm", "move": "robot.arm.move"}
     text = "arm = Arm(1)\narm.turn(angle)\nmove('a', b)\nBeat(1)\nremove(1)\n"

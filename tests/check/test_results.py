@@ -1,4 +1,4 @@
-"""Functions get annotations for results that are plain whatever they are given."""
+"""Inferred return annotations of functions whose result does not depend on arguments."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from scaffold.types.rewriting.results import plain_result
         ),
     ],
 )
-def test_plain_results(body: str, type_: str) -> None:
+def test_inferred_result_types(body: str, type_: str) -> None:
     assert plain_result("(self, given)", body) == type_
 
 
@@ -47,5 +47,5 @@ def test_plain_results(body: str, type_: str) -> None:
         "    return (Pose(), 1)[0]\n",
     ],
 )
-def test_other_results(body: str) -> None:
+def test_results_without_inferred_type(body: str) -> None:
     assert plain_result("(self, given)", body) == ""

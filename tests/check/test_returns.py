@@ -1,4 +1,4 @@
-"""Functions tell a type checker what they return, unless that depends on what they are given."""
+"""Inserted heads that tell a type checker the results of functions."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from scaffold.types.rewriting.returns import results
 
 
 def types(text: str, taken: Collection[str] = ()) -> list[str]:
-    """Return the annotations of functions, with the values that they stand for.
+    """Return the inserted annotations of functions, with the values that they represent.
 
     Args:
         text: A file.
-        taken: The parameters that are known by what the first function is given.
+        taken: The parameters whose arguments are known for the first function.
     """
     body = text.index(":\n") + 2
     found = results(text, {body: taken} if taken else {})
@@ -45,11 +45,11 @@ def types(text: str, taken: Collection[str] = ()) -> list[str]:
         ("    def on(x):\n        return x\n    return 1\n", "[(1)]"),
     ],
 )
-def test_what_is_returned(body: str, type_: str) -> None:
-    assert types(f"class A:\n    def made(self, given):\n{_deeper(body)}")[0] == type_
+def test_returned_expressions(body: str, type_: str) -> None:
+    assert types(f"class A:\n    def made(self, given):\n{_indented(body)}")[0] == type_
 
 
-def _deeper(body: str) -> str:
+def _indented(body: str) -> str:
     return re.sub("^", "    ", body, flags=re.MULTILINE)
 
 
@@ -72,8 +72,8 @@ def _deeper(body: str) -> str:
         "    x = A(1)\n    if self.y:\n        x = B(1)\n    return x.y\n",
     ],
 )
-def test_what_is_not_plain(body: str) -> None:
-    assert types(f"class A:\n    def made(self, given):\n{_deeper(body)}") == []
+def test_functions_without_known_result(body: str) -> None:
+    assert types(f"class A:\n    def made(self, given):\n{_indented(body)}") == []
 
 
 @pytest.mark.parametrize(
@@ -90,9 +90,7 @@ def test_what_is_not_plain(body: str) -> None:
         ("other", True),
     ],
 )
-def test_what_a_function_is_given_elsewhere_may_be_something_else(
-    value: str, is_known: bool
-) -> None:
+def test_parameters_of_other_calls_are_unknown(value: str, is_known: bool) -> None:
     text = (
         "def made(given):\n    local = given[0]\n    other = Pose(given)\n"
         f"    for looped in given:\n        local.add(looped)\n    return {value}\n"
@@ -124,5 +122,5 @@ def test_what_a_function_is_given_elsewhere_may_be_something_else(
         ("def made(): return 1\n", 0),
     ],
 )
-def test_which_functions(text: str, count: int) -> None:
+def test_functions_with_inserted_heads(text: str, count: int) -> None:
     assert len(results(text, {}).heads) == count

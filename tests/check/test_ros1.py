@@ -1,4 +1,4 @@
-"""Packages of ROS 1: one finding says so, instead of dozens about a tool that is not theirs."""
+"""ROS 1 packages: one finding instead of dozens about ROS 2."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def found(dependency: str, export: str = "") -> list[tuple[str, str, int]]:
 
 
 @pytest.mark.parametrize("export", ["", "  <export><build_type>catkin</build_type></export>\n"])
-def test_a_package_of_ros1_has_one_finding(export: str) -> None:
+def test_ros1_package_has_one_finding(export: str) -> None:
     assert found(CATKIN, export) == [("SC007", "package.xml", 3)]
 
 
@@ -44,27 +44,27 @@ def test_a_package_of_ros1_has_one_finding(export: str) -> None:
         ("", ""),
     ],
 )
-def test_a_package_that_is_also_for_ros2_is_checked(dependency: str, export: str) -> None:
+def test_package_for_ros1_and_ros2_is_checked(dependency: str, export: str) -> None:
     reported = {code for code, _, _ in found(dependency, export)}
     assert "SC007" not in reported
     assert {"E999", "E302"} <= reported
 
 
-def test_a_package_that_calls_ament_is_checked() -> None:
+def test_package_that_calls_ament_is_checked() -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     lists = "find_package(ament_cmake REQUIRED)\nament_package()\n"
     files = {**FILES, "package.xml": MANIFEST.format(CATKIN, ""), "CMakeLists.txt": lists}
     assert "SC007" not in {item.code for item in session.check(Package.of(files))}
 
 
-def test_a_package_of_ros1_without_a_build_file_has_one_finding() -> None:
+def test_ros1_package_without_build_file_has_one_finding() -> None:
     session = Session(registry.load(content.roots("rules")), Selection())
     files = {**FILES, "package.xml": MANIFEST.format(CATKIN, "")}
     del files["CMakeLists.txt"]
     assert [item.code for item in session.check(Package.of(files))] == ["SC007"]
 
 
-def test_a_workspace_with_both_is_checked_but_for_the_old_one(tmp_path: Path) -> None:
+def test_ros2_packages_next_to_a_ros1_package_are_checked(tmp_path: Path) -> None:
     from scaffold.cli.main import main
 
     assert main(["new", "talker", "--destination-directory", str(tmp_path)]) == 0

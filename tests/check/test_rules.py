@@ -1,4 +1,4 @@
-"""Every rule's examples are its tests."""
+"""The examples of every rule, run as tests."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_code_begins_with_the_letters_of_its_area(rule: type[Rule]) -> None:
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_imports_little(file: Path) -> None:
-    """A rule imports what is cheap and stable; the rest would cost every run."""
+    """Rules only import cheap and stable modules, since every run pays for them."""
     tree = ast.parse(file.read_text(encoding="utf-8"))
     imported = {
         alias.name
@@ -115,7 +115,7 @@ def test_imports_little(file: Path) -> None:
 
 
 def test_examples_can_be_suppressed() -> None:
-    """A rejected Python or CMake example falls silent with ``noqa`` on the reported line."""
+    """``noqa`` on the reported line suppresses the reports of Python and CMake examples."""
     assert_suppressible([(rule, example) for rule in RULES for example in rule.examples])
 
 

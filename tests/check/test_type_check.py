@@ -1,4 +1,4 @@
-"""The type checker sees the files of the workspace and the stubs, and nothing of the user's."""
+"""The type checker sees the files of the workspace and the stubs, and nothing else of the user."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ Check = Callable[..., list[str]]
 def check(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> Check:
-    """Return what checks and returns the findings of types: file, line and code."""
+    """Return a function that checks types and returns file, line and code of the findings."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.delenv(cache.SWITCH, raising=False)
     monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
@@ -85,13 +85,13 @@ def source(tmp_path: Path) -> Path:
     return tmp_path / "src"
 
 
-def test_what_does_not_fit_the_api_is_reported(check: Check, source: Path) -> None:
+def test_api_misuse_is_reported(check: Check, source: Path) -> None:
     make_package(source, "talker", {"talker/talk.py": NODE})
     assert check("talker", code=1) == [f"talker/{FOUND}"]
     assert check("talker", "--no-types", code=0) == []
 
 
-def test_only_findings_are_held_against_the_code_without_annotations(
+def test_only_files_with_findings_are_checked_without_annotations(
     check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     runs: list[str] = []
@@ -123,7 +123,7 @@ def test_types_reach_across_files_and_packages(check: Check, source: Path) -> No
     assert check(".") == ["talker/talker/more.py:3:TY004", f"talker/{FOUND}"]
 
 
-def test_a_module_of_a_package_is_not_that_of_another_one(check: Check, source: Path) -> None:
+def test_equal_module_names_of_packages_are_separate(check: Check, source: Path) -> None:
     make_package(
         source, "voice", {"voice/word.py": "class Word:\n    def __init__(self):\n        pass\n"}
     )
@@ -148,8 +148,8 @@ def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> N
     assert check("talker") == ["talker/talker/talk.py:4:TY008", "talker/talker/talk.py:5:TY003"]
 
 
-def test_what_is_subscribed_to_is_what_a_callback_gets(check: Check, source: Path) -> None:
-    """Whatever it is annotated with, and whoever else has a method of this name."""
+def test_callback_receives_the_subscribed_type(check: Check, source: Path) -> None:
+    """Whatever its annotation, and whichever other class has a method of this name."""
     node = """from example_interfaces.action import Fibonacci
 from rclpy.action import ActionServer
 from rclpy.node import Node
@@ -197,7 +197,7 @@ class Other(Node):
     assert found == ["17:TY003", "20:TY003", "23:TY003", "27:TY004", "38:TY003"]
 
 
-def test_a_parameter_that_is_given_another_value_has_no_type(check: Check, source: Path) -> None:
+def test_parameter_with_conflicting_values_has_no_type(check: Check, source: Path) -> None:
     node = """from nav_msgs.msg import OccupancyGrid
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
@@ -236,7 +236,7 @@ class Mapper(Node):
     assert check("mapper") == ["mapper/mapper/node.py:29:TY003"]
 
 
-def test_what_code_for_another_distribution_sets_has_no_type(check: Check, source: Path) -> None:
+def test_value_set_for_another_distribution_has_no_type(check: Check, source: Path) -> None:
     node = """import os
 
 from geometry_msgs.msg import Twist, TwistStamped
@@ -263,7 +263,7 @@ class Driver(Node):
         assert found == ["driver/driver/node.py:19:TY004"]
 
 
-def test_a_finding_of_another_kind_on_the_line_hides_nothing(check: Check, source: Path) -> None:
+def test_another_finding_on_the_line_hides_nothing(check: Check, source: Path) -> None:
     node = """import tf2_geometry_msgs
 from geometry_msgs.msg import PointStamped
 from rclpy.node import Node
@@ -287,7 +287,7 @@ class Follower(Node):
     assert found == [f"{path}:15:ND110", f"{path}:15:TY005", f"{path}:16:TY004"]
 
 
-def test_annotations_of_the_user_are_not_believed(check: Check, source: Path) -> None:
+def test_user_annotations_are_ignored(check: Check, source: Path) -> None:
     node = """from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from std_msgs.msg import String
@@ -318,7 +318,7 @@ class Talker(Node):
 # -- what is imported decides as well
 
 
-def test_an_edit_of_an_imported_file_changes_the_verdict(check: Check, source: Path) -> None:
+def test_edited_import_changes_the_findings(check: Check, source: Path) -> None:
     package = make_package(
         source,
         "talker",
@@ -336,8 +336,8 @@ def test_an_edit_of_an_imported_file_changes_the_verdict(check: Check, source: P
     assert check("talker") == []
 
 
-def test_an_edit_in_another_package_changes_the_verdict(check: Check, source: Path) -> None:
-    """Both packages are large enough to be remembered in parts."""
+def test_edit_in_another_package_changes_the_findings(check: Check, source: Path) -> None:
+    """Both packages are large enough to be cached in parts."""
     many = {f"part_{number}.py": "VALUE = 1\n" for number in range(12)}
     maker = make_package(
         source,
@@ -355,7 +355,7 @@ def test_an_edit_in_another_package_changes_the_verdict(check: Check, source: Pa
     assert check(".") == ["talker/talker/talk.py:3:TY003"]
 
 
-def test_an_unchanged_file_is_not_checked_again(
+def test_unchanged_file_is_not_checked_again(
     check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     files = {"talker/talk.py": NODE, "talker/more.py": "import rclpy\n"}
@@ -375,7 +375,7 @@ def test_an_unchanged_file_is_not_checked_again(
     assert asked == [["more.py"]]
 
 
-def test_an_edit_leaves_what_the_types_of_other_files_show(
+def test_edit_keeps_type_findings_of_other_files(
     check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     accepted = NODE.replace("wait=True)", "wait=True)  # noqa: TY004")
@@ -428,8 +428,8 @@ def _fake_interpreter(path: Path, canary: Path) -> None:
     path.chmod(0o755)
 
 
-def _plant(top: Path, canary: Path) -> None:
-    """Write what type checkers read, where they look for it: it silences, or runs, something."""
+def _plant_configuration(top: Path, canary: Path) -> None:
+    """Write configuration and environments that would disable checks or run code."""
     fake = top / ".venv" / "bin" / "python"
     for name in ("python", "python3", "python3.12"):
         _fake_interpreter(fake.with_name(name), canary)
@@ -454,24 +454,24 @@ def _plant(top: Path, canary: Path) -> None:
 
 
 @pytest.mark.parametrize("above", [".", "talker", "talker/talker"])
-def test_configuration_and_environments_do_not_count(
+def test_configuration_and_environments_are_ignored(
     check: Check, source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, above: str
 ) -> None:
     make_package(source, "talker", {"talker/talk.py": NODE})
     canary = tmp_path / "canary"
-    _plant(source / above, canary)
+    _plant_configuration(source / above, canary)
     monkeypatch.chdir(source / above)
     (found,) = check(str(source / "talker"))
     assert found.endswith("talk.py:8:TY004")
     assert not canary.exists()
 
 
-def test_variables_and_the_user_s_configuration_do_not_count(
+def test_variables_and_user_configuration_are_ignored(
     check: Check, source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     make_package(source, "talker", {"talker/talk.py": NODE})
     home, canary = tmp_path / "home", tmp_path / "canary"
-    _plant(home, canary)
+    _plant_configuration(home, canary)
     (home / ".config/ty").mkdir(parents=True)
     (home / ".config/ty/ty.toml").write_text('[rules]\nall = "ignore"\n')
     monkeypatch.setenv("HOME", str(home))
@@ -527,7 +527,7 @@ PANIC = json.dumps(
         "never stops writing",
     ],
 )
-def test_without_the_type_checker_the_rest_is_checked(
+def test_other_rules_run_without_the_type_checker(
     source: Path,
     check: Check,
     tmp_path: Path,
@@ -553,7 +553,7 @@ def test_without_the_type_checker_the_rest_is_checked(
     assert f"talker/{FOUND}" in check("talker")
 
 
-def test_a_missing_type_checker_is_named(
+def test_missing_type_checker_is_noted(
     source: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source.mkdir()
@@ -567,12 +567,12 @@ def test_a_missing_type_checker_is_named(
     assert "ty is not installed; pip install" in capsys.readouterr().err
 
 
-def test_a_file_that_does_not_parse_costs_only_itself(check: Check, source: Path) -> None:
+def test_unparsable_file_does_not_hide_others(check: Check, source: Path) -> None:
     make_package(source, "talker", {"talker/talk.py": NODE, "talker/bad.py": "def f(:\n"})
     assert check("talker") == [f"talker/{FOUND}"]
 
 
-def test_added_lines_that_do_not_parse_hide_nothing(
+def test_unparsable_inserted_lines_hide_nothing(
     check: Check, source: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def with_arguments(data: bytes, *_: object) -> Extended:
@@ -583,7 +583,9 @@ def test_added_lines_that_do_not_parse_hide_nothing(
     assert check() == [f"talker/{FOUND}"]
 
 
-def test_a_file_that_ends_the_type_checker_costs_only_itself(check: Check, source: Path) -> None:
+def test_file_that_crashes_the_type_checker_does_not_hide_others(
+    check: Check, source: Path
+) -> None:
     deep = "import rclpy\n\nx = " + "[" * 9_000 + "]" * 9_000 + "\n"
     more = {f"talker/more_{number}.py": "import rclpy\n" for number in range(5)}
     make_package(source, "talker", {"talker/talk.py": NODE, "talker/deep.py": deep, **more})
@@ -593,7 +595,7 @@ def test_a_file_that_ends_the_type_checker_costs_only_itself(check: Check, sourc
 # -- suppression
 
 
-def test_noqa_accepts_a_finding(check: Check, source: Path) -> None:
+def test_noqa_suppresses_a_type_finding(check: Check, source: Path) -> None:
     accepted = NODE.replace("wait=True)", "wait=True)  # noqa: TY004")
     unused = "import rclpy  # noqa: TY003\n"
     make_package(source, "talker", {"talker/talk.py": accepted, "talker/more.py": unused})
@@ -601,7 +603,7 @@ def test_noqa_accepts_a_finding(check: Check, source: Path) -> None:
     assert check("talker", "--no-types") == []
 
 
-def test_noqa_for_a_rule_covers_what_the_types_say_of_the_same_place(
+def test_noqa_of_a_rule_covers_the_type_finding_at_the_same_place(
     check: Check, source: Path
 ) -> None:
     node = """import rclpy
@@ -621,7 +623,7 @@ def main():
     assert check("talker", "--distro", "lyrical", "--select", "TY")
 
 
-def test_stubs_that_another_process_has_written_stay(tmp_path: Path) -> None:
+def test_stubs_written_by_another_process_are_kept(tmp_path: Path) -> None:
     place = tmp_path / "stubs"
     environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001  as two processes do
     before = place.stat().st_ino
@@ -630,7 +632,7 @@ def test_stubs_that_another_process_has_written_stay(tmp_path: Path) -> None:
     assert [*tmp_path.iterdir()] == [place]
 
 
-def test_stubs_that_are_not_whole_are_written_again(tmp_path: Path) -> None:
+def test_incomplete_stubs_are_written_again(tmp_path: Path) -> None:
     place = tmp_path / "stubs"
     environment._write_aside(distributions.JAZZY, str(place))  # noqa: SLF001
     (place / "pyvenv.cfg").unlink()
@@ -638,7 +640,7 @@ def test_stubs_that_are_not_whole_are_written_again(tmp_path: Path) -> None:
     assert (place / "pyvenv.cfg").is_file()
 
 
-def test_stubs_that_others_may_read_are_kept(tmp_path: Path) -> None:
+def test_world_readable_stubs_are_kept(tmp_path: Path) -> None:
     places = [tmp_path / str(number) for number in range(environment.KEPT + 2)]
     for place in places:
         place.mkdir()

@@ -1,4 +1,4 @@
-"""Errors in code that nobody runs are warnings."""
+"""Errors in unused code are warnings."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def severities(capsys: pytest.CaptureFixture[str], code: str) -> dict[str, str]:
     return {item["path"]: item["severity"] for item in found}
 
 
-def test_a_script_that_only_a_comment_names(
+def test_script_only_mentioned_in_a_comment(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "setup.py").unlink()
@@ -107,7 +107,7 @@ def test_a_script_that_only_a_comment_names(
         "node_obsolete.py",
     ],
 )
-def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_copy_of_a_file(package: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     for path in (name, "node.py", "threshold.py"):
         write(package / "talker" / path, MISTAKE)
     assert severities(capsys, "MS002") == {
@@ -120,7 +120,7 @@ def test_a_copy_of_old_code(package: Path, capsys: pytest.CaptureFixture[str], n
 @pytest.mark.parametrize(
     ("other", "severity"), [("import cv2\n", "error"), ("# import cv2\n", "warning")]
 )
-def test_a_dependency_of_a_copy_and_of_others(
+def test_dependency_of_a_copy_and_of_used_code(
     package: Path, capsys: pytest.CaptureFixture[str], other: str, severity: str
 ) -> None:
     write(package / "talker" / "node (copy).py", "import cv2\n")
@@ -128,7 +128,7 @@ def test_a_dependency_of_a_copy_and_of_others(
     assert severities(capsys, "PX020") == {"talker/node (copy).py": severity}
 
 
-def test_a_copy_of_parameters(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_copy_of_a_parameter_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in ("params/talk copy.yaml", "params/talk.yaml"):
         write(package / path, "talk:\n  ros__parameters:\n    rate:\n")
     expected = {"params/talk copy.yaml": "warning", "params/talk.yaml": "error"}
@@ -139,7 +139,7 @@ def test_a_copy_of_parameters(package: Path, capsys: pytest.CaptureFixture[str])
     ("path", "text"),
     [("talker/main.py", "from talker import node_old\n"), ("run.sh", "python3 node_old.py\n")],
 )
-def test_a_copy_that_something_names_is_in_use(
+def test_mentioned_copy_is_used(
     package: Path, capsys: pytest.CaptureFixture[str], path: str, text: str
 ) -> None:
     write(package / "talker" / "node_old.py", MISTAKE)
@@ -147,7 +147,7 @@ def test_a_copy_that_something_names_is_in_use(
     assert severities(capsys, "MS002") == {"talker/node_old.py": "error"}
 
 
-def test_files_that_are_not_installed(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_file_that_is_not_installed(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in ("scratch.py", "notes/plot.py", "talker/node.py", "test/test_node.py"):
         write(package / path, UNDEFINED)
     assert severities(capsys, "F821") == {
@@ -158,7 +158,7 @@ def test_files_that_are_not_installed(package: Path, capsys: pytest.CaptureFixtu
     }
 
 
-def test_a_linter_of_the_package_looks_at_all_files(
+def test_linters_of_the_package_check_all_files(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "scratch.py", UNDEFINED)
@@ -174,7 +174,7 @@ def test_a_linter_of_the_package_looks_at_all_files(
     assert severities(capsys, "F821") == {"scratch.py": "warning", "talker/annotated.py": "warning"}
 
 
-def test_what_the_configuration_says_counts(
+def test_configured_severity_takes_precedence(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "scratch.py", UNDEFINED)
@@ -182,7 +182,7 @@ def test_what_the_configuration_says_counts(
     assert severities(capsys, "F821") == {"scratch.py": "info"}
 
 
-def test_a_function_of_a_launch_file_that_nothing_calls(
+def test_uncalled_function_of_a_launch_file(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     helper = "def load(path):\n    return undefined.read(path)\n\n\n"
@@ -197,7 +197,7 @@ def test_a_function_of_a_launch_file_that_nothing_calls(
     }
 
 
-def test_the_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_main_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     description = "def generate_launch_description():\n    return None\n\n\n"
     guard = "if __name__ == '__main__':\n    {}\n"
     write(package / "launch" / "a.launch.py", description + guard.format("main()"))
@@ -224,7 +224,7 @@ def test_the_guard_of_a_launch_file(package: Path, capsys: pytest.CaptureFixture
         ("warning", "# nothing", "# tell"),
     ],
 )
-def test_a_method_that_nothing_calls(
+def test_uncalled_method(
     package: Path,
     capsys: pytest.CaptureFixture[str],
     severity: str,
@@ -238,9 +238,7 @@ def test_a_method_that_nothing_calls(
     assert severities(capsys, "MS002") == {"talker/talk.py": severity}
 
 
-def test_a_method_that_another_module_calls(
-    package: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_method_called_by_another_module(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(package / "talker" / "talk.py", NODE)
     write(package / "talker" / "copy_of_it.py", NODE.replace("String().text", "String().data"))
     assert severities(capsys, "MS002") == {"talker/talk.py": "warning"}
@@ -248,29 +246,27 @@ def test_a_method_that_another_module_calls(
     assert severities(capsys, "MS002") == {"talker/talk.py": "error"}
 
 
-def test_what_comes_after_the_spin(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_code_after_spin(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     node = "import rclpy\n\n\ndef main():\n    rclpy.init()\n{}\n    rclpy.spin(node)\n{}\n"
     write(package / "talker" / "late.py", node.format("    node = 1", "    made.destroy()"))
     write(package / "talker" / "early.py", node.format("    node = made", "    node.destroy()"))
     assert severities(capsys, "F821") == {"talker/late.py": "warning", "talker/early.py": "error"}
 
 
-def test_what_is_for_another_platform(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_code_for_another_platform(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     keys = "import os\n\n\ndef key():\n    if {}:\n        return msvcrt.getch()\n\n\nkey()\n"
     write(package / "talker" / "keys.py", keys.format("os.name == 'nt'"))
     write(package / "talker" / "codes.py", keys.format("os.sep == '/'"))
     assert severities(capsys, "F821") == {"talker/codes.py": "error", "talker/keys.py": "warning"}
 
 
-def test_an_example_in_the_documentation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_example_in_the_documentation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for path in ("doc/talk.py", "talker/talk.py"):
         write(package / path, MISTAKE)
     assert severities(capsys, "MS002") == {"doc/talk.py": "warning", "talker/talk.py": "error"}
 
 
-def test_a_test_in_python_that_cmake_does_not_run(
-    package: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_python_test_not_run_by_cmake(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (package / "setup.py").unlink()
     manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
     write(package / "package.xml", manifest)
@@ -282,7 +278,7 @@ def test_a_test_in_python_that_cmake_does_not_run(
     assert severities(capsys, "F821") == {"tests/idea.py": "error"}
 
 
-def test_a_test_next_to_one_that_cmake_runs(
+def test_python_test_next_to_one_run_by_cmake(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (package / "setup.py").unlink()
@@ -298,7 +294,7 @@ def test_a_test_next_to_one_that_cmake_runs(
     assert severities(capsys, "MS002") == {"test/test_a.py": "error", "test/test_b.py": "error"}
 
 
-def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_script_not_installed_by_cmake(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (package / "setup.py").unlink()
     manifest = MANIFEST.format("").replace("ament_python", "ament_cmake")
     write(package / "package.xml", manifest)
@@ -313,7 +309,7 @@ def test_a_script_that_cmake_leaves_out(package: Path, capsys: pytest.CaptureFix
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
 
 
-def test_a_script_that_only_a_setup_py_next_to_cmake_names(
+def test_script_only_in_setup_py_next_to_cmake(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "setup.py", SETUP.replace(")\n", ", scripts=['scripts/aim.py'])\n"))
@@ -327,7 +323,7 @@ def test_a_script_that_only_a_setup_py_next_to_cmake_names(
     assert severities(capsys, "MS002") == {"scripts/aim.py": "warning", "scripts/talk.py": "error"}
 
 
-def test_a_module_that_an_import_adds_to_its_package(
+def test_module_imported_as_attribute_of_its_package(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "talker" / "__init__.py", "from .talk import *\n\ndel talk\ndel other\n")
@@ -337,9 +333,7 @@ def test_a_module_that_an_import_adds_to_its_package(
     assert [(item["line"], item["severity"]) for item in found] == [(3, "warning"), (4, "error")]
 
 
-def test_an_annotation_that_is_not_evaluated(
-    package: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_unevaluated_annotation(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
     function = "def talk(text: {}) -> None:\n    said: {} = text\n    print(said)\n"
     later = "from __future__ import annotations\n\n\n"
     write(package / "talker" / "local.py", function.format("str", "Undefined"))
@@ -354,7 +348,7 @@ def test_an_annotation_that_is_not_evaluated(
     }
 
 
-def test_a_file_that_is_too_large_to_read_may_name_a_script(
+def test_too_large_file_may_mention_a_script(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(package / "talker" / "talk_old.py", UNDEFINED)

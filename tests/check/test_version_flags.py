@@ -1,4 +1,4 @@
-"""Names that carry what a condition asks for: versions, features, and imports that went well."""
+"""Variables that hold a condition: versions, features, and successful imports."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ _OTHERS = {
 
 
 def reported(capsys: pytest.CaptureFixture[str], package: Path, code: str, *more: str) -> list[str]:
-    """Return the codes of what was removed in Lyrical."""
+    """Return the codes of findings about names removed in Lyrical."""
     (package / "package.xml").write_text("<package><name>talker</name></package>\n")
     (package / "talker.py").write_text(_HEAD + code)
     options = ("--distro", "lyrical", "--format", "json", "--select", "IM050", *more)
@@ -91,7 +91,7 @@ def reported(capsys: pytest.CaptureFixture[str], package: Path, code: str, *more
 
 
 @pytest.mark.parametrize("name", _GUARDS)
-def test_a_name_carries_what_its_value_asks(
+def test_variable_with_a_condition_is_a_guard(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
     assert reported(capsys, tmp_path, _GUARDS[name], "--fix") == []
@@ -99,7 +99,7 @@ def test_a_name_carries_what_its_value_asks(
 
 
 @pytest.mark.parametrize("name", _OTHERS)
-def test_a_name_of_something_else_is_no_guard(
+def test_other_variable_is_no_guard(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
     assert reported(capsys, tmp_path, _OTHERS[name]) == ["IM050"]

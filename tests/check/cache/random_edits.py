@@ -1,4 +1,4 @@
-"""Edits a workspace at random, as people, editors and version control do."""
+"""Random edits of a workspace, like those of people, editors and version control."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _LINES = (
 
 
 def edit(top: Path, random: Random) -> str:
-    """Change something below a directory; return what, for who reproduces it."""
+    """Change something below a directory; return a description, to reproduce it."""
     change = random.choice(_EDITS)
     return f"{change.__name__.strip('_')} {change(top, random)}"
 
@@ -43,8 +43,8 @@ def _files(top: Path, endings: tuple[str, ...] = _TEXTS) -> list[Path]:
     return sorted(path for path in top.rglob("*") if path.is_file() and path.suffix in endings)
 
 
-def _any(top: Path, random: Random) -> Path:
-    """Return a file, a Python file half of the time."""
+def _random_file(top: Path, random: Random) -> Path:
+    """Return a random file, a Python file half of the time."""
     endings = (".py",) if random.random() < 0.5 else _TEXTS
     return random.choice(_files(top, endings) or _files(top))
 
@@ -59,14 +59,14 @@ def _write(path: Path, lines: Sequence[str]) -> str:
 
 
 def _insert_line(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     lines = _lines(path)
     lines.insert(random.randint(0, len(lines)), random.choice(_LINES))
     return _write(path, lines)
 
 
 def _delete_line(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     lines = _lines(path)
     if lines:
         lines.pop(random.randrange(len(lines)))
@@ -74,15 +74,15 @@ def _delete_line(top: Path, random: Random) -> str:
 
 
 def _repeat_line(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     lines = _lines(path) or ["\n"]
     lines.insert(random.randrange(len(lines)), random.choice(lines))
     return _write(path, lines)
 
 
 def _replace_word(top: Path, random: Random) -> str:
-    """Put a word of one file in place of a word of another: names begin and end to match."""
-    path, other = _any(top, random), _any(top, random)
+    """Replace a word of one file by a word of another, so that names start or stop to match."""
+    path, other = _random_file(top, random), _random_file(top, random)
     words = re.split(r"(\w+)", "".join(_lines(path)))
     new = re.findall(r"\w+", "".join(_lines(other)))
     if len(words) > 1 and new:
@@ -91,7 +91,7 @@ def _replace_word(top: Path, random: Random) -> str:
 
 
 def _misspell(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     words = re.split(r"(\w{4,})", "".join(_lines(path)))
     if len(words) > 1:
         at = random.randrange(1, len(words), 2)
@@ -104,7 +104,7 @@ def _edit_two(top: Path, random: Random) -> str:
 
 
 def _import_another(top: Path, random: Random) -> str:
-    """Let a module import another of its directory, whose types then count for it."""
+    """Let a module import another one of its directory, so that it depends on its types."""
     path = random.choice(_files(top, (".py",)) or _files(top))
     others = [item for item in _files(top, (".py",)) if item.parent == path.parent]
     other = random.choice(others or [path])
@@ -117,28 +117,28 @@ def _import_another(top: Path, random: Random) -> str:
 
 
 def _rename(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     new = path.with_name(f"{path.stem}_{random.randrange(100)}{path.suffix}")
     path.rename(new)
     return f"{path} to {new.name}"
 
 
 def _delete(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     if path.name != "package.xml":
         path.unlink()
     return str(path)
 
 
 def _copy(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     other = random.choice(_files(top)).with_name(path.name)
     other.write_bytes(path.read_bytes())
     return f"{path} to {other}"
 
 
 def _swap(top: Path, random: Random) -> str:
-    one, other = _any(top, random), _any(top, random)
+    one, other = _random_file(top, random), _random_file(top, random)
     first, second = one.read_bytes(), other.read_bytes()
     if one.suffix == other.suffix:
         one.write_bytes(second)
@@ -147,14 +147,14 @@ def _swap(top: Path, random: Random) -> str:
 
 
 def _touch(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     at = random.randrange(10**9)
     os.utime(path, (at, at))
     return str(path)
 
 
 def _change_mode(top: Path, random: Random) -> str:
-    path = _any(top, random)
+    path = _random_file(top, random)
     path.chmod(path.stat().st_mode ^ 0o111)
     return str(path)
 

@@ -1,4 +1,4 @@
-"""Which facts of an earlier run hold after files were edited."""
+"""Which facts of an earlier run are still valid after an edit."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ OLD = "import os\n"
 
 @fact
 def count_of_imports(package: Package, path: str) -> int:
-    """Return a number that is made of another fact."""
+    """Return a number computed from another fact."""
     return len(package.imports(path))
 
 
 def stored(package: Package) -> Mapping[FactId, StoredFact]:
-    """Ask for facts; return them as an earlier run stored them."""
+    """Compute facts; return them as an earlier run stored them."""
     package.imports("a.py")
     package.is_mentioned_once("os", "a.py")
     return to_store(package.facts, (), {})
 
 
-def test_a_fact_is_made_again_once_for_all_that_ask() -> None:
+def test_fact_is_computed_again_once() -> None:
     facts = stored(Package.of({"a.py": OLD}))
     package = Package.of({"a.py": f"{OLD}x = 1\n"})
     settled: Settled = {}
@@ -50,13 +50,13 @@ def test_a_fact_is_made_again_once_for_all_that_ask() -> None:
 
 
 @pytest.mark.parametrize(("text", "count"), [("import re\n", 0), ("import os\nos.sep\n", 1)])
-def test_a_fact_of_another_value_does_not_hold(text: str, count: int) -> None:
+def test_fact_with_changed_value_is_invalid(text: str, count: int) -> None:
     facts = stored(Package.of({"a.py": OLD}))
     earlier = EarlierFacts(Package.of({"a.py": text}), facts, {"/a.py"}, {})
     assert sum(earlier.hold([wanted]) for wanted in facts) == count
 
 
-def test_a_fact_of_an_unedited_file_is_not_made_again() -> None:
+def test_fact_of_an_unedited_file_is_not_computed_again() -> None:
     facts = stored(Package.of({"a.py": OLD}))
     package = Package.of({})  # there is nothing to make it of
     settled: Settled = {}
@@ -66,7 +66,7 @@ def test_a_fact_of_an_unedited_file_is_not_made_again() -> None:
     assert settled == facts
 
 
-def test_a_recalled_fact_knows_what_it_is_made_of() -> None:
+def test_recalled_fact_keeps_its_dependencies() -> None:
     package = Package.of({"a.py": OLD})
     count_of_imports(package, "a.py")
     facts = to_store(package.facts, (), {})
@@ -80,7 +80,7 @@ def test_a_recalled_fact_knows_what_it_is_made_of() -> None:
     ("other", "holds"), [("y = 2\n", True), ("tick()\n", False), ("tick.tock = 1\n", False)]
 )
 @pytest.mark.parametrize("own", ["def tick(): ...\n", "def tick(): ...\n\n\ntick()\n"])
-def test_a_word_that_is_mentioned_twice_in_its_file_does_not_depend_on_others(
+def test_word_used_twice_in_its_file_does_not_depend_on_other_files(
     own: str, other: str, *, holds: bool
 ) -> None:
     package = Package.of({"a.py": own, "b.py": "y = 1\n"})
@@ -102,9 +102,7 @@ def test_a_word_that_is_mentioned_twice_in_its_file_does_not_depend_on_others(
         ("worker = 1\n", False),
     ],
 )
-def test_an_attribute_is_looked_for_again_in_the_edited_file_alone(
-    other: str, *, is_used: bool
-) -> None:
+def test_attribute_is_searched_again_only_in_the_edited_file(other: str, *, is_used: bool) -> None:
     texts = {"a.py": "class A:\n    def __init__(self):\n        self.worker = 1\n", "c.py": ""}
     package = Package.of({**texts, "b.py": "y = 1\n"})
     assert not is_used_elsewhere(package, rclpy_file(package, "a.py"), "worker")

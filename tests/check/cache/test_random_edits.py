@@ -1,4 +1,4 @@
-"""Whatever is edited: what is remembered gives the report that a check from scratch gives."""
+"""After random edits, a cached check gives the same report as a check from scratch."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Report = Callable[[str], str]
 def report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> Report:
-    """Return what checks the current directory and keeps what it learns in a cache of a name."""
+    """Return a function that checks the current directory with a named cache."""
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     monkeypatch.delenv(cache.SWITCH, raising=False)
     # Somebody may edit the tool while its tests run.
@@ -45,7 +45,7 @@ def report(
 
 
 def compare(top: Path, report: Report, count: int, seed: int) -> int:
-    """Edit a workspace many times; return after how many edits parts were taken over."""
+    """Edit a workspace many times; return after how many edits cached parts were used."""
     random = Random(seed)  # noqa: S311  no secrets
     story: list[str] = []
     taken_over: set[int] = set()
@@ -66,7 +66,7 @@ def compare(top: Path, report: Report, count: int, seed: int) -> int:
 
 
 def make_workspace(top: Path) -> None:
-    """Write packages that know of each other."""
+    """Write packages that depend on each other."""
     for name, words in (
         ("talker", ["--add", "publisher:talk", "--add", "timer:tick", "--extras", "launch"]),
         ("tuner", ["--build-type", "ament_python", "--node-kind", "parameters"]),
@@ -75,7 +75,9 @@ def make_workspace(top: Path) -> None:
         assert main(["new", name, "--destination-directory", str(top), *words]) == 0
 
 
-def test_random_edits(tmp_path: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_report_after_random_edits(
+    tmp_path: Path, report: Report, monkeypatch: pytest.MonkeyPatch
+) -> None:
     make_workspace(tmp_path / "src")
     monkeypatch.chdir(tmp_path / "src")
     assert compare(tmp_path / "src", report, EDITS, seed=1) > EDITS // 4

@@ -1,4 +1,4 @@
-"""Results are remembered: what has not changed is reported again, and every change is seen."""
+"""Cached results: unchanged packages are not checked again, and every change is noticed."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def make_package(root: Path, name: str, dependencies: str = "") -> Path:
 
 
 class Runs:
-    """Runs `check` in this process and knows which packages were really checked."""
+    """Runs `check` in this process and records which packages were really checked."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
         self.checked: list[str] = []
@@ -100,7 +100,7 @@ class Runs:
         monkeypatch.setattr(Session, "check_rules", watched)
 
     def __call__(self, *words: str) -> str:
-        """Return what `check` writes; ``checked`` holds what this run checked."""
+        """Return the output of `check`; ``checked`` lists the packages that this run checked."""
         self.checked.clear()
         self.code = main(["check", *words])
         out, err = self._capsys.readouterr()
@@ -108,7 +108,7 @@ class Runs:
         return out
 
     def settle(self, *words: str) -> str:
-        """Check, and make sure that the same run is remembered."""
+        """Check, and make sure that the same run is cached."""
         first = self(*words)
         assert self(*words) == first
         assert self.checked == []
@@ -144,7 +144,7 @@ def package(source: Path) -> Path:
     return make_package(source, "talker")
 
 
-def test_an_unchanged_package_is_not_checked_again(runs: Runs, package: Path) -> None:
+def test_unchanged_package_is_not_checked_again(runs: Runs, package: Path) -> None:
     (package / "talker" / "talk.py").write_text("import os\n")
     first = runs(".")
     assert runs.checked == ["talker"]
@@ -154,7 +154,7 @@ def test_an_unchanged_package_is_not_checked_again(runs: Runs, package: Path) ->
 
 
 @pytest.mark.usefixtures("package")
-def test_neither_rules_nor_ruff_are_loaded_for_it(
+def test_cached_run_loads_neither_rules_nor_ruff(
     runs: Runs, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     runs(".")
@@ -259,7 +259,7 @@ CHANGES: list[Callable[[Path], None]] = [
 
 
 @pytest.mark.parametrize("change", CHANGES, ids=lambda change: change.__name__)
-def test_a_change_is_seen(
+def test_change_is_noticed(
     runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Path], None]
 ) -> None:
     runs.settle(".")
@@ -270,7 +270,7 @@ def test_a_change_is_seen(
     assert runs(".") == reported
 
 
-def test_a_mode_is_seen(runs: Runs, tmp_path: Path) -> None:
+def test_changed_file_mode_is_noticed(runs: Runs, tmp_path: Path) -> None:
     write(
         tmp_path / "src" / "mover",
         {
@@ -291,14 +291,16 @@ def test_a_mode_is_seen(runs: Runs, tmp_path: Path) -> None:
     assert before != after
 
 
-def test_a_licence_above_is_seen(runs: Runs, package: Path) -> None:
+def test_added_license_in_a_parent_directory_is_noticed(runs: Runs, package: Path) -> None:
     (package / "LICENSE").unlink()
     assert "LY006" in runs.settle(".")
     (package.parent / "LICENSE").write_text("Apache\n")
     assert "LY006" not in runs(".")
 
 
-def test_what_was_asked_outside_outlives_a_partial_run(runs: Runs, workspace: Path) -> None:
+def test_dependencies_outside_of_packages_survive_a_partial_run(
+    runs: Runs, workspace: Path
+) -> None:
     (workspace / "alone" / "LICENSE").unlink()
     assert "LY006" in runs.settle(".")
     edit(workspace / "lonely")
@@ -308,7 +310,7 @@ def test_what_was_asked_outside_outlives_a_partial_run(runs: Runs, workspace: Pa
     assert "LY006" not in runs(".")
 
 
-def test_definitions_in_ament_prefix_path_are_seen(
+def test_changed_definitions_in_ament_prefix_path_are_noticed(
     runs: Runs, package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     message = tmp_path / "prefix" / "share" / "robot_msgs" / "msg" / "State.msg"
@@ -336,8 +338,8 @@ def test_definitions_in_ament_prefix_path_are_seen(
 
 
 @pytest.mark.parametrize("where", ["rules/package_xml/license_todo.py", "scaffold/check/runner.py"])
-def test_an_edited_rule_is_seen(tmp_path: Path, where: str) -> None:
-    """In a copy of the tool, since the one under test is shared."""
+def test_edited_rule_is_noticed(tmp_path: Path, where: str) -> None:
+    """Uses a copy of the tool, since the one under test is shared."""
     root = Path(__file__).resolve().parents[3]
     for part in ("scaffold", "rules"):
         shutil.copytree(root / part, tmp_path / part, ignore=shutil.ignore_patterns("__pycache__"))
@@ -358,7 +360,7 @@ def _tool_in(root: Path) -> str:
     ).stdout.decode()
 
 
-def test_flags_and_directories_are_told_apart(
+def test_results_depend_on_flags_and_directory(
     runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (package / "talker" / "talk.py").write_text("import os\n")
@@ -394,7 +396,7 @@ def write_launch(workspace: Path) -> None:
     )
 
 
-def test_only_what_depends_on_a_change_is_checked_again(runs: Runs, workspace: Path) -> None:
+def test_only_dependents_of_a_change_are_checked_again(runs: Runs, workspace: Path) -> None:
     write_launch(workspace)
     before = runs.settle(".")
     (workspace / "alone" / "alone" / "talk.py").write_text("import os\n")
@@ -405,7 +407,7 @@ def test_only_what_depends_on_a_change_is_checked_again(runs: Runs, workspace: P
     assert runs.checked == []
 
 
-def test_a_change_in_another_package_is_seen(runs: Runs, workspace: Path) -> None:
+def test_change_in_another_package_is_noticed(runs: Runs, workspace: Path) -> None:
     write_launch(workspace)
     assert "LF002" not in runs.settle(".")
     new_executable(workspace / "called")
@@ -415,10 +417,10 @@ def test_a_change_in_another_package_is_seen(runs: Runs, workspace: Path) -> Non
 
 
 @pytest.mark.parametrize("count", [0, 10])
-def test_a_partial_run_says_what_a_whole_one_says(
+def test_partial_run_reports_the_same_as_a_full_one(
     runs: Runs, workspace: Path, monkeypatch: pytest.MonkeyPatch, count: int
 ) -> None:
-    """With ten more packages, worker processes check."""
+    """With ten more packages, worker processes are used."""
     write_launch(workspace)
     for number in range(count):
         make_package(workspace, f"more_{number}")
@@ -440,10 +442,10 @@ def test_a_partial_run_says_what_a_whole_one_says(
 
 
 @pytest.mark.parametrize("count", [0, 10])
-def test_packages_around_the_given_ones_are_seen(
+def test_change_in_packages_that_are_not_checked_is_noticed(
     runs: Runs, workspace: Path, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Some packages of a workspace are given; the one that a launch file needs is not."""
+    """Only some packages are checked; the one that a launch file needs is not."""
     write_launch(workspace)
     more = [make_package(workspace, f"more_{number}") for number in range(count)]
     given = ["caller", "alone", *(one.name for one in more)]
@@ -456,7 +458,7 @@ def test_packages_around_the_given_ones_are_seen(
             assert runs(*given) == reported
 
 
-def test_interfaces_of_another_package_are_seen(runs: Runs, workspace: Path) -> None:
+def test_changed_interfaces_of_another_package_are_noticed(runs: Runs, workspace: Path) -> None:
     message = workspace / "robot_msgs" / "msg" / "State.msg"
     write(
         workspace,
@@ -487,7 +489,7 @@ def test_interfaces_of_another_package_are_seen(runs: Runs, workspace: Path) -> 
     ],
     ids=" ".join,
 )
-def test_another_way_to_show_findings_checks_nothing_again(
+def test_other_output_formats_use_the_cache(
     runs: Runs, package: Path, words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -501,7 +503,7 @@ def test_another_way_to_show_findings_checks_nothing_again(
 
 
 @pytest.mark.usefixtures("package")
-def test_an_edit_counts_however_findings_are_shown(runs: Runs, package: Path) -> None:
+def test_edit_is_noticed_for_each_output_format(runs: Runs, package: Path) -> None:
     for words in ([], ["--format", "json"]):
         runs.settle(".", *words)
     (package / "talker" / "talk.py").write_text(TALK.replace("'hello'", '"hello"'))
@@ -512,7 +514,7 @@ def test_an_edit_counts_however_findings_are_shown(runs: Runs, package: Path) ->
 
 
 @pytest.mark.usefixtures("package")
-def test_a_baseline_that_is_edited_counts(runs: Runs, package: Path, tmp_path: Path) -> None:
+def test_edited_baseline_is_noticed(runs: Runs, package: Path, tmp_path: Path) -> None:
     (package / "talker" / "talk.py").write_text(TALK.replace("'hello'", '"hello"'))
     baseline = tmp_path / "baseline.json"
     runs(".", "--write-baseline", str(baseline))
@@ -527,7 +529,7 @@ def test_a_baseline_that_is_edited_counts(runs: Runs, package: Path, tmp_path: P
 # -- fixes
 
 
-def test_fixes_are_made_on_what_is_there(runs: Runs, package: Path) -> None:
+def test_fixes_are_applied_to_the_current_files(runs: Runs, package: Path) -> None:
     module = package / "talker" / "talk.py"
     module.write_text(TALK.replace("'hello'", '"hello"'))
     before = runs.settle(".")
@@ -542,38 +544,38 @@ def test_fixes_are_made_on_what_is_there(runs: Runs, package: Path) -> None:
 
 
 @pytest.fixture
-def kept(runs: Runs, package: Path, tmp_path: Path) -> Path:
-    """Return the file of what a run found; the other one has what it reported."""
+def results_file(runs: Runs, package: Path, tmp_path: Path) -> Path:
+    """Return the cache file with the results of a run; another one has its report."""
     runs.settle(str(package))
     files = (tmp_path / "cache" / "ros2-scaffold" / "runs").iterdir()
     return max(files, key=lambda file: file.stat().st_size)
 
 
 @pytest.mark.parametrize("keep", [0, 10, 60, 200, -1])
-def test_a_cut_file_is_ignored_and_renewed(
-    runs: Runs, package: Path, kept: Path, keep: int
+def test_truncated_cache_file_is_ignored_and_replaced(
+    runs: Runs, package: Path, results_file: Path, keep: int
 ) -> None:
-    whole = kept.read_bytes()
-    kept.write_bytes(whole[:keep])
+    whole = results_file.read_bytes()
+    results_file.write_bytes(whole[:keep])
     runs(str(package))
     assert runs.checked == ["talker"]
     runs(str(package))
     assert runs.checked == []
 
 
-def test_a_damaged_file_is_ignored(package: Path, kept: Path) -> None:
-    whole = bytearray(kept.read_bytes())
+def test_damaged_cache_file_is_ignored(package: Path, results_file: Path) -> None:
+    whole = bytearray(results_file.read_bytes())
     for at in range(0, len(whole), 97):
         damaged = bytearray(whole)
         damaged[at] ^= 0x41
-        kept.write_bytes(damaged)
+        results_file.write_bytes(damaged)
         entry = memory.ReportEntry.of(["check", str(package)])
         assert entry is not None
         assert entry.current() is None
 
 
 @pytest.mark.usefixtures("package")
-def test_the_switch_reads_and_writes_nothing(
+def test_disabled_cache_is_neither_read_nor_written(
     runs: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(cache.SWITCH, "1")
@@ -584,7 +586,7 @@ def test_the_switch_reads_and_writes_nothing(
 
 
 @pytest.mark.usefixtures("package")
-def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path: Path) -> None:
+def test_unwritable_cache_is_ignored(runs: Runs, tmp_path: Path) -> None:
     (tmp_path / "cache").write_text("a file")
     for _ in range(2):
         runs(".")
@@ -596,7 +598,7 @@ def test_a_cache_that_cannot_be_written_is_as_good_as_none(runs: Runs, tmp_path:
     [(memory, "MAX_RUNS", 4, 4), (cache, "MAX_BYTES", 12_000, 6)],
 )
 @pytest.mark.usefixtures("package")
-def test_old_runs_are_dropped(
+def test_old_runs_are_deleted(
     runs: Runs,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -609,14 +611,14 @@ def test_old_runs_are_dropped(
     monkeypatch.setattr(module, limit, value)
     for code in ("PX", "SP", "LY", "NM", "ND"):
         runs(".", "--select", code)
-    kept = tmp_path / "cache" / "ros2-scaffold" / "runs"
-    assert 1 <= len(list(kept.iterdir())) <= most
+    directory = tmp_path / "cache" / "ros2-scaffold" / "runs"
+    assert 1 <= len(list(directory.iterdir())) <= most
     runs(".", "--select", "ND")
     assert runs.checked == []
 
 
-def test_a_schema_that_includes_others_is_left_alone(runs: Runs, package: Path) -> None:
-    """Nobody notes what libxml2 opens by itself, so it opens nothing."""
+def test_schema_that_includes_others_is_not_used(runs: Runs, package: Path) -> None:
+    """Files opened by libxml2 itself would not be recorded, so it must open none."""
     schema = '<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema">{}</xs:schema>\n'
     write(
         package,
@@ -636,7 +638,7 @@ def test_a_schema_that_includes_others_is_left_alone(runs: Runs, package: Path) 
     assert "PX051" in runs(".")
 
 
-def test_what_changes_during_the_run_is_not_remembered(
+def test_package_changed_during_the_run_is_not_cached(
     runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     report = Session._report  # noqa: SLF001  the last that is done for a package
@@ -654,7 +656,7 @@ def test_what_changes_during_the_run_is_not_remembered(
 
 
 @pytest.mark.usefixtures("package")
-def test_rules_of_the_users_own_are_asked_every_time(runs: Runs, tmp_path: Path) -> None:
+def test_user_rules_are_not_cached(runs: Runs, tmp_path: Path) -> None:
     (tmp_path / "own" / "rules").mkdir(parents=True)
     for _ in range(2):
         runs(".", "--content", str(tmp_path / "own"))
@@ -673,8 +675,8 @@ RUNS_A_PROGRAM = "xmllint.py"
 """The program is given all that it looks at."""
 
 
-def _asks(path: Path) -> set[str]:
-    """Return the calls that ask the file system without a note."""
+def _unrecorded_calls(path: Path) -> set[str]:
+    """Return the calls that access the file system without recording it."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Call):
@@ -709,7 +711,7 @@ def _asks(path: Path) -> set[str]:
         "scaffold/configuration/config.py",
     ],
 )
-def test_nothing_looks_at_files_without_a_note(part: str) -> None:
+def test_every_file_access_is_recorded(part: str) -> None:
     top = Path(__file__).resolve().parents[3] / part
     exempt = {"disk.py", "runs.py", "cache.py", RUNS_A_PROGRAM, "registry.py", "docs.py", *OWN_DATA}
     exempt |= {"overlay.py", "temporary.py"}  # what --fix and the cache write is not remembered
@@ -720,12 +722,12 @@ def test_nothing_looks_at_files_without_a_note(part: str) -> None:
         "on_cluster.py",
     }  # on a cluster nothing is remembered
     paths = list(top.rglob("*.py")) if top.is_dir() else [top]
-    assert {p.name: a for p in paths if p.name not in exempt and (a := _asks(p))} == {}
+    assert {p.name: a for p in paths if p.name not in exempt and (a := _unrecorded_calls(p))} == {}
 
 
 @pytest.mark.parametrize("part", ["rules", "scaffold/model", "scaffold/ament"])
-def test_files_of_a_package_are_read_through_it_alone(part: str) -> None:
-    """Else nobody notes which of them a finding depends on; style goes by content alone."""
+def test_files_of_a_package_are_read_only_through_it(part: str) -> None:
+    """Otherwise the dependencies of findings are unknown; style depends only on the content."""
     top = Path(__file__).resolve().parents[3] / part
     own = {"package_files.py", "backend.py", "reference.py"}
     reads = [
@@ -736,7 +738,7 @@ def test_files_of_a_package_are_read_through_it_alone(part: str) -> None:
     assert reads == []
 
 
-def test_an_edit_in_one_file_costs_that_file(
+def test_edit_parses_only_the_edited_file(
     runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     node = "import rclpy\n\n\ndef main():\n    rclpy.init()\n    rclpy.spin(rclpy.Node('a'))\n"
@@ -769,8 +771,8 @@ def test_flake8():
 """
 
 
-def test_another_configuration_of_style_is_seen(runs: Runs, package: Path, source: Path) -> None:
-    """By an edit of the test in Python, which is no reason to check the style of other files."""
+def test_changed_style_configuration_is_noticed(runs: Runs, package: Path, source: Path) -> None:
+    """An edit of the flake8 test alone must not check the style of other files again."""
     for number in range(12):
         (package / "talker" / f"part{number}.py").write_text(f"x = '{'x' * 110}'\n")
     test = package / "test" / "test_flake8.py"
@@ -841,7 +843,7 @@ def write_nodes(package: Path) -> None:
 
 @pytest.fixture
 def parsed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Return the files that were parsed so far."""
+    """Return the list of parsed files."""
     result: list[str] = []
     parse = PythonModule.parse_bytes
 
@@ -853,7 +855,7 @@ def parsed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return result
 
 
-def test_rules_about_a_whole_package_parse_what_was_edited(
+def test_package_rules_parse_only_edited_files(
     runs: Runs, package: Path, parsed: list[str]
 ) -> None:
     write_nodes(package)
@@ -865,7 +867,7 @@ def test_rules_about_a_whole_package_parse_what_was_edited(
     assert set(parsed) <= {"talker/node_3.py", "talker/__init__.py", "setup.py"}
 
 
-def test_rules_about_a_whole_package_are_not_asked_again(
+def test_package_rules_are_not_run_again(
     runs: Runs, package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_nodes(package)
@@ -886,9 +888,7 @@ def test_rules_about_a_whole_package_are_not_asked_again(
     assert {key.rpartition(" ")[2] for key in again} == {"talker/node_3.py"}
 
 
-def test_a_change_of_what_a_node_declares_reaches_the_launch_files_that_set_it(
-    runs: Runs, package: Path
-) -> None:
+def test_changed_parameter_declaration_reaches_launch_files(runs: Runs, package: Path) -> None:
     write_nodes(package)
     before = runs("--select", "PF", ".")
     edited = package / "talker" / "node_3.py"
@@ -899,7 +899,7 @@ def test_a_change_of_what_a_node_declares_reaches_the_launch_files_that_set_it(
     assert "launch/node_2.launch.py" in after
 
 
-def test_a_change_of_what_a_program_imports_reaches_it(runs: Runs, package: Path) -> None:
+def test_changed_import_reaches_the_program(runs: Runs, package: Path) -> None:
     helper = package / "talker" / "helper.py"
     write(
         package,
@@ -920,7 +920,7 @@ def test_a_change_of_what_a_program_imports_reaches_it(runs: Runs, package: Path
 # -- package.xml and setup.cfg
 
 
-def test_a_declared_dependency_costs_no_look_at_nodes(
+def test_added_dependency_does_not_parse_nodes(
     runs: Runs, package: Path, parsed: list[str]
 ) -> None:
     write_nodes(package)
@@ -963,7 +963,7 @@ ament_package()
     ],
 )
 @pytest.mark.parametrize("build_type", ["ament_python", "ament_cmake"])
-def test_an_edit_of_the_manifest_gives_what_a_first_run_gives(
+def test_edited_manifest_gives_the_report_of_a_first_run(
     runs: Runs,
     source: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -994,9 +994,7 @@ def test_an_edit_of_the_manifest_gives_what_a_first_run_gives(
 # -- several distributions
 
 
-def test_a_check_for_several_distributions_is_remembered(
-    runs: Runs, source: Path, package: Path
-) -> None:
+def test_check_for_several_distributions_is_cached(runs: Runs, source: Path, package: Path) -> None:
     make_package(source, "listener")
     words = (".", "--distro", "jazzy,lyrical", "--no-types")
     first = runs(*words)

@@ -1,4 +1,4 @@
-"""The compiled rules in the user's cache are those of the files."""
+"""The cached bytecode of rules matches the rule files."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ def codes(root: Path) -> list[str]:
     return [rule.code for rule in registry.load([str(root)])]
 
 
-def kept(root: Path) -> Path:
+def bytecode_file(root: Path) -> Path:
     (path,) = (root.parent / "cache" / "ros2-scaffold" / "rules").iterdir()
     return path
 
 
-def test_the_files_are_not_read_again(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cached_rules_are_not_compiled_again(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(path: str) -> None:
         raise AssertionError(path)
 
@@ -83,35 +83,35 @@ def replace(root: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("change", [edit_in_the_same_size_and_time, add, replace])
-def test_a_change_is_seen(root: Path, change: Callable[[Path], list[str]]) -> None:
+def test_change_is_noticed(root: Path, change: Callable[[Path], list[str]]) -> None:
     codes(root)
     expected = change(root)
     assert codes(root) == expected
 
 
-def test_a_damaged_file_is_ignored(root: Path) -> None:
+def test_damaged_bytecode_is_ignored(root: Path) -> None:
     codes(root)
-    whole = kept(root).read_bytes()
+    whole = bytecode_file(root).read_bytes()
     for at in range(0, len(whole), 61):
-        kept(root).write_bytes(whole[:at] + bytes([whole[at] ^ 0x41]) + whole[at + 1 :])
+        bytecode_file(root).write_bytes(whole[:at] + bytes([whole[at] ^ 0x41]) + whole[at + 1 :])
         assert codes(root) == ["CM001"]
-        assert kept(root).read_bytes() == whole
+        assert bytecode_file(root).read_bytes() == whole
 
 
-def test_without_a_cache(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_disabled_cache(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(cache.SWITCH, "1")
     assert codes(root) == ["CM001"]
     assert not (root.parent / "cache").exists()
 
 
-def test_a_broken_rule_is_named(root: Path) -> None:
+def test_broken_rule_is_reported(root: Path) -> None:
     (root / "cmake" / "broken.py").write_text("def :\n")
     for _ in range(2):
         with pytest.raises(ContentError, match=r"broken\.py: SyntaxError"):
             codes(root)
 
 
-def test_few_directories_are_kept(root: Path, tmp_path: Path) -> None:
+def test_number_of_cached_directories_is_limited(root: Path, tmp_path: Path) -> None:
     for number in range(rule_bytecode.MAX_ROOTS + 3):
         other = tmp_path / str(number)
         (other / "cmake").mkdir(parents=True)

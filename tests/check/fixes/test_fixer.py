@@ -1,4 +1,4 @@
-"""Fixing: comes to rest in one run, in all packages at once, and breaks no file."""
+"""Fixing: converges in one run, for all packages at once, and never breaks a file."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def replace(old: str, new: str, path: str = "a.py", safety: Safety = Safety.SAFE
 Check = Callable[[Package], list[Diagnostic]]
 
 
-def test_all_dependencies_are_inserted_in_one_round_and_in_order() -> None:
+def test_all_dependencies_are_inserted_in_one_round_in_order() -> None:
     from scaffold.check import runner
     from scaffold.check.rules import registry
     from scaffold.configuration import content
@@ -97,7 +97,7 @@ def test_all_dependencies_are_inserted_in_one_round_and_in_order() -> None:
     assert added == [*expected, "<test_depend>python3-numpy</test_depend>"]
 
 
-def test_a_fix_that_breaks_a_file_is_left_out_and_the_others_are_not() -> None:
+def test_fix_that_breaks_a_file_is_skipped() -> None:
     before = "a = 1\nb = 1\nc = 1\n"
 
     def check(package: Package) -> list[Diagnostic]:
@@ -124,20 +124,20 @@ def test_a_fix_that_breaks_a_file_is_left_out_and_the_others_are_not() -> None:
         ("launch/a.xml", "<launch></launch>\n", "</launch>"),
     ],
 )
-def test_files_of_all_kinds_stay_readable(path: str, text: str, old: str) -> None:
+def test_fixed_files_of_all_kinds_still_parse(path: str, text: str, old: str) -> None:
     fixed = fixer.fix(
         Package.of({"package.xml": "<package/>\n", path: text}), replace(old, "", path)
     )
     assert (fixed.changed, fixed.applied) == ({}, 0)
 
 
-def test_what_cannot_be_written_in_the_coding_of_the_file_is_left_out() -> None:
+def test_unencodable_fix_is_skipped() -> None:
     before = "# -*- coding: latin-1 -*-\na = '\xe9'\n".encode("latin-1")
     fixed = fixer.fix(Package.of({"a.py": before}), replace("a =", "\u20ac ="))
     assert (fixed.changed, fixed.applied) == ({}, 0)
 
 
-def test_fixes_that_undo_each_other_end_and_are_named() -> None:
+def test_conflicting_fixes_end_and_are_reported() -> None:
     def check(package: Package) -> list[Diagnostic]:
         return replace("1", "2")(package) or replace("2", "1")(package)
 
@@ -150,7 +150,7 @@ def test_fixes_that_undo_each_other_end_and_are_named() -> None:
 @pytest.mark.parametrize(
     ("before", "old", "rounds"), [("a\n" + "b\n" * 2000, "b\n", 1), ("x = 'bb'\n", "b", 2)]
 )
-def test_whole_lines_are_removed_at_once_but_not_neighbors_in_a_line(
+def test_lines_are_removed_at_once_but_not_adjacent_text(
     before: str, old: str, rounds: int
 ) -> None:
     checks: list[int] = []
@@ -164,10 +164,10 @@ def test_whole_lines_are_removed_at_once_but_not_neighbors_in_a_line(
     assert len(checks) == rounds + 1
 
 
-def test_fixes_that_make_work_for_others_end_in_a_few_rounds(
+def test_cascading_fixes_end_in_a_few_rounds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each unused variable is used by the next alone."""
+    """Each variable is only used by the next one, and the last one is unused."""
     monkeypatch.chdir(tmp_path)
     chain = "".join(f"    x{at} = x{at - 1}\n" for at in range(1, 200))
     fill(tmp_path, {"a.py": f"def f():\n    x0 = 1\n{chain}".encode()})
@@ -177,10 +177,10 @@ def test_fixes_that_make_work_for_others_end_in_a_few_rounds(
     assert "gave up on F841" in error
 
 
-def test_the_second_run_changes_nothing_in_any_package(
+def test_second_run_changes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """What a package declares after the first round decides what its user lacks."""
+    """The dependencies of a package, fixed in the first round, affect its dependents."""
     monkeypatch.chdir(tmp_path)
     fill(tmp_path, {**package("a", IMPORTS), **package("b", IMPORTS + 'x = "1" \n')})
     main(["check", "--fix"])
@@ -191,7 +191,7 @@ def test_the_second_run_changes_nothing_in_any_package(
     assert tree(tmp_path) == after
 
 
-def test_the_patch_of_a_workspace_does_what_fix_does(
+def test_patch_of_a_workspace_equals_fix(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfdbinary: pytest.CaptureFixture[bytes]
 ) -> None:
     files = {
@@ -222,7 +222,7 @@ def test_the_patch_of_a_workspace_does_what_fix_does(
     assert tree(tmp_path / "fixed" / "src") != {name: (data, False) for name, data in files.items()}
 
 
-def test_a_link_out_of_the_package_does_not_stop_the_rest(
+def test_symlink_out_of_the_package_does_not_block_other_fixes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -235,7 +235,7 @@ def test_a_link_out_of_the_package_does_not_stop_the_rest(
     assert b"import" not in (tmp_path / "a" / "node.py").read_bytes()
 
 
-def test_the_summary_tells_safe_fixes_from_others(
+def test_summary_counts_safe_and_unsafe_fixes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -250,7 +250,7 @@ def test_the_summary_tells_safe_fixes_from_others(
     assert capsys.readouterr().out.endswith("; 2 fixable with --fix --unsafe-fixes\n")
 
 
-def test_nothing_is_declared_for_an_import_that_is_removed(
+def test_no_dependency_is_added_for_a_removed_import(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -260,7 +260,7 @@ def test_nothing_is_declared_for_an_import_that_is_removed(
     assert "nav_msgs" not in (tmp_path / "talker" / "package.xml").read_text()
 
 
-def test_a_single_file_is_fixed_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_single_file_is_fixed_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     fill(tmp_path, {**package("a", "import os\nX = 1\n"), "a/other.py": b"import os\n"})
     main(["check", "--fix", "--select", "F401", "a/node.py"])
@@ -268,7 +268,7 @@ def test_a_single_file_is_fixed_alone(tmp_path: Path, monkeypatch: pytest.Monkey
     assert (tmp_path / "a" / "other.py").read_bytes() == b"import os\n"
 
 
-def test_a_file_without_a_package_is_fixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_file_without_a_package_is_fixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     fill(tmp_path, {"a.py": b"x = 1 \n", "b.py": b"x = 1 \n"})
     main(["check", "--fix", "a.py"])
@@ -276,7 +276,9 @@ def test_a_file_without_a_package_is_fixed(tmp_path: Path, monkeypatch: pytest.M
     assert (tmp_path / "b.py").read_bytes() == b"x = 1 \n"
 
 
-def test_whole_packages_of_files_are_fixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_whole_packages_of_given_files_are_fixed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     fill(tmp_path, {**package("a", f"{IMPORTS}\n"), **package("b", f"{IMPORTS}\n")})
     fill(tmp_path, {"a/other.py": b"x = 1 \n", "loose.py": b"x = 1 \n"})
@@ -291,7 +293,7 @@ def test_whole_packages_of_files_are_fixed(tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])
-def test_a_bar_is_shown_on_a_terminal_only(tmp_path: Path, *, is_terminal: bool) -> None:
+def test_progress_bar_is_only_shown_on_a_terminal(tmp_path: Path, *, is_terminal: bool) -> None:
     fill(tmp_path, package("a", "import os\n"))
     leader, follower = pty.openpty()
     fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))

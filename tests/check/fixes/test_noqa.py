@@ -1,4 +1,4 @@
-"""``check --add-noqa`` silences each finding where a comment can be, and changes nothing else."""
+"""``check --add-noqa`` suppresses each finding with a comment, where possible."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def talker(
     return root
 
 
-def test_the_check_is_clean_afterwards_and_a_second_run_changes_nothing(
+def test_check_is_clean_afterwards_and_second_run_changes_nothing(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = {path: path.read_text() for path in talker.rglob("*") if path.is_file()}
@@ -82,7 +82,7 @@ def test_the_check_is_clean_afterwards_and_a_second_run_changes_nothing(
     assert {path: path.read_text() for path in before} == after
 
 
-def test_only_what_is_selected_is_silenced(
+def test_only_selected_codes_are_suppressed(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", "--add-noqa", "--select", "PX020"]) == 0
@@ -94,7 +94,7 @@ def test_only_what_is_selected_is_silenced(
     assert "noqa" not in (talker / "CMakeLists.txt").read_text(), "a patch writes nothing"
 
 
-def test_what_cannot_have_a_comment_is_left_and_reported(
+def test_findings_without_room_for_a_comment_are_still_reported(
     talker: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     node = talker / "talker" / "other.py"
@@ -105,9 +105,7 @@ def test_what_cannot_have_a_comment_is_left_and_reported(
     assert node.read_text().startswith("#!/usr/bin/env python3\nimport")
 
 
-def test_no_comment_is_added_that_suppresses_nothing(
-    talker: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_no_useless_comment_is_added(talker: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cmake = talker / "CMakeLists.txt"
     cmake.write_text(f"{cmake.read_text()}# the end \n")
     assert main(["check", "--add-noqa", "talker/CMakeLists.txt"]) == 1
@@ -118,6 +116,6 @@ def test_no_comment_is_added_that_suppresses_nothing(
 
 @pytest.mark.usefixtures("talker")
 @pytest.mark.parametrize("flag", [["--fix"], ["--since", "HEAD"], ["--write-baseline", "a"]])
-def test_it_goes_with_no_other_work(capsys: pytest.CaptureFixture[str], flag: list[str]) -> None:
+def test_add_noqa_excludes_other_flags(capsys: pytest.CaptureFixture[str], flag: list[str]) -> None:
     assert main(["check", "--add-noqa", *flag]) == 2
     assert f"omit {flag[0]}\n" in capsys.readouterr().err
