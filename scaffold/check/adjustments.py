@@ -13,13 +13,13 @@ from scaffold.configuration.exclusion import Exclusion
 from scaffold.diagnostic import Diagnostic, Severity
 from scaffold.model.discovery.foreign import ENVIRONMENTS, Foreign
 from scaffold.model.install.unused import (
-    is_beside_programs,
     is_copy_of_old_code,
-    is_named,
+    is_never_run,
     is_out_of_reach,
     is_unrun_test,
 )
 from scaffold.model.package import Package
+from scaffold.model.python.facts import paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
 from scaffold.model.python.module import PythonModule
 from scaffold.model.rclpy.stopping import only_while_stopping
@@ -118,21 +118,23 @@ class Adjustments(NamedTuple):
 def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     """Tell whether an error is in code that nothing runs and no test of the package checks."""
     path, code = diagnostic.location.path, diagnostic.code
-    is_copy = code not in _OF_TESTS and _is_of_copy(package, diagnostic)
+    if code == _UNDECLARED:
+        return _is_needed_by_unused_code(package, diagnostic)
+    is_copy = code not in _OF_TESTS and is_copy_of_old_code(package, path)
     if not path.endswith(".py") or is_copy:
         return is_copy and not _is_tested(package, diagnostic)
     if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
     if _is_tested(package, diagnostic):
         return False
-    is_of_example = code not in _OF_TESTS and path.startswith(("doc/", "docs/"))
-    is_of_test = code.startswith((*_OF_PROGRAMS, _UNDECLARED)) and is_unrun_test(package, path)
-    if is_of_example or is_of_test:
+    if code not in _OF_TESTS and path.startswith(("doc/", "docs/")):
         return True
-    if code.startswith(_OF_PROGRAMS):
-        return is_beside_programs(package, path) or _is_uncalled(package, diagnostic)
-    return code.startswith(_OF_LINTERS) and (
-        is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
+    if not code.startswith((*_OF_PROGRAMS, *_OF_LINTERS)):
+        return False
+    return is_out_of_reach(package, path) or (
+        _is_hardly_reached(package, diagnostic)
+        if code.startswith(_OF_LINTERS)
+        else _is_uncalled(package, diagnostic)
     )
 
 
@@ -146,17 +148,15 @@ def _is_tested(package: Package, diagnostic: Diagnostic) -> bool:
     return is_of_linters and runs_linter(package, diagnostic)
 
 
-def _is_of_copy(package: Package, diagnostic: Diagnostic) -> bool:
-    """Tell whether a finding is about a copy of old code only, and not about its package.
+def _is_needed_by_unused_code(package: Package, undeclared: Diagnostic) -> bool:
+    """Tell whether only code that nothing runs imports a package that is not declared.
 
-    One dependency that several files need is reported at the first of them.
+    It is reported at the first of the files that import it.
     """
-    path = diagnostic.location.path
-    if not is_copy_of_old_code(package, path):
-        return False
-    needed = _QUOTED.search(diagnostic.message)
-    is_of_package = diagnostic.cause.startswith("dependency ") and needed is not None
-    return not (is_of_package and needed and is_named(package, path, needed.group(1)))
+    needed = _QUOTED.search(undeclared.message)
+    paths = {undeclared.location.path}
+    paths.update(paths_importing(package, needed[1]) if needed else ())
+    return all(is_never_run(package, path) for path in paths)
 
 
 def _is_uncalled(package: Package, diagnostic: Diagnostic) -> bool:

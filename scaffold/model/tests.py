@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from scaffold.model.python.facts import paths_importing
-from scaffold.model.python.module import is_in_tests
+from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
@@ -54,11 +54,7 @@ def test_modules(package: Package) -> list[PythonModule]:
 
 def test_paths(package: Package) -> list[str]:
     """Return the paths of the same, whether they can be parsed or not."""
-    return [path for path in files_of_tests(package) if _is_collected(path.rpartition("/")[2])]
-
-
-def _is_collected(name: str) -> bool:
-    return name.startswith("test_") or name.endswith("_test.py")
+    return [path for path in files_of_tests(package) if is_collected(path.rpartition("/")[2])]
 
 
 def is_test_case(module: PythonModule, class_: ast.ClassDef) -> bool:

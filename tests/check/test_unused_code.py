@@ -302,11 +302,51 @@ def test_script_not_installed_by_cmake(package: Path, capsys: pytest.CaptureFixt
     write(package / "scripts" / "relay.py", MISTAKE)
     write(package / "config" / "relay.yaml", "relay:\n  ros__parameters:\n    rate: 1.0\n")
     write(package / "CMakeLists.txt", lists.format("# install(PROGRAMS scripts/relay.py)\n"))
-    assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}  # started by hand
-    write(package / "CMakeLists.txt", lists.format("add_executable(talk talk.cpp)\n"))
     assert severities(capsys, "MS002") == {"scripts/relay.py": "warning"}
+    write(package / "README.md", "Start it: `python3 scripts/relay.py`\n")
+    assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
+    (package / "README.md").unlink()
     write(package / "CMakeLists.txt", lists.format("install(PROGRAMS scripts/relay.py)\n"))
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
+
+
+def test_script_not_installed_by_setup_py(
+    package: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for path in ("relay.py", "scripts/relay.py", "talker/relay.py"):
+        write(package / path, MISTAKE)
+    assert severities(capsys, "MS002") == {
+        "relay.py": "warning",
+        "scripts/relay.py": "warning",
+        "talker/relay.py": "error",
+    }
+    write(package / "setup.py", SETUP.replace(")\n", ", scripts=['scripts/relay.py'])\n"))
+    assert severities(capsys, "MS002")["scripts/relay.py"] == "error"
+
+
+@pytest.mark.parametrize(
+    ("severity", "path", "text"),
+    [
+        ("error", "test/test_talk.py", "from test.helper import help\n"),
+        ("error", "talker/talk.py", "import cv2\n"),
+        ("warning", "test/other.py", "import cv2\n"),
+        ("warning", "test/test_talk.py", "# from test.helper import help\n"),
+    ],
+)
+def test_dependency_of_test_helper(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, path: str, text: str
+) -> None:
+    write(package / "test" / "__init__.py", "")
+    write(package / "test" / "helper.py", "import cv2\n")
+    write(package / path, text)
+    assert [*severities(capsys, "PX020").values()] == [severity]
+
+
+def test_dependency_of_conftest(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(package / "test" / "conftest.py", "import cv2\n")
+    assert severities(capsys, "PX020") == {"test/conftest.py": "warning"}
+    write(package / "test" / "test_talk.py", "def test_talk():\n    pass\n")
+    assert severities(capsys, "PX020") == {"test/conftest.py": "error"}
 
 
 def test_script_only_in_setup_py_next_to_cmake(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from scaffold.formats.hash_comments import without_comments
-from scaffold.model.python.module import is_in_tests
+from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.source import ViewError
 
 if TYPE_CHECKING:
@@ -32,10 +33,14 @@ _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches what a CMakeLists.txt calls when it runs or checks Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
-_INSTALLS_PROGRAMS = re.compile(rb"\b(?:add_executable|PROGRAMS)\b")
+_TAKES_ALL = rb"GLOB_RECURSE|\bDIRECTORY\s+\.?/?\s|os\.walk|rglob|\*\*/"
+"""Matches what takes files of any directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
-_RUN_AS_THEY_ARE = frozenset({"setup.py", "conftest.py", "__init__.py", "__main__.py"})
+_TEXTS = (".md", ".rst")
+_RUN_AS_THEY_ARE = frozenset({"setup.py", "__init__.py", "__main__.py"})
+_FOR_TESTS = "conftest.py"
+"""What pytest loads for the tests in a directory and below it."""
 
 
 def is_copy_of_old_code(package: Package, path: str) -> bool:
@@ -48,11 +53,19 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
     return bool(is_kept) and not is_named(package, path, stem)
 
 
+def is_never_run(package: Package, path: str) -> bool:
+    """Tell whether a Python file is a copy of old code, or is out of reach."""
+    return is_copy_of_old_code(package, path) or is_out_of_reach(package, path)
+
+
 def is_out_of_reach(package: Package, path: str) -> bool:
-    """Tell whether a Python file is in no directory that is installed, and nothing names it."""
+    """Tell whether a Python file is in no directory that is installed, and nothing names it.
+
+    People start a script from the sources when a text of the package says so.
+    """
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
-    if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name:
+    if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name or stem.endswith("launch"):
         return False
     if is_in_tests(path):
         return is_unrun_test(package, path)
@@ -63,8 +76,9 @@ def is_out_of_reach(package: Package, path: str) -> bool:
         return False
     installing = [without_comments(package.data(item)) for item in _building(package)]
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
-    is_taken_whole = not parts and any(b"*.py" in data for data in installing)
-    return not (is_mentioned or is_taken_whole or is_named(package, path, stem))
+    takes_all = re.compile(rb"\*\.py" if not parts else _TAKES_ALL)
+    is_taken_whole = any(map(takes_all.search, installing))
+    return not (is_mentioned or is_taken_whole or is_named(package, path, stem, _TEXTS))
 
 
 def _building(package: Package) -> list[str]:
@@ -78,49 +92,55 @@ def _is_built_by_cmake(package: Package) -> bool:
 
 
 def is_unrun_test(package: Package, path: str) -> bool:
-    """Tell whether CMake runs neither a test in Python, nor a whole directory that it is in."""
-    if not is_in_tests(path) or package.build_type == "ament_python":
-        return False
+    """Tell whether a file of tests is neither run as a test nor used by one that is."""
     *directories, name = path.split("/")
     stem = name.removesuffix(".py")
-    if stem == name or name in _RUN_AS_THEY_ARE or not package.has("CMakeLists.txt"):
+    if not is_in_tests(path) or stem == name or name in _RUN_AS_THEY_ARE:
         return False
-    lists = (item for item in package.files if item.endswith(("CMakeLists.txt", ".cmake")))
-    calls = [_ADDS_DIRECTORY.sub(b"", without_comments(package.data(item))) for item in lists]
-    whole = [part for part in directories if part in {"test", "tests"}]
-    is_run = any(
-        _RUNS_PYTHON.search(text)
-        and (not whole or any(_mentions_directory(text, part) for part in whole))
-        for text in calls
-    )
+    if name == _FOR_TESTS:
+        return not any(
+            other.startswith(path.removesuffix(_FOR_TESTS))
+            and is_collected(other.rpartition("/")[2])
+            and not is_unrun_test(package, other)
+            for other in package.python_files
+        )
+    if package.build_type == "ament_python":
+        is_run = is_collected(name) or {"test", "tests"}.isdisjoint(directories)
+    elif package.has("CMakeLists.txt"):
+        is_run = _runs_in_cmake(package, [x for x in directories if x in {"test", "tests"}])
+    else:
+        return False
     return not is_run and not is_named(package, path, stem)
 
 
-def is_beside_programs(package: Package, path: str) -> bool:
-    """Tell whether CMake installs programs of a package, and a Python file is none of them.
-
-    Where it installs no program at all, people may start the files from the sources.
-    """
-    if not package.has("CMakeLists.txt") or is_in_tests(path):
-        return False
-    if package.has("setup.py") and not _is_built_by_cmake(package):
-        return False
-    if not _INSTALLS_PROGRAMS.search(without_comments(package.data("CMakeLists.txt"))):
-        return False
-    return is_out_of_reach(package, path)
+def _runs_in_cmake(package: Package, directories: Sequence[str]) -> bool:
+    """Tell whether CMake runs Python, and names one of some directories as a whole, if any."""
+    lists = (item for item in package.files if item.endswith(("CMakeLists.txt", ".cmake")))
+    calls = [_ADDS_DIRECTORY.sub(b"", without_comments(package.data(item))) for item in lists]
+    return any(
+        _RUNS_PYTHON.search(text)
+        and (not directories or any(_mentions_directory(text, part) for part in directories))
+        for text in calls
+    )
 
 
-def is_named(package: Package, path: str, stem: str) -> bool:
+def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()) -> bool:
     """Tell whether any other file of the package has a name, such as that of a module.
 
     The parameters of a node have its name, whether anything starts it or not.
+
+    Args:
+        package: The package.
+        path: The file that is not looked at.
+        stem: The name.
+        texts: The endings of more files to look at.
     """
     unused = _BUILDING[1:] if _is_built_by_cmake(package) else ()
     others = (
         item
         for item in package.files
         if item not in {path, *unused}
-        and (item.endswith(_NAMING) or item.startswith("scripts/"))
+        and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
         and not item.startswith(("config/", "params/"))
     )
     return any(_is_in_code(package, item, stem) for item in others)

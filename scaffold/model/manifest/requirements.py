@@ -12,7 +12,7 @@ from scaffold.model.catalog import ROS1_PACKAGES, keys_brought, keys_of_module
 from scaffold.model.cmake.ament import programs
 from scaffold.model.cmake.rosidl import generations
 from scaffold.model.python.facts import imports_by_path
-from scaffold.model.python.module import is_in_tests
+from scaffold.model.python.module import is_collected, is_in_tests
 from scaffold.model.released import transitive_dependencies
 from scaffold.record import NamedTuple
 from scaffold.source import ViewError
@@ -176,7 +176,7 @@ def _is_data(package: Package, path: str) -> bool:
 
 def _is_collected(name: str) -> bool:
     """Tell whether pytest, or launch_testing, runs a file of its own accord."""
-    return name.startswith("test_") or name.endswith(("_test.py", ".test.py")) or "conftest" in name
+    return is_collected(name) or name.endswith(".test.py") or "conftest" in name
 
 
 def _is_imported_by_tests(package: Package, name: str) -> bool:

@@ -50,6 +50,11 @@ def is_in_tests(path: str) -> bool:
     )
 
 
+def is_collected(name: str) -> bool:
+    """Tell whether pytest runs a file of its own accord, by its name."""
+    return name.startswith("test_") or name.endswith("_test.py")
+
+
 class PythonModule(SyntaxTree):
     """A Python file; it is never imported or run."""
 
