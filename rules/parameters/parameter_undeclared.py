@@ -2,19 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from scaffold.api import (
     Diagnostic,
     Effect,
     Example,
+    Location,
     Package,
+    Report,
     Rule,
+    Severity,
+    ViewError,
     closest_name,
     listed_names,
 )
-from scaffold.api.launch import StartedNode, is_loaded, nodes_for, started_nodes, use_of
-from scaffold.api.parameters import Declared, declared_by, parameter_file, parameter_paths
+from scaffold.api.launch import (
+    GivenParameter,
+    StartedNode,
+    is_loaded,
+    nodes_for,
+    started_nodes,
+    use_of,
+)
+from scaffold.api.parameters import (
+    Declared,
+    comparable,
+    comparable_in_file,
+    declared_by,
+    own_values,
+    parameter_file,
+    parameter_paths,
+    plain_name,
+)
+from scaffold.api.programs import KnownNode
 
 _NODE = (
     "from rclpy.node import Node\n\n\n"
@@ -38,6 +60,10 @@ class ParameterUndeclared(Rule):
     code = "PF004"
     name = "parameter-undeclared"
     effect = Effect.IGNORED
+    other_severities = {
+        Severity.WARNING: "the node has the same value without it: as the default of the parameter "
+        "that is meant, or under that name"
+    }
     examples = (
         Example(
             "declared", {"talker.py": _NODE.format(""), "a.yaml": _FILE.format("limits: {high: 4}")}
@@ -89,6 +115,25 @@ class ParameterUndeclared(Rule):
             },
         ),
         Example(
+            "a value that the node has anyway",
+            {
+                "talker.py": _NODE.format("") + "        self.text = 'hello'\n",
+                "a.yaml": _FILE.format("limits:\n      hihg: 3\n    text: hello"),
+            },
+            Report(
+                "a.yaml:6:7",
+                "node 'talker' declares no parameter 'limits.hihg': the value is "
+                "ignored; did you mean 'limits.high'?",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "a.yaml:7:5",
+                "node 'talker' declares no parameter 'text': the value is ignored; it "
+                "has limits.high, rate",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "misspelled, and missing",
             {
                 "talker.py": _NODE.format(""),
@@ -117,20 +162,70 @@ class ParameterUndeclared(Rule):
                     continue
                 for entry in section.entries:
                     if not any(node.has(entry.name) for node in declarations):
-                        message = _message(package, entry.name, declarations, owners[0].node_name)
-                        yield self.report(entry, message, cause=_cause(owners[0].node_name))
+                        value = comparable_in_file(entry.value)
+                        ignored = _Ignored(package, owners, declarations, entry.name, value)
+                        yield self._report(entry.location, ignored, owners[0].node_name)
 
     def _in_launch_files(self, package: Package) -> Iterator[Diagnostic]:
         for node in started_nodes(package):
             owner = node.owner(package)
             declared = declared_by(owner, package) if owner is not None else None
-            if declared is None or not declared.complete:
+            if owner is None or declared is None or not declared.complete:
                 continue
-            known_as = node.name(package)
             for given in node.parameters:
                 if not declared.has(given.name) and not _is_shared(package, node, given.name):
-                    message = _message(package, given.name, [declared], known_as)
-                    yield self.report(given.key_location, message, cause=_cause(known_as))
+                    value = _comparable_in_launch(given)
+                    ignored = _Ignored(package, [owner], [declared], given.name, value)
+                    yield self._report(given.key_location, ignored, node.name(package))
+
+    def _report(self, at: Location, ignored: _Ignored, node: object) -> Diagnostic:
+        who = f"node {node!r}" if isinstance(node, str) else "this node"
+        hint, severity = ignored.judged()
+        message = f"{who} declares no parameter {ignored.name!r}: the value is ignored; {hint}"
+        return self.report(at, message, severity=severity, cause=f"parameters of {node}")
+
+
+class _Ignored(NamedTuple):
+    """A parameter that nodes do not declare."""
+
+    package: Package
+    owners: Sequence[KnownNode]
+    declarations: Sequence[Declared]
+    name: str
+    value: str
+    """See `comparable`."""
+
+    def judged(self) -> tuple[str, Severity]:
+        """Return which parameter may be meant, and how bad it is that this one is ignored."""
+        names = sorted({key for declared in self.declarations for key in declared.types})
+        closest = closest_name(self.package, self.name, names, 0.6)
+        hint = (
+            f"did you mean {closest!r}?" if closest else f"it has {listed_names(names, self.name)}"
+        )
+        is_harmless = bool(self.value) and all(
+            self._has_value(*pair, closest)
+            for pair in zip(self.owners, self.declarations, strict=True)
+        )
+        return hint, Severity.WARNING if is_harmless else Severity.ERROR
+
+    def _has_value(self, owner: KnownNode, declared: Declared, closest: str) -> bool:
+        """Tell whether a node has the value without it, as a default or under that name."""
+        meant = declared.places.get(closest)
+        if meant is not None and comparable(meant.default) == self.value:
+            return True
+        try:
+            own = own_values(owner.home(self.package), owner.path)
+        except ViewError:
+            return False
+        return own.get(plain_name(self.name), frozenset()) == {self.value}
+
+
+def _comparable_in_launch(given: GivenParameter) -> str:
+    """Return what can be compared of a value that a launch file gives; empty for nothing."""
+    value = given.value
+    if value is None or given.is_configuration:
+        return ""
+    return value.text if value.number is None else comparable(value.number)
 
 
 def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
@@ -142,17 +237,3 @@ def _is_shared(package: Package, node: StartedNode, name: str) -> bool:
         and other.name(package) == node.name(package)
         for other in started_nodes(package)
     )
-
-
-def _cause(node: object) -> str:
-    return f"parameters of {node}"
-
-
-def _message(package: Package, name: str, declarations: list[Declared], node: object) -> str:
-    names = sorted({key for declared in declarations for key in declared.types})
-    closest = closest_name(package, name, names, 0.6)
-    hint = f"it has {listed_names(names, name)}"
-    if closest:
-        hint = f"did you mean {closest!r}?"
-    who = f"node {node!r}" if isinstance(node, str) else "this node"
-    return f"{who} declares no parameter {name!r}: the value is ignored; {hint}"

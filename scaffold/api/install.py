@@ -19,7 +19,7 @@ from scaffold.model.install.modules import (
 )
 from scaffold.model.install.resources import own_files
 from scaffold.model.install.share import share_of
-from scaffold.model.install.unused import is_copy_of_old_code
+from scaffold.model.install.unused import is_copy_of_old_code, is_never_run
 
 __all__ = [
     "absolute_name",
@@ -28,6 +28,7 @@ __all__ = [
     "is_copy_of_old_code",
     "is_elsewhere",
     "is_installed_by_path",
+    "is_never_run",
     "is_started",
     "may_be_made",
     "modules_of",

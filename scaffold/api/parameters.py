@@ -25,6 +25,12 @@ from scaffold.model.parameters.files import (
     scalar_type,
     value_type,
 )
+from scaffold.model.parameters.own_values import (
+    comparable,
+    comparable_in_file,
+    own_values,
+    plain_name,
+)
 from scaffold.model.parameters.topic_names import keeps_default_name
 from scaffold.model.parameters.types import a_type, agreed_type, narrow_default
 
@@ -38,6 +44,8 @@ __all__ = [
     "Section",
     "a_type",
     "agreed_type",
+    "comparable",
+    "comparable_in_file",
     "declared_alone",
     "declared_by",
     "has_always",
@@ -47,9 +55,11 @@ __all__ = [
     "narrow_default",
     "number_of",
     "own_nodes",
+    "own_values",
     "parameter_file",
     "parameter_paths",
     "place_of",
+    "plain_name",
     "scalar_type",
     "value_type",
 ]

@@ -31,6 +31,7 @@ from scaffold.model.programs.threads import (
 )
 from scaffold.model.programs.topics import (
     NamedEndpoint,
+    is_named_in_compiled_code,
     is_private,
     is_remapped,
     named_endpoints,
@@ -54,6 +55,7 @@ __all__ = [
     "in_callbacks",
     "in_constructors",
     "in_tasks",
+    "is_named_in_compiled_code",
     "is_private",
     "is_remapped",
     "late_init",

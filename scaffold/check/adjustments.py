@@ -16,7 +16,6 @@ from scaffold.model.install.unused import (
     is_copy_of_old_code,
     is_never_run,
     is_out_of_reach,
-    is_unrun_test,
 )
 from scaffold.model.package import Package
 from scaffold.model.python.facts import paths_importing
@@ -125,16 +124,18 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
         return is_copy and not _is_tested(package, diagnostic)
     if code == _UNDEFINED and _is_harmless(package, diagnostic):
         return True
-    if _is_tested(package, diagnostic):
-        return False
+    return not _is_tested(package, diagnostic) and _is_unreached(package, diagnostic)
+
+
+def _is_unreached(package: Package, diagnostic: Diagnostic) -> bool:
+    """Tell whether nothing runs the Python code that an error is in."""
+    path, code = diagnostic.location.path, diagnostic.code
     if code not in _OF_TESTS and path.startswith(("doc/", "docs/")):
         return True
-    if not code.startswith((*_OF_PROGRAMS, *_OF_LINTERS)):
-        return False
-    return is_out_of_reach(package, path) or (
-        _is_hardly_reached(package, diagnostic)
-        if code.startswith(_OF_LINTERS)
-        else _is_uncalled(package, diagnostic)
+    if code.startswith(_OF_LINTERS):
+        return is_out_of_reach(package, path) or _is_hardly_reached(package, diagnostic)
+    return code.startswith(_OF_PROGRAMS) and (
+        is_out_of_reach(package, path) or _is_uncalled(package, diagnostic)
     )
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from scaffold.api import Diagnostic, Example, Package, Rule
+from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity
+from scaffold.api.install import is_never_run
 from scaffold.api.parameters import keeps_default_name
-from scaffold.api.programs import NamedEndpoint, topics_of
+from scaffold.api.programs import NamedEndpoint, is_named_in_compiled_code, topics_of
 from scaffold.api.rclpy import conflict_of
 
 _NODE = (
@@ -38,6 +39,7 @@ class QosIncompatible(Rule):
 
     code = "ND051"
     name = "qos-incompatible"
+    other_severities = {Severity.WARNING: "nothing runs the script that the other side is in"}
     examples = (
         Example(
             "compatible",
@@ -80,6 +82,37 @@ class QosIncompatible(Rule):
             },
         ),
         Example(
+            "a program in C++ publishes the topic, too",
+            {
+                "a.py": _NODE.format("publisher(String, 'chatter', qos_profile_sensor_data)"),
+                "b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "src/talk.cpp": 'auto talker = node->create_publisher<String>("/chatter", 10);\n',
+            },
+        ),
+        Example(
+            "the publisher of a script that nothing installs",
+            {
+                "setup.py": "from setuptools import setup\n\nsetup(packages=['talker'])\n",
+                "talker/__init__.py": "",
+                "talker/b.py": _NODE.format("subscription(String, 'chatter', print, 10)"),
+                "scripts/a.py": _NODE.format(
+                    "publisher(String, 'chatter', qos_profile_sensor_data)"
+                ),
+            },
+            Report(
+                "scripts/a.py:9:50",
+                "publisher 'chatter' is BEST_EFFORT, but the subscription in "
+                "talker/b.py:9 requests RELIABLE: nothing arrives",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "talker/b.py:9:60",
+                "subscription 'chatter' requests RELIABLE, but the publisher in "
+                "scripts/a.py:9 is BEST_EFFORT: nothing arrives",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "volatile for transient local",
             {
                 "a.py": _NODE.format("publisher(String, 'chatter', 10)"),
@@ -104,6 +137,12 @@ class QosIncompatible(Rule):
                 publisher, conflict = pairs[0]
                 if conflict is None or not all(other for _, other in pairs):
                     continue
+                if is_named_in_compiled_code(package, name):
+                    continue
+                is_apart = any(
+                    is_never_run(package, x.location.path) for x in (subscription, publisher)
+                )
+                severity = Severity.WARNING if is_apart else Severity.ERROR
                 both = ((subscription, publisher), (publisher, subscription))
                 for receiver, sender in both:
                     other, has = conflict if receiver is subscription else conflict[::-1]
@@ -112,7 +151,7 @@ class QosIncompatible(Rule):
                         f"{sender.location.path}:{sender.location.line} {other}: nothing arrives"
                     )
                     at = receiver.qos.location if receiver.qos is not None else receiver.location
-                    yield self.report(at, message, cause=f"QoS of {name}")
+                    yield self.report(at, message, severity=severity, cause=f"QoS of {name}")
 
 
 def _kind(endpoint: NamedEndpoint) -> str:

@@ -25,6 +25,7 @@ from scaffold.source import Location, ViewError
 if TYPE_CHECKING:
     from scaffold.model.package import Package
 
+_COMPILED = (".cpp", ".hpp", ".cc", ".cxx", ".c", ".h", ".rs")
 _KINDS = (Publisher, Subscription, Service, Client, ActionServer, ActionClient)
 
 
@@ -130,6 +131,20 @@ def is_remapped(package: Package, endpoint: NamedEndpoint) -> bool:
             if endpoint.name in text:
                 return True
     return False
+
+
+def is_named_in_compiled_code(package: Package, topic: str) -> bool:
+    """Tell whether a program of the workspace that is not read, in C++ or Rust, names a topic."""
+    texts = [f'"{slash}{topic}"'.encode() for slash in ("", "/")]
+    return any(text in data for data in _compiled_code(package) for text in texts)
+
+
+def _compiled_code(package: Package) -> Iterator[bytes]:
+    for other in package.workspace:
+        for path in other.files:
+            if path.endswith(_COMPILED):
+                with suppress(ViewError):
+                    yield other.data(path)
 
 
 def _topics(package: Package) -> Mapping[str, Topic]:
