@@ -14,6 +14,7 @@ from scaffold.api import (
     Report,
     Rule,
     Safety,
+    Severity,
 )
 from scaffold.api.cmake import Install, is_only_imported, programs, runs_with_python
 from scaffold.api.install import paths_imported_by
@@ -52,6 +53,9 @@ class ProgramNotExecutable(Rule):
 
     code = "CM014"
     name = "program-not-executable"
+    other_severities = {
+        Severity.WARNING: "the bit is missing, which `colcon build` without --symlink-install sets"
+    }
     examples = (
         Example(
             "executable",
@@ -83,9 +87,10 @@ class ProgramNotExecutable(Rule):
             Report(
                 "talker/node.py:1:1",
                 "CMakeLists.txt installs it as a program, but it has no executable "
-                "bit: `colcon build --symlink-install` makes an executable that "
-                "does not start",
+                "bit: `colcon build --symlink-install` makes an executable that does "
+                "not start",
                 fix="make talker/node.py executable",
+                severity=Severity.WARNING,
             ),
             fixed={"talker/node.py": _NODE},
         ),
@@ -233,7 +238,8 @@ class ProgramNotExecutable(Rule):
                 "`colcon build --symlink-install` makes an executable that does not start"
             )
             fix = Fix(f"make {path} executable", (MakeExecutable(path),))
-            yield self.report(package.start_of(path), message, fix, cause=_CAUSE)
+            at = package.start_of(path)
+            yield self.report(at, message, fix, severity=Severity.WARNING, cause=_CAUSE)
 
     def _check_kind(self, package: Package) -> Iterator[Diagnostic]:
         programs = {

@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from contextlib import suppress
 
-from scaffold.api import CreateFile, Diagnostic, Edit, Example, Fix, Package, Report, Rule
+from scaffold.api import (
+    CreateFile,
+    Diagnostic,
+    Edit,
+    Example,
+    Fix,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    ViewError,
+)
 from scaffold.api.manifest import name_used_elsewhere
 from scaffold.api.setup_py import node_scripts
 
@@ -39,6 +52,7 @@ class ScriptDirectoryDiffers(Rule):
 
     code = "SP004"
     name = "script-directory-differs"
+    other_severities = {Severity.WARNING: "it is bin/, from where a shell starts the program"}
     examples = (
         Example(
             "a setup.cfg",
@@ -87,6 +101,38 @@ class ScriptDirectoryDiffers(Rule):
                 fix="write setup.cfg",
             ),
             fixed={"setup.cfg": _CFG.format("talker")},
+        ),
+        Example(
+            "a command that the readme starts in a shell",
+            {
+                "package.xml": _MANIFEST,
+                "setup.py": _SETUP.format(_ENTRY),
+                "README.md": "Run it:\n\n    $ talker --rate 2\n",
+                **_NODE,
+            },
+            Report(
+                "setup.cfg:1:1",
+                "no setup.cfg: 'talker' of setup.py is installed to bin/, where `ros2 "
+                "run` does not look",
+                fix="write setup.cfg",
+                severity=Severity.WARNING,
+            ),
+            fixed={"setup.cfg": _CFG.format("talker")},
+        ),
+        Example(
+            "bin/, as it is written",
+            {
+                "package.xml": _MANIFEST_VALUE,
+                "setup.py": _SETUP_VALUE,
+                "setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/bin"),
+            },
+            Report(
+                "setup.cfg:4:17",
+                "install_scripts is '$base/bin'; `ros2 run talker` looks in $base/lib/talker",
+                fix="write $base/lib/talker",
+                severity=Severity.WARNING,
+            ),
+            fixed={"setup.cfg": _CFG_VALUE.format("$base/lib/talker", "$base/lib/talker")},
         ),
         Example(
             "the directory of the package",
@@ -161,7 +207,9 @@ class ScriptDirectoryDiffers(Rule):
             f"no setup.cfg: {scripts[0].name!r} of setup.py is installed to bin/, where `ros2 run` "
             "does not look"
         )
-        yield self.report(package.start_of("setup.cfg"), message, fix)
+        is_command = all(_is_run_in_shell(package, script.name) for script in scripts)
+        severity = Severity.WARNING if is_command else Severity.ERROR
+        yield self.report(package.start_of("setup.cfg"), message, fix, severity=severity)
 
     def _check_value(self, package: Package) -> Iterator[Diagnostic]:
         cfg = package.setup_cfg
@@ -186,4 +234,21 @@ class ScriptDirectoryDiffers(Rule):
                 message = f"{key} is {entry.value!r}; `ros2 run {package.name}` looks in {wanted}"
                 edit = Edit("setup.cfg", entry.value_start, entry.value_end, wanted)
                 fix = Fix(f"write {wanted}", (edit,))
-                yield self.report(entry, message, fix, cause="directory of scripts")
+                is_bin = entry.value.rstrip("/").endswith("/bin")
+                severity = Severity.WARNING if is_bin else Severity.ERROR
+                yield self.report(
+                    entry, message, fix, severity=severity, cause="directory of scripts"
+                )
+
+
+def _is_run_in_shell(package: Package, name: str) -> bool:
+    """Tell whether a text of the package starts a program as a command of its own."""
+    word = re.escape(name)
+    command = re.compile(rf"(?m)^[ \t]*(?:\$[ \t]+{word}(?!\S)|{word}[ \t]+--?\w)")
+    texts: list[str] = []
+    for path in package.files:
+        if path.endswith((".md", ".rst")):
+            with suppress(ViewError):
+                texts.append(package.source(path).text)
+    is_started = any(re.search(rf"ros2 run \S+ {word}\b", text) for text in texts)
+    return not is_started and any(map(command.search, texts))

@@ -17,6 +17,7 @@ from scaffold.api.types import (
     members,
     name_of,
     short_name,
+    unlike,
     with_article,
 )
 
@@ -28,7 +29,6 @@ from ._arguments import (
     is_uncallable,
     is_unpacked,
     parameter_name,
-    unlike,
     wrong_callback,
 )
 

@@ -13,14 +13,10 @@ from scaffold.api.types import (
     class_itself,
     full_name,
     has_call,
-    in_words,
     is_kind_of,
-    name_of,
     overload_problem,
     parameters,
     short_name,
-    with_article,
-    with_elements,
 )
 
 TIMEOUTS = {"can_transform": 3, "can_transform_full": 5, "transform": 2, "transform_full": 4}
@@ -106,14 +102,6 @@ def _is_each(finding: TypeFinding) -> bool:
             case ast.If() | ast.IfExp() | ast.Try() | ast.FunctionDef():
                 return False
     return False
-
-
-def unlike(expected: str, given: str) -> str:
-    """Return two types in words; of lists alike, what is in them."""
-    needed, got = with_article(name_of(expected)), in_words(given)
-    if needed == got:
-        needed, got = with_elements(expected), with_elements(given)
-    return f"{needed}, not {got}"
 
 
 def timeout(call: ast.Call, name: str) -> ast.expr | None:

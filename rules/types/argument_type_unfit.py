@@ -328,6 +328,7 @@ class ArgumentTypeUnfit(TypeRule):
                 "        self.set_parameters(Parameter('rate', value=2.0))\n"
                 "        self.set_parameters({'rate': 2.0})\n"
                 "        self.set_parameters([('rate', 2.0)])\n"
+                "        super().__init__('talker', cli_args=[1.0])\n"
             },
             "8:29: 'parameter_list' of set_parameters() must be a list, not an "
             "rclpy.parameter.Parameter: set_parameters() fails",
@@ -336,6 +337,8 @@ class ArgumentTypeUnfit(TypeRule):
             "10:29: 'parameter_list' of set_parameters() must be a list of "
             "rclpy.parameter.Parameter, not a list of rclpy.parameter.Parameter or tuple: "
             "set_parameters() fails",
+            "11:36: 'cli_args' of Node() must be a list of str, or None, not a list of str or "
+            "float: Node() fails",
         ),
         Example(
             "what launch only tests for truth",

@@ -25,8 +25,8 @@ from scaffold.types.wording import (
     is_certain_misfit,
     is_function,
     name_of,
+    unlike,
     with_article,
-    with_elements,
 )
 
 __all__ = [
@@ -52,6 +52,6 @@ __all__ = [
     "own_members",
     "parameters",
     "short_name",
+    "unlike",
     "with_article",
-    "with_elements",
 ]

@@ -17,6 +17,7 @@ from scaffold.model.install.unused import (
     is_never_run,
     is_out_of_reach,
 )
+from scaffold.model.launch.parameter_files import is_left_alone
 from scaffold.model.package import Package
 from scaffold.model.python.facts import paths_importing
 from scaffold.model.python.guards import all_conditions, is_unevaluated
@@ -27,8 +28,9 @@ from scaffold.record import NamedTuple
 from scaffold.source import ViewError
 
 _OF_LINTERS = ("E9", "F")
-_OF_PROGRAMS = ("IM", "MS", "ND", "TY")
+_OF_PROGRAMS = ("IM", "LF", "MS", "ND", "TY")
 """Areas of rules about what happens when code runs."""
+_OF_PARAMETERS = "PF"
 _OF_TESTS = frozenset({"LY020", "LY021", "PX050"})
 """Errors only where a test of the package looks at the file, whatever it is for."""
 _QUOTED = re.compile(r"'([^']+)'")
@@ -119,6 +121,8 @@ def _is_of_unused_code(package: Package, diagnostic: Diagnostic) -> bool:
     path, code = diagnostic.location.path, diagnostic.code
     if code == _UNDECLARED:
         return _is_needed_by_unused_code(package, diagnostic)
+    if code.startswith(_OF_PARAMETERS) and path.endswith((".yaml", ".yml")):
+        return is_copy_of_old_code(package, path) or is_left_alone(package, path)
     is_copy = code not in _OF_TESTS and is_copy_of_old_code(package, path)
     if not path.endswith(".py") or is_copy:
         return is_copy and not _is_tested(package, diagnostic)

@@ -20,6 +20,8 @@ _CLASSES = re.compile(rf"(?:{MARKED}|bytes|None)(?: \| (?:{MARKED}|bytes|None))*
 _NARROWED = re.compile(r"\(?([^()&]{1,200}) & ~Always(?:Falsy|Truthy)\)?")
 """Matches a type of which a condition showed that it is true, or false: it is the same."""
 _ITERABLE = re.compile(r"\b(?:Iterable|Sequence)\[")
+_INNERMOST = re.compile(r"\([^()\[\]]*\)|\[[^()\[\]]*\]")
+"""Matches the arguments of a function or a type that have no such arguments themselves."""
 _NUMBERS = re.compile(r"Supports(?:Float|Int|Index)(?: \| Supports(?:Float|Int|Index))*")
 _PLAIN = re.compile(r"Literal\[.*\]|(?:str|bytes|int|float|bool|list|tuple|dict)\b.*", re.DOTALL)
 """Matches types of values that are no classes."""
@@ -127,8 +129,8 @@ def _alternatives(type_: str) -> list[str]:
     """Return the parts of a union; a function in it, ``(() -> int)``, is one of them."""
     before = ""
     bare = type_
-    while before != bare:  # a function may take functions
-        before, bare = bare, re.sub(r"\([^()]*\)", lambda match: "_" * len(match[0]), bare)
+    while before != bare:  # a function may take functions, a list may have lists
+        before, bare = bare, _INNERMOST.sub(lambda match: "_" * len(match[0]), bare)
     ends = [place for place, letter in enumerate(bare) if letter == "|"]
     starts = [0, *(end + 1 for end in ends)]
     return [type_[start:end] for start, end in zip(starts, [*ends, None], strict=True)]
@@ -143,11 +145,22 @@ def _readable(name: str) -> str:
     return short[:-1].replace("_", " ") if short.endswith("_") else full_name(plain)
 
 
-def with_elements(type_: str) -> str:
-    """Return what a list or the like has in it: ``a list of std_msgs.msg.String``."""
-    name, bracket, elements = type_.partition("[")
-    within = f" of {name_of(elements.removesuffix(']'))}" if bracket else ""
-    return f"{with_article(name_of(name))}{within}"
+def unlike(expected: str, given: str) -> str:
+    """Return two types in words: ``an int, not a str``; of lists alike, what is in them."""
+    needed, got = with_article(name_of(expected)), in_words(given)
+    if got in {with_article(name_of(part)) for part in _alternatives(expected)}:
+        needed, got = _with_elements(expected), _with_elements(given)
+    return f"{needed}, not {got}"
+
+
+def _with_elements(type_: str) -> str:
+    """Return what a list or the like has in it: ``a list of std_msgs.msg.String, or None``."""
+    words: list[str] = []
+    for part in _alternatives(type_):
+        name, bracket, elements = part.strip().partition("[")
+        within = f" of {name_of(elements.removesuffix(']'))}" if bracket else ""
+        words.append(f"{name_of(name)}{within}")
+    return with_article(", or ".join(words))
 
 
 def with_article(noun: str) -> str:

@@ -310,6 +310,37 @@ def test_script_not_installed_by_cmake(package: Path, capsys: pytest.CaptureFixt
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
 
 
+LAUNCH = """from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([Node(package='talker', executable='talk', parameters=[{}])])
+"""
+
+
+@pytest.mark.parametrize(
+    ("severity", "given"),
+    [("warning", "'other.yaml'"), ("error", "'params/talk.yaml'"), ("error", "name + '.yaml'")],
+)
+def test_parameter_file_not_launched(
+    package: Path, capsys: pytest.CaptureFixture[str], severity: str, given: str
+) -> None:
+    write(package / "params" / "talk.yaml", "talk:\n  ros__parameters:\n    rate:\n")
+    assert severities(capsys, "PF007") == {"params/talk.yaml": "error"}  # passed by hand
+    write(package / "launch" / "talk.launch.py", LAUNCH.format(given))
+    assert severities(capsys, "PF007") == {"params/talk.yaml": severity}
+
+
+def test_uncalled_launch_helper(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    helper = LAUNCH.replace("generate_launch_description", "talk").replace("{}", "")
+    write(package / "talker" / "parts.py", helper.replace("talk'", "nothing'"))
+    assert severities(capsys, "LF006") == {"talker/parts.py": "warning"}
+    use = "from talker.parts import talk\n\n\ndef generate_launch_description():\n"
+    write(package / "launch" / "a.launch.py", f"{use}    return talk()\n")
+    assert severities(capsys, "LF006") == {"talker/parts.py": "error"}
+
+
 def test_script_not_installed_by_setup_py(
     package: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from scaffold.api import Diagnostic, Example, RclpyRule, Report, Severity
@@ -11,6 +12,7 @@ from scaffold.api.rclpy import RclpyFile
 
 from ._spinning import needs_spin
 
+_EMERGENCY = re.compile(r"(?i)emergency|panic|e[-_]?stop(?![a-z])|halt(?![a-z])")
 _NODE = (
     "import rclpy\nfrom rclpy.node import Node\n\n\n"
     "class Talker(Node):\n"
@@ -66,7 +68,10 @@ class EndlessLoop(RclpyRule):
 
     code = "ND031"
     name = "endless-loop"
-    other_severities = {Severity.WARNING: "the file has no callbacks or clients: it only publishes"}
+    other_severities = {
+        Severity.WARNING: "the file has no callbacks or clients: it only publishes; or the loop is "
+        "entered in an emergency alone, and may be meant"
+    }
     examples = (
         Example(
             "a timer", {"talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n")}
@@ -146,6 +151,21 @@ class EndlessLoop(RclpyRule):
             },
         ),
         Example(
+            "a loop that keeps a robot from moving",
+            {
+                "talker.py": _NODE.format("        self.create_timer(1, self.tick)\n\n").replace(
+                    "        pass",
+                    "        if self.emergency:\n            while True:\n"
+                    "                self.stop()",
+                )
+            },
+            Report(
+                "12:13",
+                "endless loop: callback 'tick' never returns; use a timer",
+                severity=Severity.WARNING,
+            ),
+        ),
+        Example(
             "a loop that ends", {"talker.py": _NODE.format(_LOOP.replace("self.tick()", "break"))}
         ),
     )
@@ -157,8 +177,17 @@ class EndlessLoop(RclpyRule):
                 if loop not in seen and blocks_node(file, executed):
                     seen.add(loop)
                     message = f"endless loop: {executed.origin} never returns; use a timer"
-                    severity = Severity.ERROR if needs_spin(file) else Severity.WARNING
+                    is_meant = not needs_spin(file) or _is_in_emergency(file, loop)
+                    severity = Severity.WARNING if is_meant else Severity.ERROR
                     yield self.report(file.module.location(loop), message, severity=severity)
+
+
+def _is_in_emergency(file: RclpyFile, loop: ast.While) -> bool:
+    """Tell whether a function for emergencies, or a condition, leads to a loop."""
+    function = file.function_of(loop)
+    conditions = [item.test for item in file.module.parents(loop) if isinstance(item, ast.If)]
+    names = [getattr(function, "name", ""), *map(file.module.text, conditions)]
+    return any(map(_EMERGENCY.search, names))
 
 
 def _endless(file: RclpyFile, executed: Executed) -> Iterator[ast.While]:

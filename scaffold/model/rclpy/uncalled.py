@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _WORD = re.compile(r"\w+")
 _DEFINITION = re.compile(r"\bdef\s+(\w+)")
 _ENTRIES = frozenset({"main", "generate_launch_description"})
+_LAUNCH = frozenset({"launch", "launch_ros"})
 _LOOKUPS = ("getattr(", "globals(", "locals(", "vars(", "__dict__", "eval(", "exec(")
 """What finds a function by a name that is only made when the program runs."""
 
@@ -38,7 +39,7 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
         is_launch_file = path.endswith("launch.py")
         if is_launch_file and "__main__" in text:
             return (1,)
-        if not is_launch_file and "main" not in text:
+        if not is_launch_file and "main" not in text and "launch" not in text:
             return ()
         count = Counter(_WORD.findall(without_comments(text)))
         return tuple(
@@ -54,13 +55,15 @@ def may_be_in_uncalled_function(package: Package, path: str, line: int) -> bool:
 def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -> bool:
     """Tell whether a line is in a function of a program or launch file that nothing names.
 
-    A library is used from elsewhere; a class may be called by a base of which nothing is known.
+    A library is used from elsewhere, but for what helps the launch files of a workspace; a class
+    may be called by a base of which nothing is known.
     """
     is_launch_file = module.path.endswith("launch.py")
     if is_launch_file and _is_in_unused_guard(module, line):
         return True
     is_program = module.has_main_guard or "main" in module.functions
-    if module.in_tests or not (is_program or is_launch_file):
+    is_helper = not is_program and not _LAUNCH.isdisjoint(module.imports_by_root)
+    if module.in_tests or not (is_program or is_launch_file or is_helper):
         return False
     function = _outermost_function(module, line)
     if function is None or function.decorator_list or not _is_called_by_name(module, function):
@@ -68,7 +71,10 @@ def is_in_uncalled_function(package: Package, module: PythonModule, line: int) -
     if module.mentions(*_LOOKUPS):
         return False
     named = _named_in(without_comments(module.source.text), function.name)
-    return named == 1 and not _is_used_elsewhere(package, module, function.name)
+    stem = module.path.rpartition("/")[2].removesuffix(".py")
+    names = (function.name,) if is_helper else (stem, function.name)
+    users = package.workspace if is_helper else [package]
+    return named == 1 and not any(_is_named_in(user, module, names) for user in users)
 
 
 def _is_in_unused_guard(module: PythonModule, line: int) -> bool:
@@ -102,9 +108,8 @@ def _is_called_by_name(module: PythonModule, function: FunctionNode) -> bool:
     return bases <= {NODE, "rclpy.Node", "object"}
 
 
-def _is_used_elsewhere(package: Package, module: PythonModule, name: str) -> bool:
-    """Tell whether another module names both this one and the function."""
-    stem = module.path.rpartition("/")[2].removesuffix(".py")
+def _is_named_in(package: Package, module: PythonModule, names: tuple[str, ...]) -> bool:
+    """Tell whether another module of a package has all of some names."""
     for path in package.files:
         if not path.endswith(".py") or path == module.path:
             continue
@@ -112,7 +117,7 @@ def _is_used_elsewhere(package: Package, module: PythonModule, name: str) -> boo
             text = package.data(path).decode(errors="replace")
         except ViewError:
             return True
-        if stem in text and name in text and _named_in(without_comments(text), stem, name):
+        if all(name in text for name in names) and _named_in(without_comments(text), *names):
             return True
     return False
 

@@ -1,0 +1,77 @@
+"""Values that the code of a node gives to names of its own, in place of parameters."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from scaffold.formats.yaml import Scalar, YamlNode
+from scaffold.model.facts import fact
+from scaffold.model.parameters.files import number_of, scalar_type
+
+if TYPE_CHECKING:
+    from scaffold.model.package import Package
+
+_TRUE = frozenset({"y", "yes", "true", "on"})
+"""The words, in lower case, that rcl takes for true."""
+
+
+def comparable(value: object) -> str:
+    """Return a text that is the same for equal values, such as 1 and 1.0; empty for a list."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return repr(float(value))
+    return repr(value) if isinstance(value, bool | str) else ""
+
+
+def comparable_in_file(node: YamlNode) -> str:
+    """Return the same for a value in a parameter file."""
+    if not isinstance(node, Scalar):
+        return ""
+    match scalar_type(node):
+        case "bool":
+            return comparable(node.text.lower() in _TRUE)
+        case "string":
+            return comparable(node.text)
+    return comparable(number_of(node))
+
+
+@fact
+def own_values(package: Package, path: str) -> Mapping[str, frozenset[str]]:
+    """Return what a file sets variables, attributes, arguments and keys to, see `comparable`.
+
+    The names are in lower case and without underscores at the ends; raises ViewError.
+    """
+    result: dict[str, set[str]] = {}
+    for name, value in _named(package.module(path).tree):
+        try:
+            text = comparable(ast.literal_eval(value))
+        except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+            continue
+        result.setdefault(plain_name(name), set()).add(text)
+    return {name: frozenset(texts) for name, texts in result.items()}
+
+
+def plain_name(name: str) -> str:
+    """Return the last part of a name, without what tells a constant from a private attribute."""
+    return name.rpartition(".")[2].lower().strip("_")
+
+
+def _named(tree: ast.AST) -> Iterator[tuple[str, ast.expr]]:
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name) | ast.Attribute(attr=name)], value=value):
+                yield name, value
+            case ast.AnnAssign(target=ast.Name(id=name) | ast.Attribute(attr=name)) if node.value:
+                yield name, node.value
+            case ast.keyword(arg=str(name), value=value):
+                yield name, value
+            case ast.Dict(keys=keys, values=values):
+                for key, value in zip(keys, values, strict=True):
+                    if isinstance(key, ast.Constant) and isinstance(key.value, str):
+                        yield key.value, value
+            case ast.arguments(args=args, defaults=defaults):
+                with_defaults = args[len(args) - len(defaults) :]
+                yield from (
+                    (item.arg, value) for item, value in zip(with_defaults, defaults, strict=True)
+                )
