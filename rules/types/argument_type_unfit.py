@@ -348,6 +348,14 @@ class ArgumentTypeUnfit(TypeRule):
             },
         ),
         Example(
+            "a handler that returns a list of None, which launch skips",
+            {
+                "demo.launch.py": "import os\n\nfrom launch.event_handlers import OnShutdown\n\n"
+                "FILES = ['a.sdf', 'b.sdf']\n"
+                "ENDED = OnShutdown(on_shutdown=lambda event, context: [*map(os.remove, FILES)])\n"
+            },
+        ),
+        Example(
             "arguments of launch",
             {
                 "talk.launch.py": "from launch import LaunchDescription\n"

@@ -128,6 +128,16 @@ class OperatorUnsupported(TypeRule):
             "9:16: 'in' does not work on a str and bytes: TypeError; decode() the bytes first",
         ),
         Example(
+            "a field of a dataclass that is a str, whatever its annotation says",
+            {
+                "held.py": "from dataclasses import dataclass\n\n"
+                "from std_msgs.msg import String\n\n\n"
+                "@dataclass\nclass Held:\n    is_held: bool\n    name: String\n\n\n"
+                "held = Held(False, '')\n\n\n"
+                "def show():\n    print('holding ' + held.name)\n"
+            },
+        ),
+        Example(
             "a text that is compared with a number",
             {"level.py": _LEVEL.format("msg.data > 3")},
             "6:12: '>' does not work on a str and an int: TypeError; use float(...)",

@@ -5,7 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from scaffold.api import Diagnostic, Example, Package, Report, Rule, Severity, closest_name
+from scaffold.api import (
+    Diagnostic,
+    Example,
+    Location,
+    Package,
+    Report,
+    Rule,
+    Severity,
+    closest_name,
+)
 from scaffold.api.robot import UNKNOWN_MARK, Expansion, Part, is_known, robots
 
 _ROBOT = (
@@ -43,6 +52,12 @@ _ROBOT_LINKS = (
     '  <joint name="axis" type="continuous">\n    <parent link="{}"/>\n    <child link="{}"/>\n'
     "  </joint>\n</robot>\n"
 )
+_INCLUDING = (
+    '<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+    '  <xacro:include filename="simulation.xacro"/>\n  <link name="{}"/>\n</robot>\n'
+)
+_SIMULATION = '<robot>\n  <gazebo reference="camera"><sensor name="a"/></gazebo>\n</robot>\n'
+_CLOSEST = "; closest: "
 _SIMULATED = frozenset({"sensor", "plugin"})
 """What a gazebo element adds to a link, and not only how the link looks or slides."""
 _MIMIC = (
@@ -147,6 +162,16 @@ class TreeBroken(Rule):
             "it",
         ),
         Example(
+            "a file of two robots that both lack a link",
+            {
+                "simulation.xacro": _SIMULATION,
+                "lite.xacro": _INCLUDING.format("camera_1"),
+                "pro.xacro": _INCLUDING.format("camera_2"),
+            },
+            "simulation.xacro:2:22: gazebo reference 'camera' is not a link or joint of this "
+            "robot: Gazebo ignores it; closest: 'camera_1'",
+        ),
+        Example(
             "a gazebo element of an unknown link",
             {
                 "robot.urdf": _ROBOT_LINKS.format("base_link", "wheel").replace(
@@ -170,13 +195,19 @@ class TreeBroken(Rule):
     )
 
     def check(self, package: Package) -> Iterator[Diagnostic]:
+        reported: set[tuple[Location, str]] = set()
         for robot in robots(package).whole:
             if robot.file.is_robot and robot.is_complete:
                 yield from self._check_tree(package, robot)
             if robot.file.is_robot and not robot.problems.undefined:
                 yield from self._check_names(package, robot)
             if robot.file.is_robot and robot.is_complete and _has_root(robot):
-                yield from self._check_links(package, robot)
+                for diagnostic in self._check_links(package, robot):
+                    # several robots include the same file, and have other names that are close
+                    key = (diagnostic.location, diagnostic.message.partition(_CLOSEST)[0])
+                    if key not in reported:
+                        reported.add(key)
+                        yield diagnostic
 
     def _check_tree(self, package: Package, robot: Expansion) -> Iterator[Diagnostic]:
         links = {part.get("name") or "": part for part in robot.root.all("link")}
@@ -314,7 +345,7 @@ def _is_here(package: Package, part: Part) -> bool:
 
 def _hint(package: Package, name: str, names: Sequence[str]) -> str:
     closest = closest_name(package, name, [item for item in names if is_known(item)], 0.6)
-    return f"; closest: {closest!r}" if closest else ""
+    return f"{_CLOSEST}{closest!r}" if closest else ""
 
 
 def _is_among(name: str, names: Sequence[str]) -> bool:

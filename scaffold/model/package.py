@@ -269,7 +269,7 @@ class Package(PackageFiles):
             from scaffold.model.workspace.workspace import Workspace, WorkspaceView
 
             around = self._workspace or Workspace([self], self.outside)
-            self._neighbourhood = WorkspaceView(around)
+            self._neighbourhood = WorkspaceView(around, self.directory)
         return self._neighbourhood
 
     @property

@@ -142,6 +142,15 @@ class Sources:
                     pending.append(other)
         return result
 
+    def are_others(self, user: Package, reached: Mapping[str, Source]) -> bool:
+        """Tell whether code of a package means a package that is not importable here.
+
+        That is one that has the name of another package, in another workspace of the repository.
+        """
+        roots = frozenset[str]().union(*(item.roots for item in reached.values()))
+        packages = [self._package(user, root) for root in roots]
+        return any(item is not None and user.workspace.is_hidden(item) for item in packages)
+
     def _directly(self, user: Package, source: Source) -> list[Source]:
         key = (id(user), source.place)
         if key not in self._imported:
@@ -194,10 +203,7 @@ class _PackageSources:
     def _find_above(self) -> str | None:
         """Return the directory above the importable package, with its slash; ``None`` without."""
         name = self._package.name
-        if not name.isidentifier() or self._package.workspace.get(name) not in {
-            None,
-            self._package,
-        }:
+        if not name.isidentifier() or self._package.workspace.is_hidden(self._package):
             return None  # another package of the same name is the one that is imported
         for root in dict.fromkeys((name, self._root)):
             for above in ("", "src/"):

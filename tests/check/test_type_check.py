@@ -148,6 +148,20 @@ def test_interfaces_of_the_workspace_have_types(check: Check, source: Path) -> N
     assert check("talker") == ["talker/talker/talk.py:4:TY008", "talker/talker/talk.py:5:TY003"]
 
 
+def test_code_of_another_workspace_is_not_held_against_packages_of_this_one(
+    check: Check, source: Path
+) -> None:
+    lists = "project(my_msgs)\nrosidl_generate_interfaces(my_msgs msg/{}.msg)\n"
+    for side, message in (("robot", "Beat"), ("server", "Map")):
+        files = {"CMakeLists.txt": lists.format(message), f"msg/{message}.msg": "float64 rate\n"}
+        package = make_package(source / side, "my_msgs", files)
+        manifest = package / "package.xml"
+        manifest.write_text(manifest.read_text().replace("ament_python", "ament_cmake"))
+        uses = f"from my_msgs.msg import {message}\n\nprint({message}().rates)\n"
+        make_package(source / side, side, {f"{side}/use.py": uses})
+    assert check(".") == ["robot/robot/robot/use.py:3:TY003"]
+
+
 def test_callback_receives_the_subscribed_type(check: Check, source: Path) -> None:
     """Whatever its annotation, and whichever other class has a method of this name."""
     node = """from example_interfaces.action import Fibonacci

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -32,6 +33,7 @@ class Workspace:
         """What is accessed outside of the packages."""
         self.around: UncheckedPackages | None = None
         """The packages that were not given, but lie in the same workspace on disk."""
+        self._near: dict[str, Workspace] = {}
 
     def add(self, package: Package) -> None:
         """Add a package; only before the first look at the workspace."""
@@ -41,6 +43,7 @@ class Workspace:
         """Drop what was made of the packages: the files of one have changed."""
         for name in ("by_name", "interfaces"):
             self.__dict__.pop(name, None)
+        self._near.clear()
         for package in self._packages:
             package.forget()
             package.workspace.forget()
@@ -61,6 +64,23 @@ class Workspace:
         package = self.by_name.get(name)
         return self.around.get(name) if package is None and self.around is not None else package
 
+    def near(self, directory: str) -> Workspace:
+        """Return the workspace with the closest package of each name.
+
+        A repository may hold several workspaces, which have packages of the same name.
+        """
+        if len(self.by_name) == len(self._packages):
+            return self
+        if directory not in self._near:
+            closest: dict[str, Package] = {}
+            for package in self._packages:
+                other = closest.get(package.name)
+                if other is None or _shared(package, directory) > _shared(other, directory):
+                    closest[package.name] = package
+            near = self._near[directory] = Workspace(closest.values(), self.disk, self.policy)
+            near.around = self.around
+        return self._near[directory]
+
     @cached_property
     def interfaces(self) -> Definitions:
         """The interfaces that these packages can use; their own come first."""
@@ -76,11 +96,25 @@ class Workspace:
         return cached_keys(self.disk)
 
 
-class WorkspaceView:
-    """The workspace as one of its packages sees it; records which others it needs."""
+def _shared(package: Package, directory: str) -> int:
+    """Return the length of the path that a package and a directory have in common."""
+    try:
+        return len(os.path.commonpath((package.directory, directory)))
+    except ValueError:  # an absolute path and a relative one
+        return 0
 
-    def __init__(self, workspace: Workspace) -> None:
+
+class WorkspaceView:
+    """The workspace as one of its packages sees it; records which others it needs.
+
+    Args:
+        workspace: The workspace.
+        directory: Where the package is.
+    """
+
+    def __init__(self, workspace: Workspace, directory: str) -> None:
         self._workspace = workspace
+        self._directory = directory
         self.used: dict[int, Package] = {}
         """The packages that were looked up, by identity; also such as were not given."""
         self.uses_all = False
@@ -89,19 +123,23 @@ class WorkspaceView:
 
     def get(self, name: str) -> Package | None:
         """Return the package of a name, if it is in the workspace."""
-        result = self._workspace.get(name)
+        result = self._workspace.near(self._directory).get(name)
         if result is not None:
             self.used[id(result)] = result
         return result
 
     def __iter__(self) -> Iterator[Package]:
         self.uses_all = True
-        yield from self._workspace
+        yield from self._workspace.near(self._directory)
         yield from self._workspace.around or ()
 
     def forget(self) -> None:
         """Drop what was made of the packages, but not whom the verdict needed."""
         self.__dict__.pop("interfaces", None)
+
+    def is_hidden(self, package: Package) -> bool:
+        """Tell whether another package of the workspace has the name of this one, and wins."""
+        return self._workspace.get(package.name) not in {None, package}
 
     @property
     def names(self) -> list[str]:
@@ -132,4 +170,4 @@ class WorkspaceView:
         def tell() -> None:
             self.uses_interfaces = True
 
-        return WatchedDefinitions(self._workspace.interfaces, tell)
+        return WatchedDefinitions(self._workspace.near(self._directory).interfaces, tell)

@@ -24,6 +24,8 @@ _REGISTERING = frozenset(
     | {f"add_{when}_set_parameters_callback" for when in ("pre", "on", "post")}
 )
 """Functions that take callbacks."""
+_ACCEPTING = {bool: {"bool", "int", "float"}, int: {"int", "float"}}
+"""The annotations that fit to a constant besides that of its own class."""
 _AROUND = {
     # linear: a line has 20 kB at most
     "variable": (re.compile(r"[ \t]*:[ \t]*$"), re.compile(r"[ \t]*=")),
@@ -133,7 +135,29 @@ def _is_of_record(index: ScopeIndex, variable: ast.AnnAssign) -> bool:
         return False
     decorators = [it.func if isinstance(it, ast.Call) else it for it in class_.decorator_list]
     names = {*map(_name, decorators), *map(_name, class_.bases)}
-    return not names.isdisjoint({"dataclass", "NamedTuple"})
+    if names.isdisjoint({"dataclass", "NamedTuple"}):
+        return False
+    return not any(
+        _is_other(value, variable.annotation) for value in _given(index, class_, variable)
+    )
+
+
+def _given(index: ScopeIndex, class_: ast.ClassDef, field: ast.AnnAssign) -> Iterator[ast.expr]:
+    """Yield what objects of a class are made with for a field."""
+    fields = [line.target for line in class_.body if isinstance(line, ast.AnnAssign)]
+    name, position = ast.unparse(field.target), fields.index(field.target)
+    for call in index.all_of(ast.Call):
+        if _name(call.func) == class_.name:
+            yield from call.args[position : position + 1]
+            yield from (keyword.value for keyword in call.keywords if keyword.arg == name)
+
+
+def _is_other(value: ast.expr, annotation: ast.expr) -> bool:
+    """Tell whether a constant is of another class than an annotation names."""
+    match value, annotation:
+        case ast.Constant(value=constant), ast.Name(id=name) if constant is not None:
+            return name not in _ACCEPTING.get(type(constant), {type(constant).__name__})
+    return False
 
 
 def _is_text(annotation: ast.expr) -> bool:

@@ -1,9 +1,10 @@
 # Types that the stubs of launch share; a program cannot import it.
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Protocol, SupportsIndex, TypeAlias, TypeVar
 
 from launch.event import Event
 from launch.launch_context import LaunchContext
+from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.some_entities_type import SomeEntitiesType
 from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -18,4 +19,6 @@ class Listed(Protocol[_T_co]):
     def __len__(self) -> int: ...
 
 Environment: TypeAlias = Mapping[Any, SomeSubstitutionsType]
-Reaction: TypeAlias = SomeEntitiesType | Callable[[_EventT, LaunchContext], SomeEntitiesType | None]
+# What a handler returns is executed; `None` in a list of it is skipped.
+_Returned: TypeAlias = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity | None] | None
+Reaction: TypeAlias = SomeEntitiesType | Callable[[_EventT, LaunchContext], _Returned]
