@@ -69,6 +69,15 @@ class OwnImportMissing(Rule):
             },
         ),
         Example(
+            "a module in C++, whose name CMake puts together",
+            {
+                **_FILES,
+                "CMakeLists.txt": "project(talker)\n"
+                "add_library(_${PROJECT_NAME}_text MODULE a.cpp)\n",
+                "talker/node.py": "import talker._talker_text\n",
+            },
+        ),
+        Example(
             "a client that git ignores, because each machine makes its own",
             {
                 **_FILES,

@@ -61,8 +61,8 @@ class ParameterUndeclared(Rule):
     name = "parameter-undeclared"
     effect = Effect.IGNORED
     other_severities = {
-        Severity.WARNING: "the node has the same value without it: as the default of the parameter "
-        "that is meant, or under that name"
+        Severity.WARNING: "the node has the same value without it, as the default of the parameter "
+        "that is meant or under that name, or it is an empty text"
     }
     examples = (
         Example(
@@ -118,7 +118,7 @@ class ParameterUndeclared(Rule):
             "a value that the node has anyway",
             {
                 "talker.py": _NODE.format("") + "        self.text = 'hello'\n",
-                "a.yaml": _FILE.format("limits:\n      hihg: 3\n    text: hello"),
+                "a.yaml": _FILE.format("limits:\n      hihg: 3\n    text: hello\n    device: ''"),
             },
             Report(
                 "a.yaml:6:7",
@@ -130,6 +130,12 @@ class ParameterUndeclared(Rule):
                 "a.yaml:7:5",
                 "node 'talker' declares no parameter 'text': the value is ignored; it "
                 "has limits.high, rate",
+                severity=Severity.WARNING,
+            ),
+            Report(
+                "a.yaml:8:5",
+                "node 'talker' declares no parameter 'device': the value is ignored; "
+                "it has limits.high, rate",
                 severity=Severity.WARNING,
             ),
         ),
@@ -199,17 +205,18 @@ class _Ignored(NamedTuple):
         """Return which parameter may be meant, and how bad it is that this one is ignored."""
         names = sorted({key for declared in self.declarations for key in declared.types})
         closest = closest_name(self.package, self.name, names, 0.6)
-        hint = (
-            f"did you mean {closest!r}?" if closest else f"it has {listed_names(names, self.name)}"
-        )
-        is_harmless = bool(self.value) and all(
-            self._has_value(*pair, closest)
-            for pair in zip(self.owners, self.declarations, strict=True)
-        )
+        hint = f"it has {listed_names(names, self.name)}"
+        if closest:
+            hint = f"did you mean {closest!r}?"
+        pairs = zip(self.owners, self.declarations, strict=True)
+        is_empty = self.value == comparable("")
+        is_harmless = is_empty or all(self._has_value(*pair, closest) for pair in pairs)
         return hint, Severity.WARNING if is_harmless else Severity.ERROR
 
     def _has_value(self, owner: KnownNode, declared: Declared, closest: str) -> bool:
         """Tell whether a node has the value without it, as a default or under that name."""
+        if not self.value:
+            return False
         meant = declared.places.get(closest)
         if meant is not None and comparable(meant.default) == self.value:
             return True

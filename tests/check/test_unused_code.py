@@ -306,6 +306,11 @@ def test_script_not_installed_by_cmake(package: Path, capsys: pytest.CaptureFixt
     write(package / "README.md", "Start it: `python3 scripts/relay.py`\n")
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
     (package / "README.md").unlink()
+    others = (
+        "install(DIRECTORY\n  launch)\nfile(GLOB TALK scripts/*.cpp)\nfile(READ old/relay.py A)\n"
+    )
+    write(package / "CMakeLists.txt", lists.format(others))
+    assert severities(capsys, "MS002") == {"scripts/relay.py": "warning"}
     write(package / "CMakeLists.txt", lists.format("install(PROGRAMS scripts/relay.py)\n"))
     assert severities(capsys, "MS002") == {"scripts/relay.py": "error"}
 

@@ -72,7 +72,9 @@ class MethodNotCalled(RclpyRule):
             {
                 "talker.py": "import rclpy\nfrom rclpy.node import Node\n\n\ndef main():\n"
                 "    rclpy.init()\n    node = Node('talker')\n    rclpy.spin(node)\n"
-                "    node.destroy_node\n    rclpy.shutdown\n"
+                "    node.destroy_node\n    rclpy.shutdown\n\n\n"
+                "class Listener(Node):\n    def __init__(self):\n"
+                "        super().__init__('listener')\n        rclpy.shutdown()\n"
             },
             Report(
                 "9:5",

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 _ELSEWHERE = ("ament_environment_hooks", "ament_python_install_module", "configure_file")
 """Commands that put modules on Python's path in another way."""
 
+_PROJECT = re.compile(r"(?i)\bproject\s*\(\s*([\w-]+)")
+"""Matches the name of a project in a CMakeLists.txt."""
+
 _ON_PATH = re.compile(r"(?:.*(?:-packages/|\}/))([\w/]+)$")
 """Matches a destination on Python's path, and what is below that."""
 
@@ -99,6 +102,8 @@ def may_be_made(package: Package, name: str) -> bool:
     if _is_put_into_package(package, name):
         return True
     cmake = package.source("CMakeLists.txt").text if package.has("CMakeLists.txt") else ""
+    project = _PROJECT.search(cmake)
+    cmake = cmake.replace("${PROJECT_NAME}", project[1] if project else package.name)
     last = name.rpartition(".")[2]
     proto = re.sub(r"_pb2(_grpc)?$", ".proto", last)  # what protoc makes of a file
     if last in cmake or proto in cmake or "pybind11" in cmake:

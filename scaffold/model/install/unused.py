@@ -33,7 +33,7 @@ _KEPT = (".py", ".xacro", ".urdf", ".launch", ".xml", ".yaml", ".yml")
 _RUNS_PYTHON = re.compile(rb"pytest|launch_test|nose|python|PYTHON|ament_lint_auto|\.py\b")
 """Matches what a CMakeLists.txt calls when it runs or checks Python."""
 _ADDS_DIRECTORY = re.compile(rb"\badd_subdirectory\s*\([^)]{0,200}\)")
-_TAKES_ALL = rb"GLOB_RECURSE|\bDIRECTORY\s+\.?/?\s|os\.walk|rglob|\*\*/"
+_TAKES_ALL = rb"GLOB_RECURSE|\bDIRECTORY\s+\./?\s|os\.walk|rglob|\*\*/"
 """Matches what takes files of any directory."""
 _BUILDING = ("CMakeLists.txt", "setup.py", "setup.cfg", "pyproject.toml")
 _NAMING = (*_KEPT, ".txt", ".cfg", ".toml", ".cmake", ".sh")
@@ -54,8 +54,11 @@ def is_copy_of_old_code(package: Package, path: str) -> bool:
 
 
 def is_never_run(package: Package, path: str) -> bool:
-    """Tell whether a Python file is a copy of old code, or is out of reach."""
-    return is_copy_of_old_code(package, path) or is_out_of_reach(package, path)
+    """Tell whether a Python file is a copy of old code, or is not installed.
+
+    What people start from the sources needs no dependency of the package.
+    """
+    return is_copy_of_old_code(package, path) or _is_out_of_reach(package, path, ())
 
 
 def is_out_of_reach(package: Package, path: str) -> bool:
@@ -63,6 +66,10 @@ def is_out_of_reach(package: Package, path: str) -> bool:
 
     People start a script from the sources when a text of the package says so.
     """
+    return _is_out_of_reach(package, path, _TEXTS)
+
+
+def _is_out_of_reach(package: Package, path: str, texts: tuple[str, ...]) -> bool:
     directory, _, name = path.rpartition("/")
     stem = name.removesuffix(".py")
     if stem == name or name in _RUN_AS_THEY_ARE or ".launch." in name or stem.endswith("launch"):
@@ -78,7 +85,7 @@ def is_out_of_reach(package: Package, path: str) -> bool:
     is_mentioned = any(_mentions_directory(data, part) for part in parts for data in installing)
     takes_all = re.compile(rb"\*\.py" if not parts else _TAKES_ALL)
     is_taken_whole = any(map(takes_all.search, installing))
-    return not (is_mentioned or is_taken_whole or is_named(package, path, stem, _TEXTS))
+    return not (is_mentioned or is_taken_whole or is_named(package, path, stem, texts))
 
 
 def _building(package: Package) -> list[str]:
@@ -143,10 +150,11 @@ def is_named(package: Package, path: str, stem: str, texts: tuple[str, ...] = ()
         and (item.endswith((*_NAMING, *texts)) or item.startswith("scripts/"))
         and not item.startswith(("config/", "params/"))
     )
-    return any(_is_in_code(package, item, stem) for item in others)
+    directory = path.rpartition("/")[0].rpartition("/")[2]
+    return any(_is_in_code(package, item, stem, directory) for item in others)
 
 
-def _is_in_code(package: Package, path: str, name: str) -> bool:
+def _is_in_code(package: Package, path: str, name: str, directory: str) -> bool:
     """Tell whether a file may have a name outside of comments; code too large to read may.
 
     Large XML and YAML is data, such as the weights of a classifier.
@@ -155,16 +163,21 @@ def _is_in_code(package: Package, path: str, name: str) -> bool:
         data = package.data(path)
     except ViewError:
         return not path.endswith((".xml", ".yaml", ".yml", ".urdf"))
-    return _mentions(data, name) and _mentions(without_comments(data), name)
+    return _mentions(data, name, directory) and _mentions(without_comments(data), name, directory)
 
 
 def _mentions_directory(data: bytes, name: str) -> bool:
-    """Tell whether a build file names a directory, and not only single files in it."""
+    """Tell whether a build file names a directory, and not only files in it, or all of a kind."""
     word = re.escape(name.encode("utf-8", "surrogateescape"))
-    pattern = rb"(?<![\w-])%b(?![\w-])(?!/[\w/-]+\.\w+)" % word
+    pattern = rb"(?<![\w-])%b(?![\w-])(?!/[\w/-]+\.\w+)(?!/[\w/-]*\*\.(?!py\b)\w+)" % word
     return re.search(pattern, data) is not None
 
 
-def _mentions(data: bytes, name: str) -> bool:
+def _mentions(data: bytes, name: str, directory: str) -> bool:
+    """Tell whether a text has a name, and not only that of a file in another directory."""
     word = name.encode("utf-8", "surrogateescape")
-    return word in data and re.search(rb"(?<![\w-])%b(?![\w-])" % re.escape(word), data) is not None
+    if word not in data:
+        return False
+    around = directory.encode("utf-8", "surrogateescape")
+    pattern = rb"(?:(?<![\w-])([\w-]+)/)?(?<![\w-])%b(?![\w-])" % re.escape(word)
+    return any(match[1] in {None, around} for match in re.finditer(pattern, data))

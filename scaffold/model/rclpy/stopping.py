@@ -15,7 +15,8 @@ _ENDS = frozenset({"shutdown", "try_shutdown"})
 def only_while_stopping(module: PythonModule, node: ast.AST) -> bool:
     """Tell whether code comes after ``rclpy.spin()`` in a program that runs until it is stopped.
 
-    A program that shuts rclpy down itself, in a callback, goes on there with its work.
+    A program that shuts rclpy down itself, in a callback, goes on there with its work; one whose
+    constructor does so gives up.
     """
     return _is_after_spin(module, node) and not _ends_itself(module, node)
 
@@ -62,6 +63,7 @@ def _ends_itself(module: PythonModule, node: ast.AST) -> bool:
     return any(
         isinstance(call.func, ast.Attribute)
         and call.func.attr in _ENDS
-        and module.enclosing_function(call) not in {None, function}
+        and (where := module.enclosing_function(call)) not in {None, function}
+        and getattr(where, "name", "") != "__init__"
         for call in module.walk(ast.Call)
     )
