@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from scaffold.generate.draft import Draft
 
     Style = Mapping[str, Sequence[Diagnostic]]
-    """What is found about the style of files, by path."""
+    """Style findings by path."""
 
 
 class _Judged(NamedTuple):
-    """The checked part of a draft; it is sent to another process."""
+    """The part of a draft that is checked, as sent to another process."""
 
     name: str
     files: Mapping[str, str]
@@ -45,7 +45,7 @@ class _Judged(NamedTuple):
         return [distributions.named(name) for name in self.distributions]
 
     def packages(self) -> list[Package]:
-        """Return the package once for each target: what is remembered of one is for one."""
+        """Return a package object for each target, since facts are cached per target."""
         return [
             Package(MemoryTree(self.files, self.executable), directory=self.name)
             for _ in self.distributions
@@ -57,7 +57,7 @@ class Check:
 
     Args:
         draft: The draft.
-        process: What has loaded the rules, if anything has.
+        process: The process that has loaded the rules, if any.
     """
 
     def __init__(self, draft: Draft, process: RuleProcess | None = None) -> None:
@@ -85,7 +85,7 @@ class Check:
         return _findings(session, self._judged, self._packages, lambda: styles or self._styles())
 
     def by(self, rules: Sequence[type[Rule]]) -> list[Diagnostic]:
-        """Return the findings of these rules and of style, for each target."""
+        """Return the findings of given rules and of style, for each target."""
         return _findings(_session(rules), self._judged, self._packages, self._styles)
 
     def _styles(self) -> list[Style]:
@@ -122,7 +122,7 @@ def _findings(
     packages: Sequence[Package],
     styles: Callable[[], Sequence[Style]],
 ) -> list[Diagnostic]:
-    """Run the rules, wait for what is found about style, and combine both."""
+    """Run the rules, wait for the style findings, and combine both."""
     from scaffold.model.discovery.targets import Target
 
     ruled = []
@@ -139,7 +139,7 @@ def _findings(
 
 @contextmanager
 def ahead() -> Iterator[RuleProcess | None]:
-    """Have a second process load the rules, which ends with the block.
+    """Load the rules in a second process, which ends with the block.
 
     It is ``None`` where that is not possible or does not pay: without ``fork``, with one
     processor, or beside threads, whose locks the process would inherit.
@@ -164,7 +164,7 @@ class RuleProcess:
         requests, to = os.pipe()
         answers, back = os.pipe()
         self.number = os.fork()
-        """Of the process, as the system counts them."""
+        """The id of the process."""
         if self.number == 0:
             os.close(to)
             os.close(answers)
@@ -183,7 +183,7 @@ class RuleProcess:
             self._to.flush()
 
     def findings(self, styles: Sequence[Style]) -> list[Diagnostic] | None:
-        """Return what is found in the package, ``None`` if the process did not get to its end."""
+        """Return the findings, or ``None`` if the process died."""
         import pickle
 
         self.send(styles)
@@ -194,7 +194,7 @@ class RuleProcess:
         return diagnostics
 
     def close(self) -> None:
-        """End the process, wherever it is."""
+        """Kill the process."""
         import signal
 
         with suppress(BrokenPipeError):
@@ -205,7 +205,7 @@ class RuleProcess:
 
 
 def _prepare() -> None:
-    """Load what the rules load when they need it, while there is nothing else to do."""
+    """Import lazily loaded modules of the rules ahead of time."""
     from importlib import import_module
 
     for linter in ("cmake_diagnostics", "copyright_diagnostics", "xml_diagnostics"):
@@ -214,9 +214,9 @@ def _prepare() -> None:
 
 
 def _serve(requests: int, back: int) -> NoReturn:
-    """Load the rules, check the package that comes, send what is found, and end.
+    """Load the rules, check the received package, send the findings, and exit.
 
-    Whatever goes wrong, the first process finds out by checking the package itself.
+    On any error, the first process checks the package itself.
     """
     code = 1
     try:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from scaffold.source import Location
 
 _TYPED = {"service_name": "service", "action_name": "action", "topic": "message"}
-"""The types of questions for names, and of those for the type behind such a name."""
+"""The types of questions for names, and those of the questions for the types of these names."""
 
 
 class Use(NamedTuple):
@@ -69,7 +69,7 @@ def _place(use: Use) -> str:
 
 
 def _differing(publisher: Use, subscription: Use) -> tuple[str, str]:
-    """Return what is offered, and what is asked for instead; empty if they connect."""
+    """Return the offered and the requested setting that differ; empty if they connect."""
     if (publisher.reliability, subscription.reliability) == ("best_effort", "reliable"):
         return "best effort", "reliable"
     if (publisher.durability, subscription.durability) == ("volatile", "transient_local"):
@@ -111,13 +111,13 @@ def mismatches(used: Iterable[Use]) -> Iterator[Mismatch]:
 
 
 def conflicts(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) -> list[str]:
-    """Return why nodes would not connect, according to the answers they are made with."""
+    """Return why nodes would not connect, according to their answers."""
     used = list(uses(nodes, templates))
     return [str(conflict) for conflict in (*clashes(used), *mismatches(used))]
 
 
 def uses(nodes: Iterable[Mapping[str, Any]], templates: Mapping[str, Template]) -> Iterator[Use]:
-    """Yield what nodes use according to the answers they are made with."""
+    """Yield the topics, services and actions of nodes, according to their answers."""
     for node in nodes:
         yield from _uses_of(templates[node["kind"]], node, node["name"])
 
@@ -160,10 +160,10 @@ class Open(NamedTuple):
 
 
 def agreed_types(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dict[str, Given]:
-    """Return the types that a part takes from others that use a name that the user has given.
+    """Return the types that a part takes from other parts with the same topic, service or action.
 
     Args:
-        part: Its types are taken over where the user has not said another one.
+        part: The part; types that the user has given are kept.
         others: The other parts of the package.
         uses: What the existing nodes use.
     """
@@ -195,7 +195,7 @@ def agreed_qos(part: Open, others: Iterable[Open], uses: Iterable[Use]) -> dict[
 
 
 def qos_question(topic: Question, questions: Iterable[Question]) -> Question | None:
-    """Return what asks for the quality of service of a topic: ``input_qos`` of ``input_topic``."""
+    """Return the question for the QoS of a topic: ``input_qos`` of ``input_topic``."""
     if topic.type != "topic":
         return None
     asked = {question.name: question for question in questions if question.type == "qos"}
@@ -203,7 +203,7 @@ def qos_question(topic: Question, questions: Iterable[Question]) -> Question | N
 
 
 def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
-    """Yield the questions for names, each with the one for the type behind the name."""
+    """Yield the questions for names, each with the question for its type."""
     questions = list(questions)
     for question in questions:
         typed = _type_question(question, questions)
@@ -212,7 +212,7 @@ def pairs(questions: Iterable[Question]) -> Iterator[tuple[Question, Question]]:
 
 
 def _type_question(question: Question, others: Iterable[Question]) -> Question | None:
-    """Return what asks for the type that belongs to a name: ``input_type`` to ``input_topic``."""
+    """Return the question for the type of a name: ``input_type`` of ``input_topic``."""
     wanted = _TYPED.get(question.type)
     result = [item for item in others if wanted is not None and item.type == wanted]
     if len(result) > 1:

@@ -33,11 +33,11 @@ _DEPENDENCY = re.compile(r"[A-Za-z0-9][\w.+-]*")
 _IMPORT = re.compile(r"import ([A-Z]\w*(?:, [A-Z]\w*)*)")
 
 VERSION = "0.1.0"
-"""Of a new package: nothing is released yet, and 0.0.0 would be a placeholder."""
+"""The version of a new package; 0.0.0 would be a placeholder."""
 
 
 PARAMETERS = "_parameters.yaml.jinja"
-"""The file of a kind of node with the values of its parameters, for a launch file."""
+"""The template file with the parameter values of a kind of node, for launch files."""
 
 
 def package_context(
@@ -229,7 +229,7 @@ _OWN_NAMES: Mapping[str, frozenset[str]] = {
 
 
 def _refuse_own(question: Question, full_name: str, node: str) -> None:
-    """Raise if a name is one that ROS itself gives every node."""
+    """Raise if ROS itself gives every node this name."""
     own = full_name.removeprefix(f"/{node}/")
     if own != full_name and own in _OWN_NAMES.get(question.type, ()):
         kind = question.type.partition("_")[0]
@@ -244,7 +244,7 @@ _WIDER: Mapping[str, str] = {
     "build_export": "depend",
     "test": "exec",
 }
-"""A kind of dependency, and the one that covers it."""
+"""Kinds of dependencies, and the kind that covers each."""
 
 
 def _depends(

@@ -23,19 +23,19 @@ _SHORTEST = 3
 _MOST_HINTS = 3
 
 _RULES = frozenset({"dependency-misspelled", "dependency-of-ros1", "dependency-unresolvable"})
-"""What the checker says of names; it does not see the workspace that a package is made for."""
+"""The rules about names; they do not know the workspace of a new package."""
 
 
 def notes(names: Iterable[str], origin: str, directory: str) -> Iterator[str]:
-    """Yield a line about each name that is not known on this machine.
+    """Yield a note for each name that is unknown on this machine.
 
     Args:
         names: The dependencies.
         origin: Where the user named them, for messages.
-        directory: Where the package is to be; the packages around it are known.
+        directory: Where the package will be; the packages around it are known.
 
     Raises:
-        InputError: a name is certainly wrong: that of another thing misspelled, of ROS 1, or one
+        InputError: a name is certainly wrong: misspelled, from ROS 1, or one
             that rosdep's cache lacks.
     """
     surroundings = _Here(directory)
@@ -90,7 +90,7 @@ def _is_slip(name: str, other: str) -> bool:
 
 
 class _Here:
-    """The packages and rosdep keys that the machine and the workspace have."""
+    """The packages and rosdep keys of the machine and the workspace."""
 
     def __init__(self, directory: str) -> None:
         self._directory = directory

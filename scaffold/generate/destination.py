@@ -12,10 +12,10 @@ from scaffold.model.package import Package
 
 
 def check(destination: str, package: str) -> None:
-    """Raise if colcon would not find a package there, or would find two of its name.
+    """Raise if colcon would not find the package, or would find two with its name.
 
     Args:
-        destination: The directory that the package's own directory is to be made in.
+        destination: The directory in which the package's directory will be created.
         package: Its name.
 
     Raises:
@@ -39,7 +39,7 @@ def check(destination: str, package: str) -> None:
 
 
 def workspace(destination: str) -> str | None:
-    """Return the workspace that a directory belongs to: where colcon is started."""
+    """Return the workspace of a directory, where colcon is started."""
     sources = colcon.sources_at(Disk(), os.path.realpath(destination))
     return os.path.dirname(sources) if sources else None
 

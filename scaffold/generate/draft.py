@@ -32,12 +32,12 @@ class Draft(NamedTuple):
     name: str
     build_type: str
     executables: tuple[str, ...]
-    """What ``ros2 run`` calls its nodes and programs."""
+    """The names of its nodes and programs for ``ros2 run``."""
     rendered: Rendered
     remarks: tuple[str, ...]
-    """What the user should know, a line each."""
+    """Notes for the user, one line each."""
     conflicts: tuple[str, ...]
-    """Why its nodes would not connect, a line each."""
+    """Why its nodes would not connect, one line each."""
     answers: Mapping[str, Any]
     """Every answer, as in an answers file."""
     day: date
@@ -45,7 +45,7 @@ class Draft(NamedTuple):
     roots: Sequence[str]
     """The directories of the templates."""
     targets: tuple[Distribution, ...]
-    """What it is for, oldest first."""
+    """Its target distributions, oldest first."""
 
 
 class Order(NamedTuple):
@@ -155,7 +155,7 @@ class Existing(NamedTuple):
     """The parts of an existing package, if something is added to one."""
 
     answers: Mapping[str, Any] = MappingProxyType({})
-    """Those that are as they are, such as its name."""
+    """Answers that are given by the package, such as its name."""
     messages: Sequence[str] = ()
     """The names of its own messages."""
     uses: Sequence[Use] = ()
@@ -223,7 +223,7 @@ def compose(
 
 
 def _contents(order: Order) -> str:
-    """Return in words what is in a package: its parts, or the extras that it consists of."""
+    """Describe the contents of a package in words: its parts, or its extras."""
     alone = [layer.summary for layer in order.layers if layer.is_alone]
     return parts.contents(order.requests) or " and ".join(
         f"{summary[0].lower()}{summary[1:]}" for summary in alone

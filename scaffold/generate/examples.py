@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from scaffold.diagnostic import Diagnostic
 
 PACKAGE = "example_package"
-"""The name of a package whose example has none."""
+"""The package name of examples without one."""
 
 
 class Example(NamedTuple):
@@ -33,7 +33,7 @@ class Example(NamedTuple):
 def of(template: Template, templates: Mapping[str, Template]) -> Iterator[Example]:
     """Yield the examples of a template, for each build type that it is for.
 
-    An example need not say what its template is: ``--add``, ``--build-type`` or ``--extras`` are
+    The template itself need not be in an example: ``--add``, ``--build-type`` or ``--extras`` are
     completed.
     """
     for title, answers in template.examples.items():
@@ -65,9 +65,9 @@ class Tried(NamedTuple):
 
     example: Example
     made: Draft | None
-    """``None`` when it cannot be rendered."""
+    """The package; ``None`` if it cannot be rendered."""
     defects: tuple[str, ...]
-    """What is wrong, a line each."""
+    """The defects, one line each."""
 
 
 def check(
@@ -105,7 +105,7 @@ def _tried(
 
 
 def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:
-    """Yield a line about each answer of an example that no template asks for."""
+    """Yield a line for each answer of an example to an unknown question."""
     asked = {question.name for template in templates.values() for question in template.questions}
     for name in example.answers:
         if name not in asked:
@@ -115,7 +115,7 @@ def _unknown(example: Example, templates: Mapping[str, Template]) -> Iterator[st
 
 
 def _without_template(example: Example, templates: Mapping[str, Template]) -> Iterator[str]:
-    """Yield a line if the parts of an example are all of other templates."""
+    """Yield a line if an example does not use its template."""
     parts = example.answers.get(ADD)
     if templates[example.template].role not in PARTS or not isinstance(parts, list):
         return

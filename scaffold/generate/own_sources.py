@@ -1,4 +1,4 @@
-"""The sources of a package that its authors wrote: no tests, launch or vendored files."""
+"""The sources written by the authors of a package: no tests, launch or vendored files."""
 
 from __future__ import annotations
 

@@ -22,9 +22,9 @@ _WORDS: Mapping[Role, str] = {
     Role.PROGRAM: "the program {name}",
 }
 _SECTIONS = ("topics", "services and actions", "transforms", "timers, parameters and states")
-"""Headings of nodes, those that people look for first in front."""
+"""Headings of nodes, the most common first."""
 _MOST_NAMED = 3
-"""Parts that a sentence names one by one."""
+"""The maximum number of parts listed one by one."""
 
 
 class Request(NamedTuple):
@@ -61,7 +61,7 @@ class Part(NamedTuple):
 def requests(
     wanted: Sequence[Mapping[str, Any]], origin: str, templates: Mapping[str, Template]
 ) -> list[Request]:
-    """Return the parts that the question ``add`` was answered with.
+    """Return the parts in the answer to the question ``add``.
 
     Args:
         wanted: A mapping for each part with ``kind``, and answers to questions of that kind;
@@ -70,7 +70,7 @@ def requests(
         templates: All templates.
 
     Raises:
-        InputError: there is no such kind, or it does not ask what is answered.
+        InputError: there is no such kind, or it does not have a question that is answered.
     """
     return [_request(entry, origin, templates) for entry in wanted]
 
@@ -86,7 +86,7 @@ def kinds(templates: Mapping[str, Template]) -> list[str]:
 
 
 def sections(templates: Mapping[str, Template]) -> dict[str, list[str]]:
-    """Return what can be added to a package by the heading that lists show it below."""
+    """Return the templates that can be added to a package, by heading."""
     result: dict[str, list[str]] = {}
     for role in (*PARTS, Role.EXTRA):
         own = [item for _, item in sorted(templates.items()) if item.role is role]
@@ -96,13 +96,13 @@ def sections(templates: Mapping[str, Template]) -> dict[str, list[str]]:
 
 
 def _order(section: str) -> tuple[int, str]:
-    """Sort our own sections first, as they are below, and those of teams after them."""
+    """Sort the built-in sections first, those of users after them."""
     at = _SECTIONS.index(section) if section in _SECTIONS else len(_SECTIONS)
     return at, section
 
 
 def addable(templates: Mapping[str, Template]) -> list[str]:
-    """Return what can be added to a package: the kinds of parts, and the extras."""
+    """Return the templates that can be added to a package: kinds of parts, and extras."""
     extras = [name for name, item in sorted(templates.items()) if item.role is Role.EXTRA]
     return [*kinds(templates), *extras]
 
@@ -113,10 +113,10 @@ def refuse_impossible(
     """Raise if the parts cannot be in one package of this build type.
 
     Args:
-        parts: What is to be in the package.
+        parts: The parts of the package.
         package: Its name.
         build_type: Its build type.
-        messages: The messages that it has besides.
+        messages: The messages that it has already.
 
     Raises:
         InputError: with what to do instead.
@@ -146,7 +146,7 @@ def refuse_impossible(
 
 
 def _refuse_one_frame_twice(part: Part) -> None:
-    """Raise if a node would need the transform of a frame to itself."""
+    """Raise if a node would look up the transform of a frame to itself."""
     names: dict[str, str] = {}
     for question in part.template.questions:
         if question.type == "frame":
@@ -182,7 +182,7 @@ def _refuse_endless(messages: Sequence[Part]) -> None:
 
 
 def _refuse_alike(interfaces: Sequence[Part]) -> None:
-    """Raise if the files generated of two interfaces have one name."""
+    """Raise if the generated files of two interfaces have equal names."""
     headers: dict[tuple[str, str], str] = {}
     for part in interfaces:
         header = header_name(part.name)
@@ -205,7 +205,7 @@ def refuse_build_type(template: Template, build_type: str) -> None:
 
 
 def contents(requested: Iterable[Request]) -> str:
-    """Return the parts in words, such as "the publisher node talker and the message Status"."""
+    """Describe the parts in words, such as "the publisher node talker and the message Status"."""
     words = [
         _WORDS[item.template.role].format(kind=item.template.name.replace("_", " "), name=item.name)
         for item in requested

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _T = TypeVar("_T")
 
 MARK = ":/"
-"""In front of a path that is relative to the top of the repository, as git writes it."""
+"""The prefix of a path relative to the top of the repository, as in git."""
 PRE_COMMIT = ".pre-commit-config.yaml"
 _GIT = ".git"
 
@@ -31,14 +31,14 @@ class Place(NamedTuple):
     """Where a package is in a git repository."""
 
     top: str = ""
-    """The top of the repository, without links; empty if there is no repository."""
+    """The real path of the top of the repository; empty without a repository."""
     way: str = ""
-    """From there to the package, or to the directory that a new one is made in."""
+    """The relative path of the package, or of the directory in which a new one is created."""
     is_parent: bool = False
-    """Whether a package is still to be made in that directory."""
+    """Whether the package is yet to be created in that directory."""
 
     def subdirectory(self, package: str) -> str:
-        """Return the way from the top to a package; empty at the top and without repository."""
+        """Return the path from the top to a package; empty at the top and without a repository."""
         if not self.top or not self.is_parent:
             return self.way
         return f"{self.way}/{package}" if self.way else package
@@ -50,11 +50,11 @@ NOWHERE = Place()
 def place_of(package: str | None, *, is_parent: bool = False) -> Place:
     """Return where a package is, or where a new one will be.
 
-    Git is not asked: it may run what the configuration of a repository says.
+    Git is not run, since it may run programs from the configuration of a repository.
 
     Args:
         package: The directory of the package; ``None`` for one in memory.
-        is_parent: It is the directory that the package is to be made in.
+        is_parent: Whether it is the directory in which the package will be created.
     """
     if package is None:
         return NOWHERE
@@ -67,7 +67,7 @@ def place_of(package: str | None, *, is_parent: bool = False) -> Place:
 
 
 def place_of_files(directory: str | None) -> Place:
-    """Return a directory as a place for `read`, whether there is a repository or not."""
+    """Return a directory as a place for `read`, with or without a repository."""
     return NOWHERE if directory is None else Place(os.path.realpath(directory))
 
 
@@ -84,7 +84,7 @@ def above(files: Mapping[str, _T]) -> dict[str, _T]:
 
 
 def is_below(path: str) -> bool:
-    """Tell whether a path, which may come from a record, leads down from where it starts."""
+    """Tell whether a path, which may be from a record, stays below its start."""
     parts = path.removeprefix(MARK).split("/")
     return not any(part in {"", ".", ".."} or "\0" in part for part in parts)
 
@@ -116,8 +116,8 @@ def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
         files: Content by path, relative to the top.
 
     Raises:
-        InputError: a file cannot be read, or a link leads out of the repository.
-        ConflictError: there is a directory in the place of a file.
+        InputError: a file cannot be read, or a symlink leads out of the repository.
+        ConflictError: a directory has the path of a file.
     """
     from scaffold.writing.plan import WritePlan
 
@@ -125,11 +125,11 @@ def plan(place: Place, files: Mapping[str, bytes | str]) -> WritePlan | None:
 
 
 def unread(place: Place, paths: Sequence[str], package: str) -> Iterator[str]:
-    """Yield notes on files that are not read where they are.
+    """Yield notes on files that no tool reads at their place.
 
     Args:
         place: The repository.
-        paths: Files in the package that are for the top of a repository.
+        paths: Files in the package that belong at the top of a repository.
         package: The directory of the package.
     """
     if paths and not place.top:
@@ -147,15 +147,15 @@ def left_to_owners(
     files: Mapping[str, str],
     read_existing: Callable[[str], bytes | None],
 ) -> dict[str, ByHand | None]:
-    """Return the files that are not written, with what their owners have to add to them.
+    """Return the files that are not written, with what the user has to add to them.
 
-    ``None`` where all of it is there.
+    The value is ``None`` where nothing is missing.
 
     Args:
         place: The repository.
         package: The name of the package.
-        files: What would be written.
-        read_existing: Returns what a file holds now.
+        files: The files that would be written.
+        read_existing: Returns the current content of a file.
     """
     left: dict[str, ByHand | None] = {}
     for path, text in files.items():
@@ -168,20 +168,20 @@ def left_to_owners(
 
 
 def is_shared(path: str) -> bool:
-    """Tell whether a file may hold what others need: it is never overwritten once it is there.
+    """Tell whether a file may have entries of others, so that it is never overwritten.
 
-    A configuration of pre-commit has hooks of others, and no edit of YAML is certain.
+    A pre-commit configuration has other hooks, and edits of YAML are not safe.
     """
     return os.path.basename(path) == PRE_COMMIT
 
 
 def left_to_owner(path: str, existing: bytes, text: str) -> ByHand | None:
-    """Return what the owner of a shared file has to add to it; ``None`` if all of it is there.
+    """Return what the user has to add to a shared file; ``None`` if nothing is missing.
 
     Args:
         path: Relative to the package.
-        existing: What the file holds now.
-        text: What it would hold for this package alone.
+        existing: The current content.
+        text: The content for this package alone.
     """
     from scaffold.generate.edit.addition import ByHand
     from scaffold.generate.edit.pre_commit import missing_entry
@@ -192,7 +192,7 @@ def left_to_owner(path: str, existing: bytes, text: str) -> ByHand | None:
 
 
 def _top(directory: str) -> str | None:
-    """Return the innermost directory with a repository, a worktree or a submodule in it."""
+    """Return the innermost parent that is a repository, a worktree or a submodule."""
     while not _is_git(os.path.join(directory, _GIT)):
         parent = os.path.dirname(directory)
         if parent == directory:

@@ -11,17 +11,17 @@ from scaffold.generate.questions.defaults import DISTRO
 from scaffold.generate.questions.questions import Given
 
 _SECTION = "templates"
-"""Of their profiles."""
+"""The section of the profiles of distributions."""
 
 
 def of(given: Mapping[str, Given]) -> list[Distribution]:
     """Return the distributions that a package is for, oldest first.
 
     Args:
-        given: The user's answers; without one it is for what this process works for.
+        given: The user's answers; the default is the target of this process.
 
     Raises:
-        InputError: there is no distribution of a name.
+        InputError: a distribution is unknown.
     """
     answer = given.get(DISTRO)
     if answer is None:
@@ -30,16 +30,16 @@ def of(given: Mapping[str, Given]) -> list[Distribution]:
 
 
 def written(value: object) -> str:
-    """Return an answer, a list of names or a text, as on a command line."""
+    """Return an answer, a list of names or a text, as written on a command line."""
     return ",".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
 
 
 def context(targets: Sequence[Distribution]) -> dict[str, Any]:
-    """Return what templates know as ``target``.
+    """Return the template variable ``target``.
 
     Besides ``names``, ``title`` and ``python``, that is the section ``templates`` of the profiles.
-    Of several distributions a file holds what runs on all of them: a flag is set if it is in each,
-    of numbers the lowest counts, of tables the entries of all, of texts that of the oldest.
+    For several distributions, values work on all of them: a flag is set if it is set for each,
+    a number is the lowest, a table is merged, and a text is that of the oldest.
     """
     profiles = [distribution.profile[_SECTION] for distribution in targets]
     oldest = targets[0]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MAX_BYTES = 1_000_000
 MAX_DEPTH = 40
 MAX_NUMBER = 40
-"""Characters of a number; a longer one is a text without its quotes."""
+"""The maximum length of a number; a longer one is a text with missing quotes."""
 
 _TAG = "tag:yaml.org,2002:"
 _NUMBERS = frozenset({f"{_TAG}int", f"{_TAG}float"})
@@ -29,7 +29,7 @@ _OTHERS = frozenset({f"{_TAG}bool", f"{_TAG}null"})
 
 
 def read(path: str, kind: type[ScaffoldError] = InputError) -> Any:  # noqa: ANN401  what it holds
-    """Return what a file holds.
+    """Return the content of a file.
 
     Args:
         path: The file.
@@ -128,7 +128,7 @@ class _Reader:
         return result
 
     def _scalar(self, event: yaml.ScalarEvent) -> object:
-        """Return a text, or the value that YAML reads an unquoted one as."""
+        """Return a text, or the value of an unquoted scalar."""
         from yaml import SafeLoader, ScalarNode
 
         self._refuse_tag(event, {f"{_TAG}str", "!"})

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from scaffold.diagnostic import Diagnostic
 
 _OF_A_DAY = r"(?i)\b\d{4}-\d{2}-\d{2}\b|(?<=copyright )(?:\(c\) )?\d{4}\b"
-"""Dates, and the years of copyright notices: a second run on another day changes nothing."""
+"""Dates and copyright years, which are ignored: a second run on another day changes nothing."""
 HEADER_RULES = frozenset({"copyright-notice-missing", "license-header-unknown"})
 """Rules about missing headers, which are expected where the license is not known."""
 
@@ -45,7 +45,7 @@ class Added(NamedTuple):
     """The files that are added; all others are edited."""
     executable: frozenset[str]
     notes: Mapping[str, str]
-    """What a new file is for."""
+    """The purposes of new files, by path."""
     by_hand: tuple[ByHand, ...]
     start: str | None
     """The command that starts the new part."""
@@ -54,12 +54,12 @@ class Added(NamedTuple):
     unedited: Package
     """The package with only the new files: its findings are not caused by edits."""
     remarks: tuple[str, ...]
-    """What the user should know, a line each."""
+    """Notes for the user, one line each."""
     has_header: bool
     """Whether the new files have a license header."""
 
     def is_expected(self, diagnostic: Diagnostic) -> bool:
-        """Tell whether a finding is due to what is left for the user to do."""
+        """Tell whether a finding is caused by an edit left to the user."""
         if any(item.path == diagnostic.location.path for item in self.by_hand):
             return True
         in_part = diagnostic.location.path in self.new
@@ -165,7 +165,7 @@ def _refuse_ros_1(package: Package) -> None:
 
 @contextmanager
 def _refusing(package: Package) -> Iterator[None]:
-    """Turn errors about a package that cannot be read into one line for the user."""
+    """Convert errors about an unreadable package to a one-line error."""
     try:
         yield
     except ParseError as error:
@@ -195,7 +195,7 @@ def _new_files(target: Target, old: Provenance | None, made: Piece) -> dict[str,
 
 
 def _content(target: Target, path: str) -> bytes | None:
-    """Return a file of the package, or at the top of its repository; ``None`` if there is none."""
+    """Return the content of a file in the package or at the top of its repository, if it exists."""
     if path.startswith(repository.MARK):
         return repository.read(target.place, path.removeprefix(repository.MARK))
     package = target.package
@@ -308,7 +308,7 @@ def _remarks(package: Package, made: Piece) -> Iterator[str]:
 
 
 def _not_launched(package: Package, addition: Addition) -> Iterator[str]:
-    """Yield which launch files start other nodes of the package, but not a new one."""
+    """Yield a note for launch files that start other nodes of the package, but not the new one."""
     program = addition.program
     if program is None or addition.launch:
         return
@@ -347,7 +347,7 @@ _WITH_HEADER = (".py", ".cpp")
 
 
 def _refuse_conflicts(package: Package, made: Piece) -> None:
-    """Raise if a new node would not connect with one that is there."""
+    """Raise if a new node would not connect with an existing one."""
     program = made.addition.program
     conflicts = neighbours.conflicts(package, program.path) if program is not None else ()
     for conflict in conflicts:

@@ -22,21 +22,21 @@ _BSD = "Redistribution and use in source and binary forms"
 _THIRD_CLAUSE = "either the name of"
 _NOTICE = re.compile(r"(?im)^[ \t]*copyright\b(.*)$")
 _YEAR = re.compile(r"(?i)(?:\(c\)|©)?[\d,-]*")
-"""A word between "copyright" and the holder."""
+"""A year or the like between "copyright" and the holder."""
 _ENDED = re.compile(r"(?<!\bInc)(?<!\bLtd)(?<!\bCo)(?<!\bCorp)(?<!\be\.V)\.$")
-"""The period of a sentence, and not that of a company."""
+"""The period at the end of a sentence, but not that of "Inc."."""
 _AUTHOR = re.compile(r"(?i)#[\s*]*[@\\]?(authors?|written by)\b")
 _OF_TEXTS = ("free software foundation",)
-"""Holders of the text of a license, and not of what is under it."""
+"""Holders of license texts, not of the licensed code."""
 _ACCOUNTS = frozenset({"root", "user", "ubuntu", "ros", "admin", "vscode", "none", "unknown"})
-"""Accounts of containers and images, which `ros2 pkg create` takes for the maintainer's name."""
+"""Default accounts of containers, which `ros2 pkg create` writes as the maintainer's name."""
 _OF_EXAMPLES = ("open source robotics foundation", "open robotics", "willow garage")
 """Holders named in copied examples and tutorials, and in code ported from ROS 1."""
 _OF_OPEN_ROBOTICS = ("openrobotics.org", "osrfoundation.org")
 
 
 def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
-    """Return what a package has decided: its license, copyright holder and maintainer.
+    """Return the answers implied by a package: its license, copyright holder and maintainer.
 
     Args:
         package: The package; its manifest can be parsed.
@@ -53,7 +53,7 @@ def answers(package: Package, licenses: Sequence[str]) -> dict[str, Given]:
 
 
 def license_of(package: Package, templates: Sequence[str]) -> str | None:
-    """Return the license of a package that there is a template for.
+    """Return the license of a package, if there is a template for it.
 
     The manifest decides; where it says too little (``BSD``) or nothing, the headers of the
     package's own sources do, then the text of the license, in the package or at the top of its
@@ -81,7 +81,7 @@ def license_of(package: Package, templates: Sequence[str]) -> str | None:
 
 
 def identify_text(data: bytes) -> str | None:
-    """Return the license that a text is of; a BSD license by its clauses, however it is set."""
+    """Return the license with a text; BSD licenses are told apart by their clauses."""
     license_ = notices.identify_file("LICENSE", data)
     text = " ".join(data.decode("utf-8", "replace").split())
     if license_ is not None or _BSD not in text:
@@ -90,7 +90,7 @@ def identify_text(data: bytes) -> str | None:
 
 
 def is_decided(package: Package) -> bool:
-    """Tell whether the manifest does not leave the license to be filled in."""
+    """Tell whether the manifest has a license other than a placeholder."""
     return not any(is_placeholder(element.text) for element in package.manifest.all("license"))
 
 
@@ -132,9 +132,9 @@ def _end_of_comment(lines: Sequence[str], start: int) -> int:
 
 
 def _holder(package: Package) -> str | None:
-    """Return the copyright holder of most own sources; those without a notice count, too.
+    """Return the copyright holder of most own sources, counting those without a notice.
 
-    Of several that share most sources, it is the one that is named first.
+    If several are equally frequent, it is the first one.
     """
     headers = own_headers(package)
     holders = (dict.fromkeys(map(_without_remark, header.holders)) for header in headers)
@@ -146,7 +146,7 @@ def _holder(package: Package) -> str | None:
 
 
 def _holder_in_text(package: Package) -> str | None:
-    """Return the only copyright holder that the text of the license names."""
+    """Return the copyright holder in the license text, if there is only one."""
     texts = [data.decode("utf-8", "replace") for data in license_texts(package)]
     lines = [line for text in texts for line in _NOTICE.findall(text)]
     names = {_ENDED.sub("", _without_remark(name)) for name in map(_named, lines) if name}
@@ -156,7 +156,7 @@ def _holder_in_text(package: Package) -> str | None:
 
 
 def _named(notice: str) -> str:
-    """Return the holder in what follows the word copyright; empty without a year before it."""
+    """Return the holder in the text after the word "copyright"; empty without a year."""
     words = notice.split()
     holder = [*dropwhile(_YEAR.fullmatch, words)]
     has_year = any(character.isdigit() for word in words[: -len(holder)] for character in word)
@@ -164,7 +164,7 @@ def _named(notice: str) -> str:
 
 
 def _may_hold(package: Package, name: str) -> bool:
-    """Tell whether a notice may be of the package's authors, and not of those they copied from."""
+    """Tell whether a notice may be by the package's authors, not by those they copied from."""
     if not name.lower().startswith(_OF_EXAMPLES):
         return True
     maintainers = package.manifest.all("maintainer")
@@ -180,7 +180,7 @@ def _without_remark(name: str) -> str:
 
 
 def _maintainer(manifest: Manifest) -> tuple[str | None, str | None]:
-    """Return the name and the address of the first maintainer, if they can be used."""
+    """Return the name and the address of the first maintainer, if they are valid."""
     element = manifest.one("maintainer")
     if element is None:
         return None, None

@@ -16,7 +16,7 @@ from scaffold.model.python.values import Unknown
 from scaffold.source import ViewError
 
 LIBRARY_NODES = frozenset({"nav2_simple_commander.robot_navigator.BasicNavigator"})
-"""Classes of nodes that other packages have, and programs derive from or create."""
+"""Node classes of libraries that programs derive from or instantiate."""
 CONFIG = "config"
 """Where generated launch files look for parameter files."""
 
@@ -27,7 +27,7 @@ class FoundNodes(NamedTuple):
     nodes: Sequence[Mapping[str, Any]]
     """Each with at least ``name``, ``executable``, ``parameter_file`` and ``has_parameters``."""
     others: Sequence[str]
-    """Programs that may be nodes or not."""
+    """Programs that may or may not be nodes."""
 
 
 def find(
@@ -63,7 +63,7 @@ def find(
 
 
 def _makes_library_node(package: Package, path: str) -> bool:
-    """Tell whether a file derives from a class of nodes of another package, or creates one."""
+    """Tell whether a file derives from or instantiates a node class of a library."""
     try:
         module = package.module(path)
     except ViewError:
@@ -74,7 +74,7 @@ def _makes_library_node(package: Package, path: str) -> bool:
 
 
 def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str, Any]:
-    """Return what a launch file needs to know of a program that makes nodes."""
+    """Return the variables of a launch file for a program that creates nodes."""
     name = next(iter(names)) if len(names) == 1 else None
     file = _parameters(package, name) if isinstance(name, str) else ""
     return {
@@ -86,7 +86,7 @@ def _node(package: Package, program: str, names: set[str | Unknown]) -> dict[str
 
 
 def _parameters(package: Package, name: str) -> str:
-    """Return the one parameter file that is for a node of this name; empty if there is none."""
+    """Return the only parameter file for a node of this name; empty if there is none."""
     fitting: list[str] = []
     for path in parameter_paths(package):
         read = parameter_file(package, path) if path.rpartition("/")[0] == CONFIG else None
@@ -98,7 +98,7 @@ def _parameters(package: Package, name: str) -> str:
 
 
 def _renamed(nodes: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-    """Yield nodes; those of one name are called like their programs when they run together."""
+    """Yield nodes; those with equal names get the names of their programs."""
     count = Counter(node["name"] for node in nodes if node["name"])
     for node in nodes:
         if count[node["name"]] > 1:

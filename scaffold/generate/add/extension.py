@@ -22,13 +22,13 @@ class Extension(NamedTuple):
     """A definition with new lines at the ends of its sections."""
 
     files: dict[str, bytes]
-    """The definition; empty where the package has none of that name, or no fields are given."""
+    """The changed definition; empty if it does not exist or no fields are given."""
     given: dict[str, Given]
-    """The answers to the questions for fields: all lines that the definition has then."""
+    """The answers to the questions for fields, with all lines of the new definition."""
 
 
 def of(package: Package, wanted: Wanted) -> Extension:
-    """Return what the fields that the user has given make of a definition that exists.
+    """Return an existing definition extended by the fields of the user.
 
     Raises:
         InputError: a field is not acceptable, or there is another one of its name.

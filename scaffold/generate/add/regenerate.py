@@ -22,7 +22,7 @@ from scaffold.writing.transaction import BASES
 OF_PACKAGES = (
     "license", "copyright_holder", "maintainer_name", "maintainer_email", "comments", DISTRO,
 )  # fmt: skip
-"""The questions of the base that a part asks, too; a package has answered most of them."""
+"""Questions of the package that parts ask as well; most are answered by the record."""
 
 
 def provenance_of(package: Package) -> Provenance | None:
@@ -41,13 +41,13 @@ def provenance_of(package: Package) -> Provenance | None:
 
 
 def remembered(old: Provenance | None) -> dict[str, Given]:
-    """Return the answers that a package was made with, as far as parts ask for them."""
+    """Return the recorded answers of a package that parts ask for."""
     answers = old.answers if old is not None else {}
     return {name: Given(answers[name], NAME) for name in OF_PACKAGES if name in answers}
 
 
 def joined(target: Target, old: Provenance) -> Provenance:
-    """Return how a package was made; after a merge of branches, with the files for both.
+    """Return the record of a package; after a merge of branches, with the files of both.
 
     Raises:
         InputError: the package was made with a template that is not known here.
@@ -98,12 +98,12 @@ def as_new(target: Target, old: Provenance, piece: Piece) -> dict[str, str] | No
 
 
 def is_noted(old: Provenance, piece: Piece) -> bool:
-    """Tell whether a package was made with a piece, or has got it since."""
+    """Tell whether the record of a package has a piece."""
     return _with_piece(old, piece) == old.answers
 
 
 def noted(package: Package, old: Provenance, piece: Piece) -> dict[str, bytes]:
-    """Return the record of a package whose files are edited, with the piece in it.
+    """Return the record of an edited package, with a piece added.
 
     Args:
         package: The package as it is.
@@ -125,7 +125,7 @@ def noted(package: Package, old: Provenance, piece: Piece) -> dict[str, bytes]:
 
 
 def _recorded(package: Package, old: Provenance, new: Provenance) -> dict[str, str]:
-    """Return the record with its sidecar; the first time git learns how to merge them."""
+    """Return the record with its sidecar, and at first with the git attributes for merging."""
     return new.files(is_new=not old.has_sidecar and not package.has(ATTRIBUTES))
 
 
@@ -154,7 +154,7 @@ def _drafted(target: Target, given: Mapping[str, Given], old: Provenance) -> Dra
 
 
 def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> list[str]:
-    """Return the questions whose answer names the parts, and was the default: it follows them."""
+    """Return the questions with default answers that name the parts, and so change with them."""
     questions = [
         item
         for item in target.templates[BASE].questions
@@ -170,7 +170,7 @@ def _following(target: Target, given: Mapping[str, Given], old: Provenance) -> l
 
 
 def _is_as(package: Package, path: str, text: str | None) -> bool:
-    """Tell whether a file is as it was generated; ``None`` if it was not generated."""
+    """Tell whether a generated file is unedited; ``None`` if it was not generated."""
     if text is None or not package.has(path):
         return text is None and not package.has(path)
     return package.tree.read(path) == text.encode()

@@ -26,7 +26,7 @@ _KINDS = (
 
 
 def remarks(package: Package, path: str) -> Iterator[str]:
-    """Yield what may keep a node from working with others of its package, a line each.
+    """Yield problems of a node with others of its package, one line each.
 
     Args:
         package: The package with the node.
@@ -50,7 +50,7 @@ def _namesakes(package: Package, path: str) -> Iterator[str]:
 
 
 def conflicts(package: Package, path: str) -> Iterator[str]:
-    """Yield why a node does not connect with others, where the checker would call it an error.
+    """Yield why a node does not connect with others, if the checker reports it as an error.
 
     Args:
         package: The package with the node.
@@ -86,13 +86,13 @@ def _path(use: Use) -> str | None:
 
 
 def _has_rule(clash: Clash) -> bool:
-    """Tell whether the rule topic-type-differs reports it."""
+    """Tell whether the rule topic-type-differs reports a clash."""
     is_fixed = clash.first.is_fixed and clash.other.is_fixed
     return is_fixed and clash.first.kind in {"topic", "service"}
 
 
 def uses(package: Package) -> Iterator[Use]:
-    """Yield what the nodes of a package use, as far as names and types are known."""
+    """Yield the topics, services and actions of a package with known names and types."""
     for file in rclpy_files(package):
         for endpoint in file.endpoints:
             use = _use(endpoint)

@@ -31,7 +31,7 @@ _TESTS = "test"
 _FIXTURES = "conftest.py"
 """What the tests of nodes share."""
 _OWN_TESTS = "nodes"
-"""The directory for tests where fixtures of the package's own are in the way."""
+"""The directory for tests if the fixtures of the package conflict with ours."""
 EXTRAS = "extras"
 """The question for extras."""
 LAUNCH = "launch/"
@@ -52,7 +52,7 @@ class Target(NamedTuple):
     templates: Mapping[str, Template]
     """The templates in them."""
     user: User
-    """Provides what is neither in the package nor in the answers."""
+    """Supplies answers that are neither in the package nor given."""
 
     @property
     def place(self) -> Place:
@@ -80,13 +80,13 @@ class Piece(NamedTuple):
     rendered: Rendered
     """Its own files, at the places where the package has such files."""
     addition: Addition
-    """What the other files must know of."""
+    """The edits that it needs in other files."""
     others: Sequence[str] = ()
     """Programs that a launch file does not start: they may or may not be nodes."""
 
     @property
     def built(self) -> str | None:
-        """What ``ros2 run`` calls the program that it is, if it is one."""
+        """The name of its program for ``ros2 run``, if it is one."""
         if self.addition.program is not None:
             return self.addition.program.name
         return self.addition.compiled.name if self.addition.compiled is not None else None
@@ -124,7 +124,7 @@ def make(target: Target, old: Provenance | None, wanted: Wanted, day: date | Non
 
 
 def _is_foreign(package: Package, old: Provenance | None, path: str, rendered: Rendered) -> bool:
-    """Tell whether a package has fixtures of its own where those of a part would be."""
+    """Tell whether a package has its own fixtures in the file for ours."""
     if path not in rendered.files or not package.has(path):
         return False
     is_ours = old is not None and path in old.rendered
@@ -132,7 +132,7 @@ def _is_foreign(package: Package, old: Provenance | None, path: str, rendered: R
 
 
 def _without_existing_fixtures(package: Package, rendered: Rendered, layout: Layout) -> Rendered:
-    """Leave out the fixtures if the package has them already, under whatever license."""
+    """Remove the fixtures if the package has them already, under any license."""
     path = f"{layout.tests}/{_FIXTURES}"
     if not package.has(path):
         return rendered
@@ -146,7 +146,7 @@ def _body(text: str) -> str:
 
 
 def _launch_file(package: Package, given: str) -> str:
-    """Return the path in the package of a launch file that is named from there or from here.
+    """Return the path of a launch file in the package; the user may give it from elsewhere.
 
     Raises:
         InputError: it is not a launch file of the package.
@@ -208,7 +208,7 @@ def _interfaces(package: Package) -> list[dict[str, str]]:
 
 
 def _compose(target: Target, given: Mapping[str, Given], day: date | None) -> Composed:
-    """Settle all questions; what the package has decided needs no answer."""
+    """Answer all questions, using the answers implied by the package."""
     package = target.package
     decided = existing_answers.answers(package, licenses.names(target.roots))
     settled = {**decided, **given}
@@ -242,7 +242,7 @@ def _only(composed: Composed, roles: Iterable[Role]) -> list[_Scope]:
 def _rendered(
     target: Target, composed: Composed, scopes: Sequence[_Scope], layout: Layout
 ) -> Rendered:
-    """Render files alone; programs and tests go where the package has such files."""
+    """Render single files; programs and tests go to the directories of the package for them."""
     rendered = composed.renderer.package(scopes)
     name = target.package.name
 
@@ -261,13 +261,13 @@ def _rendered(
 
 
 def _placed(path: str, places: Mapping[str, str]) -> str:
-    """Return a path in the directory that a package has instead of the usual one."""
+    """Return a path in the directory that the package uses instead of the default one."""
     directory, _, rest = path.partition("/")
     return f"{places[directory]}/{rest}" if rest and directory in places else path
 
 
 def _without_gap(text: str) -> str:
-    """Take out the blank lines that an empty header leaves at the start of a file."""
+    """Remove the blank lines left by an empty header."""
     return re.sub(r"\A(#!.*\n)?\n+", r"\1", text) if re.match(r"(#!.*\n)?\n", text) else text
 
 
@@ -300,7 +300,7 @@ def _described(
 
 
 def _of_part(target: Target, composed: Composed, layout: Layout, rendered: Rendered) -> Addition:
-    """Return what the other files must know of a node, an interface or a program."""
+    """Return the edits that other files need for a node, an interface or a program."""
     context, renderer = composed.context, composed.renderer
     ((layer, scope),) = _only(composed, PARTS)
     package = target.package.name

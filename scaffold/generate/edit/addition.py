@@ -57,11 +57,11 @@ class Addition(NamedTuple):
     interface_depends: Sequence[str] = ()
     """Packages whose types the interfaces use."""
     directories: Sequence[str] = ()
-    """Directories that go to ``share/<package>``, their names included."""
+    """Directories to install to ``share/<package>``, with their names."""
     shared: Sequence[str] = ()
     """The new files in these directories."""
     readme: str = ""
-    """README.md of a package that has nothing but this: its sections are merged."""
+    """README.md of a package with only the new parts, whose sections are merged."""
     changes: Sequence[str] = ()
     """Lines for the next release in CHANGELOG.rst."""
     launch: str = ""
@@ -80,7 +80,7 @@ class ByHand(NamedTuple):
     line: str
     reason: str
     is_needed: bool = True
-    """Without it, what was added is not built, found or tested."""
+    """Whether the addition is not built, found or tested without it."""
 
 
 class Outcome(NamedTuple):
@@ -91,5 +91,5 @@ class Outcome(NamedTuple):
 
 
 def spliced(source: Source, edits: Sequence[Edit]) -> Source:
-    """Return the file with edits that do not overlap."""
+    """Return the file with non-overlapping edits applied."""
     return Source(source.path, splice(source.text, edits), source.encoding)

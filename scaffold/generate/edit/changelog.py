@@ -13,7 +13,7 @@ _LIKE_OURS = r"\* Add the [a-z ]+ ``\w+``\."
 
 
 def add_to_changelog(source: Source, addition: Addition) -> Outcome:
-    """Add lines to the section ``Forthcoming``, if it has lines like them."""
+    """Add lines to the section ``Forthcoming``, if it has lines in the same style."""
     for line in addition.changes:
         source = _add(source, line)
     return Outcome(source)

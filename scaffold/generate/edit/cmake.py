@@ -9,7 +9,7 @@ from scaffold.source import Source
 
 
 def add_to_cmake(source: Source, addition: Addition, *, python_package: bool = False) -> Outcome:
-    """Install a program and directories, and run a test; nothing when they are there already.
+    """Install a program and directories, and run a test, unless the file does so already.
 
     Args:
         source: The file.

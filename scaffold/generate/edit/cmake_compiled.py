@@ -24,7 +24,7 @@ _STANDARD = "cxx_std_17"
 
 
 def add_interfaces(editor: Editor, addition: Addition) -> None:
-    """Generate code for interfaces, in the call that is there or in a new one.
+    """Generate code for interfaces, in an existing call or a new one.
 
     Raises:
         InputError: something else in the package has the name that the generated code needs.
@@ -103,7 +103,7 @@ def add_compiled(editor: Editor, program: Compiled) -> None:
 
 
 def _makers(lists: CMakeLists, name: str | None) -> Iterator[Command]:
-    """Yield the commands that make a target of a name."""
+    """Yield the commands that define a target."""
     for command in lists.commands:
         makes = command.name.endswith(_MAKERS)
         if makes and lists.expand_list(command.arguments[:1], command) == [name]:
@@ -134,7 +134,7 @@ def _run_in_tests(editor: Editor, name: str) -> None:
 
 
 def _generation(lists: CMakeLists) -> Generation | None:
-    """Return the call that generates what the package installs."""
+    """Return the call that generates the interfaces of the package, outside of tests."""
     for item in generations_of(lists):
         if not item.for_tests and "SKIP_INSTALL" not in item.options and item.command.depth == 0:
             return item
@@ -184,7 +184,7 @@ def _block(lists: CMakeLists, path: str) -> Edits | None:
 
 
 def _depend(editor: Editor, name: str) -> None:
-    """Name a package whose types the interfaces use."""
+    """Add a package whose types the interfaces use to the dependencies."""
     generation = _generation(editor.lists)
     if generation is None or generation.dependencies is None or name in generation.dependencies:
         return
@@ -230,7 +230,7 @@ def _enable(editor: Editor, *languages: str) -> None:
 
 
 def _installed_targets(lists: CMakeLists, package: str) -> Install | None:
-    """Return the install of programs that has nothing but a destination."""
+    """Return the install command of targets with only a destination."""
     for install in lists.installs:
         is_plain = [argument.value for argument in install.command.arguments[:1]] == ["TARGETS"]
         if (

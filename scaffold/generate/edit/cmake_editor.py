@@ -18,7 +18,7 @@ ADD_PYTEST = "ament_add_pytest_test"
 TEST_TIMEOUT = 300
 """Seconds that a test file gets: the 60 of ament are not enough for nodes on a busy machine."""
 LONG_CALL = 98
-"""Characters of a call, indented by two, from which on it goes over two lines."""
+"""The length from which a call is written on two lines."""
 INSTALL_PYTHON = "ament_python_install_package"
 _NAME = "${PROJECT_NAME}"
 
@@ -80,7 +80,7 @@ class Editor:
     def install_directory(self, path: str, files: Sequence[str] = ()) -> None:
         """Install a directory, its name included, to ``share/<package>``.
 
-        Where its files are installed one by one, the new ones join them.
+        If its files are installed one by one, the new ones are added to the list.
         """
         share = f"share/{_NAME}"
         if _installs_directory(self.lists, path):
@@ -122,7 +122,7 @@ class Editor:
             self.refuse(by_hand, "if(BUILD_TESTING) and endif() are not on lines of their own")
 
     def edit(self, edits: Edits | None) -> None:
-        """Apply edits; those that CMake could not parse afterwards are not applied."""
+        """Apply edits, unless CMake could not parse the result."""
         if not edits:
             return
         changed = CMakeLists.parse(spliced(self.lists.source, edits))
@@ -130,7 +130,7 @@ class Editor:
             self.lists = changed
 
     def refused(self, line: str, *, is_test: bool = False) -> bool:
-        """Tell whether no edit of the file is safe, so that the user has to add the line."""
+        """Leave a line to the user if no edit of the file is safe; return whether that is so."""
         lists = self.lists
         ends = [call for call in lists.find(*LAST_CALLS) if call.depth == 0]
         if lists.project_name != self.package:
@@ -173,7 +173,7 @@ def _covers(lists: CMakeLists, install: Install, path: str) -> bool:
 
 
 def _globs(lists: CMakeLists, argument: Argument, path: str) -> bool:
-    """Tell whether an argument is a list that ``file(GLOB)`` fills with such files."""
+    """Tell whether an argument is a variable filled by ``file(GLOB)`` with such files."""
     for command in lists.find("file"):
         values = command.values
         if values[:1] in (["GLOB"], ["GLOB_RECURSE"]) and argument.raw == f"${{{values[1]}}}":
@@ -216,7 +216,7 @@ def _selects(install: Install, path: str) -> bool:
 
 
 def _extension(lists: CMakeLists, kind: str, path: str, destination: str) -> Edits | None:
-    """Add to the install with the files that are most like a new one, written as they are."""
+    """Add to the install command with the most similar files, in their style."""
     best: tuple[int, Install, Argument, str] | None = None
     for install in lists.installs:
         if not _is_extendable(install, kind, destination):
@@ -260,7 +260,7 @@ def _has_list(install: Install) -> bool:
 
 
 def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: str) -> str:
-    """Write a path the way its neighbor is: with the same variables in front, or quotes."""
+    """Write a path like its neighbor, with the same leading variables and quotes."""
     text, project = argument.text, f"{lists.project_name}/"
     directory, _, name = new.rpartition("/")
     if path is not None and path.rpartition("/")[0] == directory and not argument.bracket:
@@ -274,7 +274,7 @@ def _written_like(lists: CMakeLists, argument: Argument, path: str | None, new: 
 
 
 def _beside(lists: CMakeLists, path: str, destination: str) -> Edits | None:
-    """Add a file to the install that names files of its directory one by one."""
+    """Add a file to the install command that lists files of its directory."""
     if _installs_file(lists, path):
         return None
     neighbours = [
@@ -306,7 +306,7 @@ def _share_block(lists: CMakeLists, path: str) -> Edits | None:
 
 
 def _below_last_test(lists: CMakeLists, line: str) -> Edits | None:
-    """Add a call below the last one of its kind that always runs when tests are built."""
+    """Add a call below the last one of its kind in the unconditional test section."""
     block = cmake_edit.testing_block(lists)
     calls = [call for call in _tests(lists) if block is not None and call.branch is block[0]]
     calls += [call for call in _tests(lists) if call.depth == 0 and lists.guarded_by_testing(call)]

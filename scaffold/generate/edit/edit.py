@@ -36,7 +36,7 @@ class Edited(NamedTuple):
 
 
 def edit(package: Package, addition: Addition) -> Edited:
-    """Return the files of a package with what an addition needs in them.
+    """Return the files of a package, edited for an addition.
 
     Args:
         package: The package as it is; its new files need not be there.
@@ -60,7 +60,7 @@ _Editor = Callable[[Source], Outcome]
 
 
 def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
-    """Yield the files to edit and what edits each."""
+    """Yield the files to edit, each with its editor."""
     is_cmake = package.build_type == "ament_cmake"
     installs_python = (
         is_cmake and addition.program is not None and layout_of(package).installs_python
@@ -80,7 +80,7 @@ def _editors(package: Package, addition: Addition) -> Iterator[tuple[str, _Edito
 
 
 def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) -> Addition:
-    """Return an addition that also depends on what builds and tests it."""
+    """Return an addition that also depends on its build and test tools."""
     depends = {kind: list(names) for kind, names in addition.depends.items()}
     if installs_python:
         depends.setdefault("buildtool", []).append(cmake_editor.PYTHON)
@@ -91,7 +91,7 @@ def _with_build(addition: Addition, *, is_cmake: bool, installs_python: bool) ->
 
 
 def _with_cmake_packages(addition: Addition, package: Package) -> Addition:
-    """Return an addition whose dependencies are there when the package is built as well.
+    """Return an addition whose dependencies are also available at build time.
 
     CMakeLists.txt may look for a package that package.xml does not declare: when it is declared
     for running or for tests alone, the build still fails.
@@ -143,7 +143,7 @@ def _declares_scripts(package: Package, config: IniFile) -> bool:
 
 
 def _others(package: Package, addition: Addition) -> Iterator[tuple[str, _Editor]]:
-    """Yield the files that help people: those that cannot be read are left alone."""
+    """Yield edits of README and changelog; unreadable files are skipped."""
     editors: dict[str, _Editor] = {
         README: lambda source: readme.add_to_readme(source, addition),
         CHANGELOG: lambda source: changelog.add_to_changelog(source, addition),

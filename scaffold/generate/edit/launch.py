@@ -28,7 +28,7 @@ _NO_NODE = "it starts no node of {} that shows how"
 
 
 def add_to_launch(source: Source, addition: Addition) -> Outcome:
-    """Start a node in a launch file that starts nodes of its package already.
+    """Add a node to a launch file that starts nodes of the package already.
 
     It is left to the user where no edit is safe.
 
@@ -74,16 +74,16 @@ def _starts(source: Source, package: str, program: Program) -> bool:
 
 
 class _Description(NamedTuple):
-    """How a launch file builds its LaunchDescription, all in the body of its function."""
+    """How a launch file builds its LaunchDescription in the body of its function."""
 
     assigned: Mapping[ast.expr, tuple[str, ast.stmt]]
-    """Where values get a name."""
+    """Assignments of local variables."""
     entities: ast.List | None
-    """The list that ``LaunchDescription`` is given."""
+    """The list passed to ``LaunchDescription``."""
     variable: str
-    """What it is called; empty when it is returned at once."""
+    """Its variable; empty if it is returned directly."""
     added: Sequence[tuple[ast.stmt, ast.expr]]
-    """What ``add_action`` is called with, and where."""
+    """Arguments of ``add_action``, with their statements."""
 
     @property
     def actions(self) -> list[ast.expr]:
@@ -93,7 +93,7 @@ class _Description(NamedTuple):
 
 
 def _edits(launch: LaunchFile, own: list[LaunchCall], program: Program) -> list[Edit]:
-    """Return what starts a node like the last of its package: written in place, or with a name."""
+    """Return the edits that start a node like the last one: inline, or with a variable."""
     description = _description(launch)
     if description is None or not description.actions:
         return []
@@ -150,7 +150,7 @@ def _added(body: Sequence[ast.stmt], variable: str) -> Iterator[tuple[ast.stmt, 
 
 
 def _action(launch: LaunchFile, description: _Description, action: str | Block) -> Edit:
-    """Return the edit that starts something after everything else."""
+    """Return the edit that appends an action."""
     entities = description.entities
     if entities is None or description.added:
         call = _inside(f"{description.variable}.add_action(", action, ")")
@@ -182,7 +182,7 @@ def _is_apart(source: Source, number: int) -> bool:
 
 
 def _node(launch: LaunchFile, like: LaunchCall, program: Program) -> str | Block:
-    """Return a node written like another one, with its package, namespace and output."""
+    """Return a node formatted like another one, with its package, namespace and output."""
     module = launch.module
     package = module.text(like.given["package"])
     texts = [module.text(node) for node in like.given.values()]

@@ -83,7 +83,7 @@ def _of_setup(package: Package) -> Layout:
 
 
 def _choose(counts: Mapping[str, int], usual: Iterable[str]) -> str | None:
-    """Return the usual place among those in use, else the only one."""
+    """Return the default directory if it is in use, else the only one in use."""
     places = [place for place in counts if place and not place.startswith(_TESTS)]
     for place in usual:
         if place in places:

@@ -17,9 +17,9 @@ _TAGS = {
     "exec": ("run",),
     "depend": ("build", "build_export", "run"),
 }
-"""The kinds of dependencies, and what each must be there for."""
+"""The kinds of dependencies, and the phases in which each must be available."""
 _FOR_TESTS = ("build", "run", "test")
-"""Whatever is there for one of these is there when the tests run."""
+"""The kinds of dependencies that are available when tests run."""
 _SINGLE = {"build": "build_depend", "build_export": "build_export_depend", "run": "exec_depend"}
 _FIRST_WITH_EXEC = 2
 """The format that introduced ``exec_depend`` and ``depend``."""
@@ -28,7 +28,7 @@ _BEFORE_EXEC = ("depend", "build_export_depend", "build_depend", "buildtool_depe
 
 
 def add_to_manifest(source: Source, addition: Addition) -> Outcome:
-    """Declare what an addition needs, next to its kind, unless a dependency covers it already.
+    """Declare the dependencies of an addition next to their kind, unless they are covered already.
 
     Raises:
         ParseError: the manifest is not well-formed.
@@ -74,7 +74,7 @@ def _missing(manifest: Manifest, kind: str, name: str) -> Iterator[str]:
 
 
 def _insertion(manifest: Manifest, tag: str, name: str) -> Edit:
-    """Return the edit that adds a dependency; the first for running comes below the others."""
+    """Return the edit that adds a dependency; the first ``exec_depend`` comes below the others."""
     if tag == "exec_depend" and manifest.one(tag) is None:
         for other in _BEFORE_EXEC:
             elements = manifest.all(other)

@@ -12,13 +12,13 @@ _COMMANDS = (
     f"{_CHECK} --fix",
     f"{_CHECK} --fix --whole-packages",
 )
-"""What hooks run that check all packages of the repository, or those of a commit."""
+"""Commands of hooks that check all packages of the repository, or those of a commit."""
 _IDS = ("ros2-scaffold", "ros2-scaffold-check", "ros2-scaffold-fix")
 """The hooks that our own repository has."""
 
 
 def missing_entry(existing: bytes, text: str) -> str | None:
-    """Return the entry that a configuration has and another one lacks, in one line.
+    """Return the entry that an existing configuration lacks, in one line.
 
     ``None`` if the other one has it, or a hook that checks the package as well.
 

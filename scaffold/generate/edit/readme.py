@@ -12,7 +12,7 @@ from scaffold.source import Source
 
 _DELIMITER = re.compile(r"\s*(?:\|\s*)?:?-+:?\s*(?:\|\s*:?-+:?\s*)*(?:\|\s*)?")
 _FRAME = ("Prerequisites", "Build", "Test", "Author", "License")
-"""The sections that say nothing of the parts of a package; a README with all is like ours."""
+"""The sections not about parts; a README with all of them was generated."""
 _FENCE = ("```", "~~~")
 _HEADING = "## "
 _BELOW = "### "
@@ -79,7 +79,7 @@ def _section(lines: Sequence[str], title: str, start: int, end: int) -> Section:
 
 
 def _blocks(lines: Sequence[str], section: Section) -> list[Section]:
-    """Return what is above the headings of the third level, without a title, and below each."""
+    """Return the blocks of a section: that above the third-level headings, then one for each."""
     below = _split(lines, _BELOW, section.start + 1, section.end)
     end = below[0].start if below else section.end
     return [_section(lines, "", section.start, end), *below]
@@ -88,7 +88,7 @@ def _blocks(lines: Sequence[str], section: Section) -> list[Section]:
 def add_to_readme(source: Source, addition: Addition) -> Outcome:
     """Merge the README.md of a package with one part into another; leave foreign ones alone.
 
-    A table of somebody else's README gets its rows where it has the very same columns.
+    A table of any other README gets rows only if it has exactly the same columns.
     """
     part = Source(source.path, addition.readme)
     if {section.title for section in sections(source)}.issuperset(_FRAME):
@@ -102,7 +102,7 @@ def add_to_readme(source: Source, addition: Addition) -> Outcome:
 
 
 def _merge(source: Source, part: Source, new: Section) -> Source:
-    """Add a section, or to the section of that title what is not in a table."""
+    """Add a section, or merge its text without the tables into the section of that title."""
     order = sections(part)
     existing = {section.title: section for section in sections(source)}
     old = existing.get(new.title)
@@ -143,7 +143,7 @@ def _join(source: Source, title: str, new: Section) -> Source:
 
 
 def _extend(source: Source, old: Section, new: Section) -> Source:
-    """Add to a block the text that it does not have yet, above its table."""
+    """Add text missing in a block, above its table."""
     if _says(old.lines, new):
         return source
     # What both begin with applies to all parts, and rows of tables are added one by one.
@@ -181,7 +181,7 @@ def _above_table(lines: Sequence[str]) -> Sequence[str]:
 
 
 def _says(old: Iterable[str], new: Section) -> bool:
-    """Tell whether all commands of a section or a block, or all of its text, are in some lines."""
+    """Tell whether some lines contain all commands of a block, or all of its text."""
     text = [line for line in new.lines if line.strip() and not _is_row(line)]
     wanted = [line for line in text if line.startswith("ros2 ")] or text
     return bool(wanted) and set(wanted) <= set(old)

@@ -47,12 +47,12 @@ def add_to_setup_cfg(source: Source, addition: Addition) -> Outcome:
 
 
 def add_directories(source: Source, addition: Addition, *, has_others: bool) -> Outcome:
-    """Have executables installed where ``ros2 run`` looks for them, not in ``bin/``.
+    """Install executables where ``ros2 run`` looks for them, not in ``bin/``.
 
     Args:
         source: setup.cfg; empty if there is none.
         addition: What is added.
-        has_others: The package has executables already, which would move.
+        has_others: Whether the package has executables already, which would be moved.
 
     Raises:
         ParseError: setuptools would refuse the file.

@@ -144,7 +144,7 @@ class _Editor:
             self._edit(lambda s: setup_edit.add_import(s.module, "from glob import glob"))
 
     def _add_file(self, file: str, path: str, share: str) -> None:
-        """Install a file that the entries for its directory do not match."""
+        """Install a file that no entry for its directory matches."""
         before, module = self.setup, self.setup.module
         where, written = self._destination(path, share), self._quoted(file)
         written_out = [
@@ -191,7 +191,7 @@ class _Editor:
         )
 
     def _expression(self, name: str) -> str:
-        """Return a name as setup.py writes it: in a variable, if it has one."""
+        """Return a name as an expression: the variable with it in setup.py, or a literal."""
         return setup_edit.package_expression(self.setup, name) or self._quoted(name)
 
     def _edit(self, make: Callable[[SetupPy], Edit | None]) -> None:
@@ -218,7 +218,7 @@ def _package_edit(setup: SetupPy, expression: str) -> Edit | None:
 
 
 def _text_entry(setup: SetupPy, program: Program) -> Edit | None:
-    """Add a line to console scripts that are written as a single string."""
+    """Add a line to console scripts in a single string."""
     points = setup.console_scripts
     if not points or not setup.entry_points_complete:
         return None

@@ -48,21 +48,21 @@ def payload(text: str, interfaces: Definitions | None = None) -> Payload:
 
 
 def service(text: str, interfaces: Definitions | None = None) -> ServicePayload:
-    """Return how to ask and answer services of a type; see `payload`."""
+    """Return how to call and serve services of a type; see `payload`."""
     from scaffold.generate.payload.services import of_service
 
     return of_service(text, interfaces or definitions())
 
 
 def action(text: str, interfaces: Definitions | None = None) -> ActionPayload:
-    """Return how to ask for and work on actions of a type; see `payload`."""
+    """Return how to request and execute actions of a type; see `payload`."""
     from scaffold.generate.payload.actions import of_action
 
     return of_action(text, interfaces or definitions())
 
 
 def definitions(directory: str = ".") -> Definitions:
-    """Return the definitions of the workspace around a directory, installed ones, common ones."""
+    """Return the definitions of the surrounding workspace, the environment and the bundle."""
     real = os.path.realpath(directory)
     if _known is None:
         return _definitions(real)
@@ -72,12 +72,12 @@ def definitions(directory: str = ".") -> Definitions:
 
 
 _known: dict[str, Definitions] | None = None
-"""By directory, while they are looked for once."""
+"""Definitions by directory, inside of `looked_for_once`."""
 
 
 @contextmanager
 def looked_for_once() -> Iterator[None]:
-    """Look for the definitions around a directory once in the block, for all questions."""
+    """Look up the definitions around a directory only once within the block."""
     global _known  # noqa: PLW0603  questions know nothing of each other
     _known = {}
     try:

@@ -13,7 +13,7 @@ _FIBONACCI = "example_interfaces/action/Fibonacci"
 
 
 def of_action(text: str, interfaces: Definitions) -> ActionPayload:
-    """Return how to ask for actions of a type and how to work on them.
+    """Return how to request and how to execute actions of a type.
 
     Raises:
         InputError: the type is not known or cannot be used.
@@ -24,7 +24,7 @@ def of_action(text: str, interfaces: Definitions) -> ActionPayload:
 
 
 def _alike(interface: Interface) -> ActionRecipe | None:
-    """Return the recipe of Fibonacci for one of the many copies of it."""
+    """Return the recipe of Fibonacci for one of its many copies in other packages."""
     parts = (interface.goal, interface.result, interface.feedback)
     names = [[field.name for field in part.fields] for part in parts]
     fibonacci = recipe.find_action(_FIBONACCI)

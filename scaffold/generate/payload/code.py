@@ -7,23 +7,23 @@ from collections.abc import Iterable, Iterator
 from textwrap import dedent
 
 COUNT = "@count"
-"""Token for the number of messages so far; in a loop each element has its own."""
+"""Token for the number of messages so far; in a loop, each element has its own count."""
 WAVE = "@wave"
 """Token for a sine that moves with the count."""
 NOW = "@now"
 """Token for the time of the node's clock, as a message."""
 WIDTH = 91
-"""Columns of a line of a method without its indentation."""
+"""Maximum width of a line of a method, without its indentation."""
 INDENT = "    "
 
 COUNTER = "self.count"
-"""What counts where nothing else does."""
+"""The expression for a count where there is no other."""
 _CLOCK = "self.get_clock().now().to_msg()"
 _SINE = "math.sin({} / 10.0)"
 
 
 def is_now(stamp: str) -> str:
-    """Return an expression of a test that is true of a stamp of the last minute."""
+    """Return an expression for a test that is true for a stamp of the last minute."""
     return f"abs(time.time() - {stamp}.sec) < 60"
 
 
@@ -40,7 +40,7 @@ class Block:
 
     @property
     def is_loop(self) -> bool:
-        """Whether the block is run for each element of something."""
+        """Whether the block is the body of a loop."""
         return self._parent is not None
 
     def add(self, line: str, comment: str = "") -> None:
@@ -52,11 +52,11 @@ class Block:
         self._items.append(f"{line}  # {comment}" if comment else line)
 
     def loop(self, head: str, uncounted: str) -> Block:
-        """Add a loop and return its body, whose elements count with the loop's ``count``.
+        """Add a loop and return its body, where ``count`` is the number of the element.
 
         Args:
             head: The line that starts the loop.
-            uncounted: The same for a body that does not count.
+            uncounted: The same line for a body that does not use ``count``.
         """
         body = Block(self, "count")
         body._uncounted = uncounted
@@ -69,9 +69,9 @@ class Block:
         return any(COUNT in text or WAVE in text for text in self.texts())
 
     def embed(self, code: str, target: str) -> None:
-        """Add the code of a recipe, which fills ``msg``, for another target.
+        """Add the code of a recipe, with ``msg`` replaced by a target.
 
-        A local name that is taken for something else gets the name of the target before it.
+        A local name that is already taken is prefixed with the name of the target.
         """
         text = (
             # linear: spaces with two line ends among them match
@@ -98,17 +98,17 @@ class Block:
         self._items.extend(text.splitlines())
 
     def _placed(self, text: str) -> str:
-        """Return what a text means here, where the count may be that of a loop."""
+        """Return a text with its tokens filled in; the count may be that of a loop."""
         return text.replace(COUNT, self._counter)
 
     def local(self, name: str) -> str | None:
-        """Return how a local name is defined here or around, if it is."""
+        """Return the definition of a local name here or in an outer block, if any."""
         if name in self._locals:
             return self._locals[name]
         return self._parent.local(name) if self._parent else None
 
     def define(self, name: str, value: str) -> str:
-        """Add a local name, changed if it is taken; return it."""
+        """Define a local name, changed if it is taken; return it."""
         existing = self.local(name)
         while existing not in {None, value}:
             name += "_"
@@ -169,7 +169,7 @@ class Block:
 
 
 def wrapped(line: str, width: int) -> Iterator[str]:
-    """Yield a line, in several pieces if it is too long: its comment first, then by commas."""
+    """Yield a line, split if it is too long: first its comment, then at commas."""
     if len(line) <= width:
         yield line
         return
@@ -203,7 +203,7 @@ def wrapped(line: str, width: int) -> Iterator[str]:
 
 
 def _opening(code: str) -> int:
-    """Return where the bracket opens that closes at the end of a line; -1 if there is none."""
+    """Return the index of the bracket closed at the end of a line; -1 if there is none."""
     depth = 0
     for at in range(len(code) - 1, -1, -1):
         depth += (code[at] in ")]}") - (code[at] in "([{")
@@ -213,7 +213,7 @@ def _opening(code: str) -> int:
 
 
 def _in_brackets(code: str, margin: str, width: int) -> Iterator[str]:
-    """Yield an assignment with its value on lines of its own, if that makes them short enough."""
+    """Yield an assignment with its value in parentheses on separate lines, if these fit."""
     target, equals, value = code.partition(" = ")
     pieces = [f"{margin}{INDENT}{piece}" for piece in _split(value, " + ", " - ", " * ")]
     lines = [f"{target} = (", *pieces, f"{margin})"]
@@ -224,9 +224,9 @@ def _in_brackets(code: str, margin: str, width: int) -> Iterator[str]:
 
 
 def _split(text: str, *marks: str) -> Iterator[str]:
-    """Yield the pieces of a text between marks that are not inside a bracket or quote.
+    """Yield the parts of a text between separators outside of brackets and quotes.
 
-    A mark that is a word or an operator starts the piece after it.
+    A separator that is a word or an operator starts the next part.
     """
     depth, start, quote = 0, 0, ""
     for at, character in enumerate(text):

@@ -13,9 +13,9 @@ _TABLE = os.path.join(
     os.path.dirname(os.path.dirname(os.path.dirname(__file__))), "data", "conventions.tsv"
 )
 _OF_ONE_TOPIC = "* "
-"""What is in front of the type where the topic has to have the name, too."""
+"""The prefix of types whose convention only applies to a topic with this name."""
 _VALUES = "std_msgs"
-"""The package whose messages mean nothing by themselves."""
+"""The package whose messages have no meaning of their own."""
 
 
 class Convention(NamedTuple):
@@ -25,15 +25,15 @@ class Convention(NamedTuple):
     offered: str = "10"
     """The quality of service of publishers, as a user writes it."""
     requested: str = "10"
-    """The same of subscriptions."""
+    """The quality of service of subscriptions."""
     rate: float = 2.0
     """Messages per second."""
     frame: str = ""
-    """Of the header; empty where there is none."""
+    """The frame of the header; empty if there is none."""
 
 
 def of_message(full_name: str) -> Convention:
-    """Return what is usual for messages of a type, such as ``sensor_msgs/msg/LaserScan``."""
+    """Return the conventions for messages of a type, such as ``sensor_msgs/msg/LaserScan``."""
     convention = table().get((full_name, ""))
     if convention is not None:
         return convention
@@ -42,13 +42,13 @@ def of_message(full_name: str) -> Convention:
 
 
 def of_topic(full_name: str, topic: str) -> Convention:
-    """Return what is usual for a topic with messages of a type."""
+    """Return the conventions for a topic with messages of a type."""
     return table().get((full_name, topic.strip("~/")), of_message(full_name))
 
 
 @cache
 def table() -> Mapping[tuple[str, str], Convention]:
-    """Return the table by type, and the topic where that decides."""
+    """Return the table by type and topic; the topic is empty if it does not matter."""
     result: dict[tuple[str, str], Convention] = {}
     with open(_TABLE, encoding="utf-8") as file:
         for line in file:

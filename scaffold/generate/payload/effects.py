@@ -8,27 +8,27 @@ from collections.abc import Iterable, Iterator
 from scaffold.record import NamedTuple
 
 _CHANGING = frozenset({"count", "get_clock", "uuid4"})
-"""What gives another value each time: attributes of the node, and a function."""
+"""Expressions with a new value each time: attributes of the node, and a function."""
 _FRAME = "frame_id"
 _FILLED_BY = {"create_cloud_xyz32": ("data",)}
-"""What functions of libraries make of their arguments in a message that they return."""
+"""Fields that library functions fill in the message that they return, by argument."""
 
 
 class Effects(NamedTuple):
-    """The fields that statements fill, each once and by its path, such as ``header.stamp``."""
+    """The fields that statements fill, each once, by path such as ``header.stamp``."""
 
     constant: tuple[tuple[str, str], ...] = ()
-    """Fields with a value that never changes, and that value as code."""
+    """Fields with a constant value, with that value as code."""
     changing: tuple[str, ...] = ()
     """Fields that differ from one message to the next."""
     filled: tuple[str, ...] = ()
-    """Other fields whose value is not the default."""
+    """Other fields with a value other than the default."""
     frames: tuple[str, ...] = ()
-    """Fields that hold the frame of the node's parameter."""
+    """Fields with the frame of the node's parameter."""
 
 
 def of_statements(statements: Iterable[str], target: str) -> Effects:
-    """Return what statements do to the fields of a variable."""
+    """Return the effects of statements on the fields of a variable."""
     walk = _Walk(target)
     walk.body(ast.parse("\n".join(statements)).body)
     paths = dict.fromkeys(walk.order)
@@ -54,7 +54,7 @@ class _Walk:
         self.frames: set[str] = set()
 
     def body(self, statements: Iterable[ast.stmt], *, inside: bool = False) -> None:
-        """Follow statements; those inside a loop or a condition have no constant effect."""
+        """Track statements; those in a loop or a condition have no constant effect."""
         for statement in statements:
             match statement:
                 case ast.Assign(targets=[target], value=value):
@@ -73,7 +73,7 @@ class _Walk:
                     self.body([*body, *orelse], inside=True)
 
     def _depend(self, statements: Iterable[ast.stmt]) -> None:
-        """Note that what statements assign depends on something that changes."""
+        """Mark the fields assigned by statements as changing."""
         for statement in statements:
             if isinstance(statement, ast.Assign):
                 path = self._path(statement.targets[0])
@@ -106,7 +106,7 @@ class _Walk:
                 self.filled.add(path)
 
     def _replace(self, value: ast.expr) -> None:
-        """Note what a function of a library fills in the message that it returns."""
+        """Record the fields that a library function fills in the message that it returns."""
         match value:
             case ast.Call(func=ast.Name(id=name)):
                 fields = _FILLED_BY.get(name, ())
@@ -114,7 +114,7 @@ class _Walk:
                 (self.changing if self._is_changing(value) else self.filled).update(fields)
 
     def _path(self, node: ast.expr) -> str:
-        """Return the path of the field in the target; empty if it is something else."""
+        """Return the path of a field of the target; empty for other expressions."""
         names: list[str] = []
         while not isinstance(node, ast.Name):
             if isinstance(node, ast.Attribute):
@@ -141,7 +141,7 @@ class _Walk:
 
 
 def _names(target: ast.expr) -> Iterator[str]:
-    """Yield the names that an assignment gives a value, or whose object it changes."""
+    """Yield the names that an assignment binds or whose objects it changes."""
     for node in ast.walk(target):
         if isinstance(node, ast.Name):
             yield node.id
@@ -152,7 +152,7 @@ def _is_frame(value: ast.expr) -> bool:
 
 
 def _differs(value: ast.expr) -> bool:
-    """Tell whether a value is surely not the default of its field: constants of types may be."""
+    """Tell whether a value is certainly not the default of its field; constants of types may be."""
     return not isinstance(value, ast.Attribute) and any(
         bool(node.value) if isinstance(node, ast.Constant) else isinstance(node, ast.Name)
         for node in ast.walk(value)

@@ -11,11 +11,11 @@ from scaffold.generate.payload.imports import MODULES
 from scaffold.model.interfaces.syntax import Field
 
 ELEMENTS = 3
-"""Of an array of any length."""
+"""The number of elements generated for an array of any length."""
 
 
 def several(expression: str, size: int) -> str:
-    """Return a list of a value."""
+    """Return the code of a list that repeats a value."""
     return f"[{expression}] * {size}" if size > 1 else f"[{expression}]"
 
 
@@ -33,15 +33,15 @@ def singular(name: str) -> str:
 
 
 ROOTS = ("msg", "request", "response", "goal", "feedback", "result")
-"""The variables that are filled."""
+"""The variables filled by generated code."""
 _MODULES = ("os", "pytest", "rclpy", "re", "signal", "subprocess", "sys", "time", *MODULES)
-"""What nodes and their tests import."""
+"""Modules imported by nodes and their tests."""
 _TAKEN = frozenset({"self", "count", "step", *ROOTS, *_MODULES}) | {
     name for name in dir(builtins) if name[0].islower()
 }
-"""What a local name must not be."""
+"""Names that a local variable must not have."""
 _LONGEST = 20
-"""Characters of a local name."""
+"""Maximum length of a local name."""
 
 
 def variable(field: Field) -> str:

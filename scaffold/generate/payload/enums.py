@@ -14,31 +14,31 @@ _DULL = re.compile(
     "|OFF$|IDLE"
 )
 _OUTCOMES = frozenset({"error", "result", "return"})
-"""Words in the names of fields that tell how something went."""
+"""Words in the names of fields that hold a result code."""
 _GOOD = re.compile("(^|_)(SUCCESS|SUCCEEDED|OK|NONE|NO_ERROR)($|_)")
 _ENUMS = frozenset(
     {"action", "code", "command", "error", "event", "kind", "level", "mode", "operation", "option"}
     | {"reason", "result", "severity", "stage", "state", "status", "type"}
 )
-"""The last words of the names of fields that have a few values, each with a constant."""
+"""The last words of the names of enum fields."""
 
 
 def telling(options: Sequence[Constant], field: Field) -> Constant:
-    """Return the constant that a field probably has: of outcomes, a good one."""
+    """Return the most telling constant for a field; for result codes, one that means success."""
     if _OUTCOMES & set(words.split(field.name)):
         options = [option for option in options if is_good(option)] or options
     return next((option for option in options if not _DULL.search(option.name)), options[0])
 
 
 def is_good(constant: Constant) -> bool:
-    """Tell whether a constant means that something went well."""
+    """Tell whether a constant means success."""
     return _GOOD.search(constant.name) is not None
 
 
 def constants_of(section: Section, field: Field) -> list[Constant]:
     """Return the constants that are the values of a field.
 
-    By their names, as in ``STATUS_OK`` for ``status``; else by their place and type, if no other
+    Found by name, as ``STATUS_OK`` for ``status``; else by place and type, if no other
     field can be meant.
     """
     if field.type.name not in INTEGER_RANGES:

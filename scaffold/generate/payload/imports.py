@@ -24,9 +24,9 @@ def imports(
     """Return the ROS packages that code needs, and its imports, both sorted.
 
     Args:
-        types: Say which messages names in the code mean.
+        types: Maps names in the code to messages.
         code: Lines of Python.
-        used: The full names of messages that are imported in any case.
+        used: The full names of messages that are always imported.
     """
     names = _names("\n".join(code))
     messages = set(used)
@@ -62,7 +62,7 @@ def _names(code: str) -> set[str]:
 
 
 def _from(module: str, classes: Sequence[str]) -> Iterator[str]:
-    """Yield an import, and another one as soon as it would be too long."""
+    """Yield an import statement, or several if one would be too long."""
     line = f"from {module} import {classes[0]}"
     for name in classes[1:]:
         if len(line) + len(name) + 2 > MAX_COLUMNS:

@@ -10,7 +10,7 @@ from scaffold.model.interfaces.definitions import Definitions, Interface, spell
 from scaffold.model.interfaces.syntax import Field, Section
 
 WORDS = {"msg": "message", "srv": "service", "action": "action"}
-"""What people call the kinds of interfaces."""
+"""Words for the kinds of interfaces."""
 HEADER = "std_msgs/msg/Header"
 TIME = "builtin_interfaces/msg/Time"
 DURATION = "builtin_interfaces/msg/Duration"
@@ -18,7 +18,7 @@ _IMPORTED = {
     "GoalStatus": "action_msgs/msg/GoalStatus",
     "Transition": "lifecycle_msgs/msg/Transition",
 }
-"""Messages that generated code imports whatever its types are."""
+"""Messages that generated code imports for all types."""
 _TAKEN = {
     "msg": frozenset({"LifecycleNode", "Node", "Source", "Transition"}),
     "srv": frozenset({"Client", "Node", "Server"}),
@@ -28,7 +28,7 @@ _TAKEN = {
         | {"SignalHandlerOptions"}
     ),
 }
-"""Names that mean something else where interfaces of a kind are used."""
+"""Names with another meaning where interfaces of a kind are used."""
 VECTOR = "geometry_msgs/msg/Vector3"
 
 
@@ -47,7 +47,7 @@ class Types:
         return self._messages[full_name].section("message")
 
     def class_name(self, full_name: str) -> str:
-        """Return what a message is called in code: its name, unless that means another one."""
+        """Return the class name of a message in code: its own, unless another class has it."""
         package, _, name = full_name.split("/")
         if self.full_name(name) == full_name:
             return name
@@ -58,16 +58,16 @@ class Types:
 
     @property
     def own_name(self) -> str:
-        """What the interface itself is called in code."""
+        """The class name of the interface in code."""
         return self.class_name(self.interface.full_name)
 
     @property
     def own_alias(self) -> str:
-        """The name of the interface, if it is called something else in code."""
+        """The original name of the interface, if its class name in code differs."""
         return self.interface.name if self.own_name != self.interface.name else ""
 
     def renamed(self, code: str, full_name: str) -> str:
-        """Return the code of a recipe with the names that messages have here."""
+        """Return the code of a recipe with the class names of messages used here."""
         package = full_name.partition("/")[0]
         for name in set(re.findall(r"(?<![.\w])[A-Z]\w+", code)):
             candidates = [
@@ -82,9 +82,9 @@ class Types:
         return code
 
     def full_name(self, class_name: str) -> str | None:
-        """Return the message that a name in code means; ``None`` if it means none.
+        """Return the message with a class name in code; ``None`` if there is none.
 
-        The interface itself goes first, then the messages of its fields, then those of
+        The interface itself takes precedence, then the messages of its fields, then those of
         the same packages.
         """
         own = self.interface
@@ -113,7 +113,7 @@ def _is_uncommon(full_name: str) -> bool:
 
 
 def find(text: str, kind: str, definitions: Definitions) -> Types:
-    """Return the interface that a user means.
+    """Return the interface with a name given by the user.
 
     Args:
         text: ``package/kind/Name``, ``package/Name`` or a bare ``Name``.
@@ -157,7 +157,7 @@ def _full_name(text: str, kind: str, definitions: Definitions) -> str:
 
 
 def _nearest(text: str, kind: str, definitions: Definitions) -> list[str]:
-    """Return the types of this kind that look most like a misspelled one, best first."""
+    """Return the types of a kind closest to a misspelled one, best first."""
     if not text.strip():
         return []
     names = definitions.nearest(text, 100)

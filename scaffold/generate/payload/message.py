@@ -15,12 +15,12 @@ from scaffold.generate.payload.walk import MAX_BRIEF, Walk
 from scaffold.model.interfaces.definitions import Definitions
 
 MAX_LINES = 24
-"""Statements that a reader takes in."""
+"""Maximum number of statements, for readability."""
 MAX_CHECKS = 8
 MAX_CHECK = 84
-"""Characters of an expression in a test."""
+"""Maximum length of an expression in a test."""
 MAX_LOG = 52
-"""Characters of a line of the log."""
+"""Maximum length of a log message."""
 MAX_SAYS = 70
 
 
@@ -60,12 +60,12 @@ def of_message(text: str, interfaces: Definitions) -> Payload:
 
 
 def is_short(check: str) -> bool:
-    """Tell whether the lines of a check fit into those of a test."""
+    """Tell whether the lines of a check fit into a test."""
     return all(len(line) <= MAX_CHECK for line in check.splitlines())
 
 
 def _fill(types: Types) -> tuple[list[str], Walk]:
-    """Return statements: no more than a reader takes in, and at least one that changes."""
+    """Return statements: at most `MAX_LINES`, and at least one with a changing value."""
     own = types.interface
     brief, is_changing = 0, False
     while True:
@@ -81,12 +81,12 @@ def _fill(types: Types) -> tuple[list[str], Walk]:
 
 
 def changes(lines: Iterable[str]) -> bool:
-    """Tell whether the lines give another message each time."""
+    """Tell whether the lines give a different message each time."""
     return any(re.search(r"self\.(count|get_clock)|uuid4", line) for line in lines)
 
 
 def _words(types: Types, walk: Walk) -> Recipe:
-    """Return the log text of a message: by its recipe, that of its only part, or its fields."""
+    """Return the log text of a message: from its recipe, its only part, or its fields."""
     own = types.interface
     result = recipe.find(own.full_name)
     header = own.section("message").field("header")
@@ -132,7 +132,7 @@ def _words_of_fields(types: Types, walk: Walk) -> Recipe:
 
 
 def joined(shown: Iterable[str]) -> str:
-    """Return replacement fields in a row, as many as fit into a line of the log."""
+    """Join replacement fields, as many as fit into a log message."""
     log = ""
     for item in shown:
         longer = f"{log}, {item}" if log else item
@@ -141,7 +141,7 @@ def joined(shown: Iterable[str]) -> str:
 
 
 def enumerated(names: Sequence[str], start: str, limit: int) -> str:
-    """Return names in a row, as many as fit."""
+    """Join names, as many as fit."""
     for end in range(len(names), 0, -1):
         shown, left = list(names[:end]), len(names) - end
         last = f"{left} more" if left else shown.pop() if len(shown) > 1 else ""

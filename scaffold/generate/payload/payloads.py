@@ -16,7 +16,7 @@ from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 from scaffold.record import NamedTuple
 
 _PERIOD = re.compile(r"(msg\.(scan_time)) = [\d.]+")
-"""An assignment of the usual time from one message to the next."""
+"""An assignment of the conventional period of messages."""
 
 
 class Payload(NamedTuple):
@@ -24,9 +24,9 @@ class Payload(NamedTuple):
 
     package: str
     name: str
-    """What the message is called in code."""
+    """The class name of the message in code."""
     imports: tuple[str, ...]
-    """Import statements of the node, the message's own included."""
+    """Import statements of the node, including that of the message."""
     statements: tuple[str, ...]
     """Lines of a method, without its indentation; they fill ``msg``.
 
@@ -36,23 +36,23 @@ class Payload(NamedTuple):
     """The inside of an f-string in single quotes, such as ``{msg.data}``; short for large
     messages, and without braces only for empty ones."""
     says: str
-    """What the message holds, without an article's capital and without a period."""
+    """A description of the content, lower case and without a period."""
     checks: tuple[str, ...]
-    """Python expressions that are true of every received ``message``."""
+    """Python expressions that are true for every received ``message``."""
     is_stamped: bool
-    """Whether it names a frame, which the node takes from its parameter ``frame_id``."""
+    """Whether it has a frame, which the node takes from its parameter ``frame_id``."""
     is_counted: bool
     """Whether the statements use ``self.count``."""
     packages: tuple[str, ...]
     """The packages that the imports need, in alphabetical order."""
     interface_packages: tuple[str, ...] = ()
-    """Those that define messages: whoever only receives some needs no others."""
+    """The packages that define messages; a receiving node needs no others."""
     frame: str = "base_link"
     """The default of the parameter ``frame_id``."""
     constants: tuple[str, ...] = ()
     """Lines of the module, such as ``WIDTH = 64  # pixels``."""
     is_changing: bool = True
-    """Whether one message differs from the next; an empty one cannot."""
+    """Whether consecutive messages differ; empty ones cannot."""
     message: str = ""
     """The name of the message, if ``name`` is another one."""
 
@@ -63,20 +63,20 @@ class Payload(NamedTuple):
 
     @property
     def topic(self) -> str:
-        """The usual name of a topic with these messages."""
+        """The conventional topic name for these messages."""
         return conventions.of_message(self.type).topic
 
     @property
     def rate(self) -> float:
-        """The usual number of messages per second."""
+        """The conventional rate in messages per second."""
         return conventions.of_message(self.type).rate
 
     def offered(self, topic: str) -> str:
-        """Return the usual quality of service of who publishes them on a topic."""
+        """Return the conventional quality of service of publishers on a topic."""
         return conventions.of_topic(self.type, topic).offered
 
     def requested(self, topic: str) -> str:
-        """Return the usual quality of service of who subscribes to them on a topic."""
+        """Return the conventional quality of service of subscriptions on a topic."""
         return conventions.of_topic(self.type, topic).requested
 
     @property
@@ -95,7 +95,7 @@ class Payload(NamedTuple):
         return effects.of_statements(self.statements, "msg")
 
     def processed(self, published: Payload) -> Process | None:
-        """Return how messages of another type are made of these; ``None`` if none is known."""
+        """Return how to compute messages of another type from these; ``None`` if unknown."""
         return _process(self, published)
 
     @property
@@ -110,7 +110,7 @@ class Payload(NamedTuple):
 
     @property
     def log_received(self) -> str:
-        """The same as ``log`` for a message of anybody, whose arrays may be empty."""
+        """The same as ``log`` for any received message, whose arrays may be empty."""
         arrays = dict.fromkeys(re.findall(r"(?<![\w.])msg\.([\w.]+)\[", self.log))
         if not arrays:
             return self.log
@@ -133,9 +133,9 @@ class SectionPayload(NamedTuple):
     """The inside of an f-string in single quotes, such as ``{response.sum}``; without braces
     (then it is not an f-string) if there are no fields."""
     says: str
-    """What it holds, to be read after "the request holds"; empty if there are no fields."""
+    """A description to follow "the request holds"; empty if there are no fields."""
     checks: tuple[str, ...]
-    """Python expressions that are true of it, with the same variables as the statements."""
+    """Python expressions that are true for it, with the same variables as the statements."""
     imports: tuple[str, ...] = ()
     """Import statements that the statements need, except the one of the interface."""
     packages: tuple[str, ...] = ()
@@ -240,7 +240,7 @@ class ActionPayload(NamedTuple):
     goal: SectionPayload
     """Filled by the client: ``goal``; ``self.count`` is the number of goals so far."""
     refused: str
-    """An expression that is true of a ``goal`` that makes no sense; empty: all make sense."""
+    """An expression that is true for an invalid ``goal``; empty if all are valid."""
     start: tuple[str, ...]
     """Lines that prepare ``feedback`` from ``goal`` before the first step."""
     steps: str
@@ -255,7 +255,7 @@ class ActionPayload(NamedTuple):
 
     @property
     def frame(self) -> str:
-        """The frame of what the server sends: of the feedback, unless only the result has one."""
+        """The frame of the feedback, or of the result if only that has one."""
         return (self.feedback if self.feedback.is_stamped else self.result).frame
 
     @property
@@ -289,7 +289,7 @@ class ActionPayload(NamedTuple):
 
 
 def _constants(statements: Iterable[str]) -> dict[str, Any]:
-    """Return the fields that statements such as ``goal.order = 10`` give a constant value."""
+    """Return the fields set to constants by statements such as ``goal.order = 10``."""
     fields: dict[str, Any] = {}
     for statement in statements:
         match = re.match(r"\w+\.([a-z][\w.]*) = (.+?)(?:  # .*)?$", statement)
@@ -317,12 +317,12 @@ def _yaml(value: object) -> str:
 
 
 def _import(module: str, interface: str, name: str) -> str:
-    """Return the import of an interface, by its name in code if that is another one."""
+    """Return the import of an interface, with an alias if its name in code differs."""
     return f"from {module} import " + (f"{interface} as {name}" if interface else name)
 
 
 def _needed(imports: Iterable[str], checks: Iterable[str]) -> tuple[str, ...]:
-    """Return imports of the names that expressions use, one name each."""
+    """Return imports of the names used by expressions, one name each."""
     imports = [*imports, "import struct", "import time"]
     used = set(re.findall(r"(?<![.\w'])[A-Za-z]\w*", " ".join(checks)))
     parts = (line.partition("import ") for line in imports)
@@ -344,7 +344,7 @@ def _union(groups: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
 
 
 def _process(received: Payload, published: Payload) -> Process | None:
-    """Return how messages of one type are made of those of another; ``None`` if none is known."""
+    """Return how to compute messages of one type from those of another; ``None`` if unknown."""
     process = PROCESSES.get((_short(received.type), _short(published.type)))
     return process or _of_values(received, published)
 
@@ -354,7 +354,7 @@ def _short(full_name: str) -> str:
 
 
 def _of_values(received: Payload, published: Payload) -> Process | None:
-    """Return how the one value of a message of std_msgs follows from any other message."""
+    """Return how to compute the value of a std_msgs message from any other message."""
     package, name = published.package, published.message or published.name
     if package != "std_msgs" or received.type == published.type:
         return None

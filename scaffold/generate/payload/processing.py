@@ -15,7 +15,7 @@ class Process(NamedTuple):
     """Code that computes a message from another one."""
 
     says: str
-    """What comes out, to be read after "publish"."""
+    """A description of the output, to follow "publish"."""
     code: str
     """Lines of a method: they fill ``msg`` from ``received``; where both have the same type,
     they change ``msg``, the message received."""
@@ -142,7 +142,7 @@ _LIMIT = "{target}.angular.z = max(-MAX_TURN, min(MAX_TURN, {target}.angular.z))
 
 
 def _value(says: str, path: str) -> Process:
-    """Return how a number of a message becomes a message of its own."""
+    """Return how to compute a message from a number of another one."""
     return Process(
         says,
         f"msg.data = received.{path}",
@@ -151,7 +151,7 @@ def _value(says: str, path: str) -> Process:
 
 
 def _part(says: str, target: str, path: str) -> Process:
-    """Return how a part of a message becomes that of another one."""
+    """Return how to copy a part of one message to another."""
     return Process(
         says,
         f"msg.{target} = received.{path}",

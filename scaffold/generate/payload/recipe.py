@@ -10,7 +10,7 @@ from scaffold.generate.payload import conventions
 from scaffold.record import NamedTuple
 
 FRAME = "base_link"
-"""Of what has no frame of its own."""
+"""The frame of messages without a convention."""
 
 
 class Recipe(NamedTuple):
@@ -21,7 +21,7 @@ class Recipe(NamedTuple):
     """
 
     says: str
-    """What the message holds, as in `Payload.says`."""
+    """As in `Payload.says`."""
     code: str = ""
     """Lines that fill ``msg``."""
     constants: str = ""

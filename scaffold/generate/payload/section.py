@@ -16,7 +16,7 @@ from scaffold.model.interfaces.syntax import Field, Section
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES
 
 STEPS = 10
-"""Of an action that does not tell how many it has."""
+"""The number of steps of an action with no field for it."""
 _DONE = re.compile("(.*_)?(success|successful|succeeded|ok|accepted|done|completed|result)$")
 _WHY = re.compile("(.*_)?(answer|message|msg|reason|description|info|details|text|status_message)$")
 _ERROR = re.compile("(?:^|_)(?:error|failure)(?:_|$)")
@@ -33,19 +33,19 @@ def by_recipe(
 
 
 def asked(types: Types, section: Section) -> SectionPayload:
-    """Return what a client sends: a request or a goal."""
+    """Return the section that a client sends: a request or a goal."""
     return _filled(types, section, {})
 
 
 def answered(types: Types, section: Section, given: Sequence[Section]) -> SectionPayload:
-    """Return what a server answers: a response or a result, taken from what it was given."""
+    """Return the section that a server sends: a response or a result, computed from its input."""
     fields = tuple(item for item in section.fields if not _is_failure(section, item))
     values = {field.name: _answer(field, given) for field in fields}
     return _filled(types, section._replace(fields=fields), values)
 
 
 def _is_failure(section: Section, field: Field) -> bool:
-    """Tell whether a field is a code of errors without one for success: 0 is the default."""
+    """Tell whether a field is an error code without a constant for success, which is 0."""
     if field.type.name not in INTEGER_RANGES or not _ERROR.search(field.name):
         return False
     return not any(enums.is_good(item) for item in enums.constants_of(section, field))
@@ -60,7 +60,7 @@ def reported(types: Types, section: Section) -> SectionPayload:
 def _filled(
     types: Types, section: Section, values: Mapping[str, str | None], counter: str = COUNTER
 ) -> SectionPayload:
-    """Fill the fields: some have values, the others are walked, in brief if they are many."""
+    """Fill the fields: given values first, then the others, in brief if there are many."""
     for brief in range(MAX_BRIEF + 1):
         block, walk = Block(counter=counter), Walk(types, section.name, brief=brief)
         checks: list[str] = []
@@ -87,7 +87,7 @@ def _owner(types: Types, section: Section) -> str:
 
 
 def _answer(field: Field, given: Sequence[Section]) -> str | None:
-    """Return the value of a field that follows from other sections; ``None``: it is made up."""
+    """Return the value of a field computed from other sections, if there is one."""
     for item in given:
         same = item.field(field.name)
         if same is not None and same.type == field.type:
@@ -102,7 +102,7 @@ def _answer(field: Field, given: Sequence[Section]) -> str | None:
 
 
 def _sum(field: Field, given: Sequence[Section]) -> str | None:
-    """Return the sum of all numbers of the field's type that were given, if there are several."""
+    """Return the sum of all input numbers of the field's type, if there are several."""
     numbers = [
         f"{section.name}.{item.name}"
         for section in given
@@ -113,7 +113,7 @@ def _sum(field: Field, given: Sequence[Section]) -> str | None:
 
 
 def _check(field: Field, target: str, value: str) -> list[str]:
-    """Return what is true of a field with a value that does not depend on the moment."""
+    """Return an assertion about a field whose value does not depend on time."""
     if value == "True":
         return [target]
     is_own = "step" in value or value.startswith("feedback.")  # the other side does not know it
@@ -124,7 +124,7 @@ def _check(field: Field, target: str, value: str) -> list[str]:
 
 
 def _progress(field: Field) -> str | None:
-    """Return the value of a field of a feedback that tells how far the server is."""
+    """Return the value of a feedback field that holds the progress."""
     if field.type.is_array or field.type.name not in _NUMBERS:
         return None
     is_float = field.type.name in FLOATS

@@ -8,7 +8,7 @@ from scaffold.model.interfaces.definitions import Definitions
 
 
 def of_service(text: str, interfaces: Definitions) -> ServicePayload:
-    """Return how to ask and answer services of a type.
+    """Return how to call and serve services of a type.
 
     Raises:
         InputError: the type is not known or cannot be used.

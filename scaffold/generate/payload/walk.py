@@ -14,7 +14,7 @@ from scaffold.model.interfaces.syntax import Constant, Field, Section
 from scaffold.model.interfaces.types import FLOATS, INTEGER_RANGES, TEXTS, FieldType
 
 WRAPPERS = ("std_msgs", "example_interfaces")
-"""Packages with messages that hold nothing but a primitive value."""
+"""Packages of messages with a single primitive value."""
 
 
 class Walk:
@@ -23,8 +23,8 @@ class Walk:
     Args:
         types: The interface.
         root: The variable that is filled.
-        changing: Whether a field that would stay the same changes too.
-        brief: 0 to fill all fields; more, to fill fewer of them, the most telling ones.
+        changing: Whether fields that would be constant change as well.
+        brief: 0 to fill all fields; higher, to fill fewer of them, the most telling ones.
     """
 
     def __init__(self, types: Types, root: str, *, changing: bool = False, brief: int = 0) -> None:
@@ -34,7 +34,7 @@ class Walk:
         self._limits = _BRIEF[brief - 1] if brief else ()
         self._stamped: list[str] = []
         self.checks: list[str] = []
-        """Expressions that are true of the root."""
+        """Expressions that are true for the root."""
         self._frames: list[str] = []
         self._constants: dict[str, str] = {}
         self._shown: list[str] = []
@@ -42,22 +42,22 @@ class Walk:
 
     @property
     def logged(self) -> list[str]:
-        """Replacement fields of an f-string for the root: what changes, the best first."""
+        """Replacement fields of an f-string for changing values, the most telling first."""
         return self._shown or self._spare
 
     @property
     def frame(self) -> str:
-        """The frame that what is filled is given in: that of a sensor before any other."""
+        """The frame of the filled values, preferably that of a sensor."""
         result = [item for item in self._frames if item not in {"", FRAME}]
         return next((item for item in result if item != "map"), result[0] if result else FRAME)
 
     def _is_root(self, target: str) -> bool:
-        """Tell whether a target is, or is a part of, what is filled, and not a local name."""
+        """Tell whether a target is the root or a part of it, and not a local name."""
         return target.partition(".")[0] == self._root
 
     @property
     def constants(self) -> tuple[str, ...]:
-        """Lines of the module that define what the statements use."""
+        """Lines of the module with constants of the statements."""
         return tuple(f"{name} = {value}" for name, value in self._constants.items())
 
     def fill(self, block: Block, section: Section, owner: str, target: str) -> None:
@@ -66,8 +66,8 @@ class Walk:
         Args:
             block: Where to.
             section: The fields.
-            owner: What the constants belong to, as code.
-            target: What is filled, as code.
+            owner: The class with the constants, as code.
+            target: The expression to fill, as code.
         """
         shown = self.shown_fields(section, target)
         for field in shown:
@@ -83,7 +83,7 @@ class Walk:
         return telling(section, wanted, self._limits[min(depth, len(self._limits) - 1)])
 
     def say_rest(self, block: Block, section: Section, shown: Sequence[Field], target: str) -> None:
-        """Say of the whole that not all of its fields are filled."""
+        """Add a comment that not all fields of the root are filled."""
         left = len(section.fields) - len(shown)
         if self._limits and left and target == self._root:
             are = "field keeps its default" if left == 1 else f"{left} fields keep their defaults"
@@ -112,7 +112,7 @@ class Walk:
             self.fill(block, section, self._types.class_name(full_name), target)
 
     def _judge(self, known_recipe: Recipe, target: str) -> None:
-        """Take the words of a recipe over for the root."""
+        """Use the descriptions of a recipe for the root."""
         if self._is_root(target):
             if known_recipe.log:
                 self._spare.append(re.sub(r"\bmsg\.", f"{target}.", known_recipe.log))
@@ -120,9 +120,9 @@ class Walk:
                 self.checks.append(re.sub(r"\bmessage\.", f"{target}.", check))
 
     def _with_constants(self, known_recipe: Recipe, target: str) -> str:
-        """Return the code of a recipe whose constants are defined.
+        """Define the constants of a recipe and return its code.
 
-        A constant of a name that means something else gets the name of the target before it.
+        A constant whose name is taken is prefixed with the name of the target.
         """
         code = known_recipe.code
         for line in dedent(known_recipe.constants).strip().splitlines():
@@ -134,7 +134,7 @@ class Walk:
         return code
 
     def _header(self, block: Block, target: str, *, has_frame: bool = True) -> None:
-        """Fill a header; one that belongs to an element is that of the whole."""
+        """Fill a header; the header of an element is copied from the root."""
         if self._stamped:
             first = self._stamped[0]
             if "." in target:
@@ -192,7 +192,7 @@ class Walk:
             self.message(block, field.type.full_name, target)
 
     def _wrapped(self, field: Field) -> Field | None:
-        """Return the only field of a message such as std_msgs/Float64, by its name here."""
+        """Return the only field of a wrapper such as std_msgs/Float64, with the outer name."""
         fields = self._types.message(field.type.full_name).fields
         if field.type.package not in WRAPPERS or [item.name for item in fields] != ["data"]:
             return None
@@ -257,7 +257,7 @@ class Walk:
             self.checks.append(check.format(target))
 
     def _show(self, target: str, form: str, behind: str = "", *, last: bool = False) -> None:
-        """Note what the log may contain; ``last``: only if there is nothing better."""
+        """Record a log text; ``last``: only to be used if there is nothing better."""
         if self._is_root(target.removeprefix("len(")):
             (self._spare if last else self._shown).append(f"{{{target}{form}}}{behind}")
 
@@ -300,7 +300,7 @@ class Walk:
         return f"[{', '.join(texts)}]", ""
 
     def _messages(self, block: Block, field: Field, target: str, size: int) -> None:
-        """Fill an array of messages, the elements of which differ."""
+        """Fill an array of messages with different elements."""
         full_name = field.type.full_name
         name = elements.variable(field)
         if full_name in {TIME, DURATION}:
@@ -326,13 +326,13 @@ class Walk:
 
 
 def _fits(known_recipe: Recipe, section: Section) -> bool:
-    """Tell whether a message has what a recipe fills; on another distribution it may not."""
+    """Tell whether a message has the fields of a recipe; on another distribution it may not."""
     fields = {field.name for field in section.fields}
     return {*re.findall(r"\bmsg\.([a-z]\w*)", known_recipe.code)} <= fields
 
 
 def _local_name(block: Block, target: str, code: str) -> str:
-    """Return a local name for what lies deep in the root, if the code mentions it often."""
+    """Return a local name for a deeply nested target, if the code uses it often."""
     owner, _, name = target.rpartition(".")
     lines = [line.strip() for line in code.splitlines()]
     longest = max((len(line) + line.count("msg.") * len(target) for line in lines), default=0)
@@ -349,19 +349,19 @@ def _local_name(block: Block, target: str, code: str) -> str:
 
 _OFTEN = 4
 _DIAGONALS = {4: 3, 9: 4, 16: 5, 36: 7}
-"""The distance of the elements on the diagonal of a square matrix, by its size."""
+"""The stride of the diagonal of a square matrix, by its number of elements."""
 _COARSE = 0.1
-"""A quantity that swings by less is not shown with two decimals."""
+"""The amplitude below which a quantity is not logged, as two decimals would hide it."""
 
 
 _BRIEF = ((12, 4, 2), (10, 3, 1), (8, 2, 1), (6, 2, 1), (5, 1, 1), (3, 1, 1))
-"""How many fields of a message are filled in brief, of the root and of what is nested in it."""
+"""The number of fields filled by level of brevity, for the root and for nested messages."""
 MAX_BRIEF = len(_BRIEF)
-"""As brief as can be."""
+"""The highest level of brevity."""
 
 
 def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field]:
-    """Return the fields whose names and types tell most, in their order."""
+    """Return the most telling fields by name and type, in their order."""
 
     def rank(field: Field) -> int:
         if not field.type.is_primitive:
@@ -376,7 +376,7 @@ def telling(section: Section, fields: Sequence[Field], count: int) -> list[Field
 
 
 def comment_of(field: Field, unit: str) -> str:
-    """Return the comment for a field: a short one of its definition, or the unit."""
+    """Return the comment for a field: that of its definition if short, or its unit."""
     own = " ".join(field.comment.split())
     if own and len(own) <= _SHORT and own.isascii() and own.isprintable() and "noqa" not in own:
         return own

@@ -1,4 +1,4 @@
-"""What the names of fields imply: quantities and their units, texts, flags."""
+"""Values implied by the names of fields: quantities and their units, texts, flags."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Quantity(NamedTuple):
     base: float
     swing: float
     unit: str
-    """For a comment."""
+    """The unit, for a comment."""
 
     @property
     def expression(self) -> str:
@@ -24,7 +24,7 @@ class Quantity(NamedTuple):
         return wave if not self.base else f"{self.base!r} + {wave}"
 
     def check(self, value: str) -> str:
-        """Return an expression that is true of it; wide enough for a float of 32 bits."""
+        """Return an assertion about its range; wide enough for a 32-bit float."""
         low, high = (round(self.base + sign * self.swing, 6) for sign in (-1.1, 1.1))
         return f"{low} <= {value} <= {high}"
 
@@ -115,7 +115,7 @@ def phrase(name: str) -> str:
 
 
 def quantity(name: str) -> Quantity:
-    """Return what a number of this name probably is."""
+    """Return the quantity implied by the name of a number."""
     if name == "rate":
         return _HERTZ
     best = next((_QUANTITIES[key] for key in _keys(name) if key in _QUANTITIES), NUMBER)
@@ -124,7 +124,7 @@ def quantity(name: str) -> Quantity:
 
 
 def _keys(name: str) -> Iterator[str]:
-    """Yield runs of words of a name: longer ones first, then later ones."""
+    """Yield subsequences of the words of a name: longer ones first, then later ones."""
     words = split(name)
     for length in (3, 2, 1):
         for start in range(len(words) - length, -1, -1):
@@ -186,7 +186,7 @@ _COUNTING = frozenset({"data", "text", "message", "msg", "description", "content
 
 
 def text(name: str) -> str | None:
-    """Return what a text of this name probably holds; ``None``: something that counts."""
+    """Return the text implied by the name of a field; ``None``: use a counting text."""
     words = split(name)
     if words[-1] in _COUNTING:
         return None
@@ -194,7 +194,7 @@ def text(name: str) -> str | None:
 
 
 def counting_text(name: str, bound: int | None) -> str:
-    """Return an expression for a text that changes, no longer than its bound."""
+    """Return an expression for a changing text, within its bound."""
     words = f"{phrase(name)} "
     if bound is None:
         return f"f'{words}{{{COUNT}}}'"
@@ -221,7 +221,7 @@ _FEW: Mapping[str, int] = {
 
 
 def whole(name: str) -> int | None:
-    """Return the constant that a whole number of this name probably is; ``None``: it counts."""
+    """Return the constant implied by the name of an integer; ``None``: use a count."""
     return next((_FEW[word] for word in reversed(split(name)) if word in _FEW), None)
 
 
@@ -230,7 +230,7 @@ _PER_UNIT = {"us|microsec[a-z]*": "1000", "ms|millisec[a-z]*": "1_000_000"}
 
 
 def per_unit(name: str, comment: str) -> str:
-    """Return what divides nanoseconds, as the name or the comment of a timestamp tells."""
+    """Return the nanoseconds per unit, from the name or the comment of a timestamp."""
     words = f"{name} {comment.lower()}".replace("_", " ")
     for unit, nanoseconds in _PER_UNIT.items():
         if re.search(rf"\b({unit})\b", words):
@@ -247,5 +247,5 @@ _TRUE = re.compile(
 
 
 def is_true(name: str) -> bool:
-    """Tell whether a flag of this name is usually set."""
+    """Tell whether a flag with this name is usually true."""
     return _TRUE.match(name) is not None

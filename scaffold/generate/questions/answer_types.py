@@ -33,10 +33,10 @@ MAX_PERSON = 60
 """Limit on a name or an email address, which is on one line with its key."""
 
 _ENCODING = r"coding[:=]\s*[-\w.]"
-"""What Python takes for the encoding of a file, in a comment on its first two lines."""
+"""A comment on the first two lines that Python reads as the encoding of the file."""
 
 _ADDRESS = r"[-\w%+]+(\.[-\w%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}"
-"""What catkin_pkg accepts; colcon passes over a package whose maintainer has another one."""
+"""Addresses that catkin_pkg accepts; colcon ignores packages with other ones."""
 
 
 def text(given: object) -> str:
@@ -63,7 +63,7 @@ def person(given: object) -> str:
     """Return the name of a person or an organization.
 
     Raises:
-        InputError: it cannot be written in a comment, in XML and in Python.
+        InputError: it cannot be written in comments, XML and Python.
     """
     name = text(given)
     if len(name) > MAX_PERSON:
@@ -132,7 +132,7 @@ def dependencies(given: object) -> tuple[str, ...]:
 
 
 def parts(given: object) -> tuple[dict[str, object], ...]:
-    """Return what each wanted part has: its ``kind``, and answers such as its ``name``.
+    """Return the answers for each part: its ``kind``, and others such as its ``name``.
 
     A part is a mapping, or a text such as ``publisher:talker`` or, with answers of its own,
     ``publisher:talker topic=chatter rate=5``, quoted as in a shell.
@@ -173,7 +173,7 @@ def distros(given: object) -> tuple[str, ...]:
     """Return the names of distributions, each once, oldest first.
 
     Raises:
-        InputError: there is none of a name, or no name.
+        InputError: a name is unknown, or there is none.
     """
     words = given if isinstance(given, list | tuple) else [given]
     chosen = distributions.several(",".join(map(_string, words)))
@@ -181,7 +181,7 @@ def distros(given: object) -> tuple[str, ...]:
 
 
 def nothing(given: object) -> tuple[str, ...]:
-    """Return no choices: there are none.
+    """Return no choices, for a question without any.
 
     Raises:
         InputError: one is wanted.
@@ -197,12 +197,12 @@ def message(given: object, where: str) -> Payload:
 
 
 def service_type(given: object, where: str) -> ServicePayload:
-    """Return how to ask and answer services of a type."""
+    """Return how to call and serve services of a type."""
     return service(_string(given), definitions(where))
 
 
 def action_type(given: object, where: str) -> ActionPayload:
-    """Return how to ask for actions of a type and how to work on them."""
+    """Return how to request and how to execute actions of a type."""
     return action(_string(given), definitions(where))
 
 
@@ -214,7 +214,7 @@ def quality(given: object) -> Qos:
 
 
 def _anywhere(parse: Callable[[Any], object]) -> Callable[[object, str], object]:
-    """Make a parser whose answers do not depend on a directory one like the others."""
+    """Give a parser that does not depend on a directory the signature of the others."""
     return lambda given, _: parse(given)
 
 
@@ -243,7 +243,7 @@ TYPES: Mapping[str, Callable[[object, str], object]] = {
     "distributions": _anywhere(distros),
     "several": _anywhere(nothing),
 }
-"""The types that a question may have: parsers of what is given, for packages in a directory."""
+"""The types of questions: parsers of answers, for packages in a directory."""
 
 
 def _string(given: object) -> str:

@@ -15,7 +15,7 @@ TABLE = "new"
 """The table of the configuration file: ``[new]`` with the names of questions as keys."""
 
 LOGIN = "login"
-"""The origin of an answer that is a guess from the account."""
+"""The origin of answers guessed from the login name."""
 
 DISTRO = "distro"
 """The question for the distributions that a package is for."""
@@ -33,10 +33,10 @@ class User:
     def __init__(self, directory: str) -> None:
         self.directory = directory
         self.guessed: list[str] = []
-        """The questions that were answered from the login; the user should know."""
+        """The questions answered from the login, for a note."""
 
     def answer(self, question: str) -> Given | None:
-        """Return what to answer to ``maintainer_name``, ``maintainer_email`` or ``distro``."""
+        """Return the answer to ``maintainer_name``, ``maintainer_email`` or ``distro``."""
         if question == DISTRO:
             return Given([distributions.target().name], "default")
         key = _GIT_KEYS.get(question)
@@ -51,7 +51,7 @@ class User:
 
     @cached_property
     def _git(self) -> dict[str, str]:
-        """``user.name`` and ``user.email``, as far as git has them."""
+        """``user.name`` and ``user.email`` of git, if set."""
         import subprocess
 
         from scaffold.programs import git
@@ -88,7 +88,7 @@ class _Login(NamedTuple):
 
 
 def _login() -> _Login:
-    """Return the name and the local address of the account, both fit for a manifest."""
+    """Return the name and the local address of the account, if valid in a manifest."""
     import pwd
 
     try:

@@ -13,11 +13,11 @@ from scaffold.model.interfaces.types import FieldType
 from scaffold.source import Source
 
 _OWN = "own_package"
-"""Placeholder for the package of the new interface, whose name does not matter here."""
+"""Placeholder for the name of the package, which does not matter here."""
 _MOST = 2**32 - 1
-"""Elements of an array or characters of a text that generated code can count everywhere."""
+"""Maximum length of arrays and strings, which generated code can count on every platform."""
 _TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
-"""Characters that turn the direction of text, of which compilers warn."""
+"""Bidirectional control characters, of which compilers warn."""
 
 
 class Fields(NamedTuple):
@@ -31,7 +31,7 @@ class Fields(NamedTuple):
 
 
 def fields(given: object, where: str = ".") -> Fields:
-    """Return the fields and constants in some lines.
+    """Parse fields and constants.
 
     Args:
         given: A line, or several: a type, a name, perhaps a default or ``=`` and a constant,
@@ -39,7 +39,7 @@ def fields(given: object, where: str = ".") -> Fields:
         where: A directory of the workspace with the messages that they use.
 
     Raises:
-        InputError: ROS would refuse a line, or does not know a type.
+        InputError: ROS would reject a line, or does not know a type.
     """
     lines = tuple(
         line for text in _texts(given) for line in map(str.strip, text.splitlines()) if line
@@ -70,7 +70,7 @@ def fields(given: object, where: str = ".") -> Fields:
 
 
 def refuse_turning(text: str) -> None:
-    """Raise if a text can make code look like other code.
+    """Raise if a text has bidirectional control characters, which can disguise code.
 
     Raises:
         InputError: with the character.
@@ -83,7 +83,7 @@ def refuse_turning(text: str) -> None:
 
 
 def _refuse_garbled(lines: Iterable[str]) -> None:
-    """Raise if the generated code would hold something else than the line, or no code at all."""
+    """Raise if the generated code would differ from the line, or be broken."""
     for line in lines:
         code = line.partition("#")[0]
         value = re.sub(r"^\s*\S+\s+\w+[\s=]*", "", code).strip()
@@ -107,11 +107,11 @@ def refuse_missing(wanted: Fields, messages: Iterable[str]) -> None:
     """Raise if the package does not define a type that it uses.
 
     Args:
-        wanted: Fields of one of its interfaces.
+        wanted: The fields of one of its interfaces.
         messages: The names of its messages.
 
     Raises:
-        InputError: with the messages of other packages that may be meant.
+        InputError: with similar messages of other packages.
     """
     from scaffold.generate import payload
 
@@ -133,7 +133,7 @@ def _texts(given: object) -> list[str]:
 
 
 def _refuse_unknown(used: Iterable[str], where: str) -> None:
-    """Raise if a package is known but has no such message; others may come from anywhere."""
+    """Raise if a known package has no such message; unknown packages may have any."""
     from scaffold.generate import payload
 
     if not used:

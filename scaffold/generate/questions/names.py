@@ -14,7 +14,7 @@ from keyword import iskeyword
 from scaffold.errors import InputError
 
 MAX_LENGTH = 48
-"""Characters of a package or a node: a CMake line with two of them has its limit at 140."""
+"""Maximum length of package and node names, as a CMake line with two of them is limited to 140."""
 MAX_TOPIC = 64
 """Limit on a fully qualified topic, which is on one line with its type."""
 MAX_FRAME = 40
@@ -38,7 +38,7 @@ _PYTHON_PACKAGES = frozenset(
     | {"rospkg", "scipy", "setuptools", "six", "snowballstemmer", "urllib3", "vcstool"}
     | {"wheel", "yaml"}
 )
-"""What colcon, the linters and the tools of ROS import, besides the modules that rosdep knows."""
+"""Modules that colcon, the linters and ROS import, besides those that rosdep knows."""
 _TEST_MODULES = frozenset({"conftest", "copyright", "flake8", "pep257", "setup", "xmllint"})
 _IMPORTED_CLASSES = frozenset(
     {"ActionClient", "ActionServer", "CancelResponse", "Event", "ExternalShutdownException"}
@@ -47,9 +47,9 @@ _IMPORTED_CLASSES = frozenset(
     | {"ParameterDescriptor", "ParameterException", "SetParametersResult"}
     | {"SignalHandlerOptions", "TransitionCallbackReturn"}
 )
-"""What the modules of all kinds of nodes may import by name."""
+"""Classes that the modules of all kinds of nodes may import."""
 _C_MACROS = frozenset({"BUFSIZ", "EOF", "INFINITY", "NAN", "NULL"})
-"""Of the headers that generated code includes, besides the names of errors and signals."""
+"""Macros of headers included by generated code, besides the names of errors and signals."""
 _RESERVED_TOPICS = frozenset({"/rosout", "/parameter_events"})
 
 
@@ -57,7 +57,7 @@ def package_name(text: str) -> str:
     """Return the name of a new package.
 
     Raises:
-        InputError: REP-144, Python or CMake forbids it, or a package has it already.
+        InputError: REP-144, Python or CMake forbids it, or another package has it.
     """
     _check_form(text, "package name", at_least=2)
     reason = _why_taken(text)
@@ -89,7 +89,7 @@ def _is_python_package(name: str) -> bool:
 
 
 def _installed(name: str) -> str | None:
-    """Return the prefix of the sourced ROS environment that has a package."""
+    """Return the prefix of the sourced environment that has a package."""
     for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         marker = os.path.join(prefix, "share", "ament_index", "resource_index", "packages", name)
         if prefix and os.path.exists(marker):
@@ -98,10 +98,10 @@ def _installed(name: str) -> str | None:
 
 
 def node_name(text: str) -> str:
-    """Return the name of a new node: also of its module and its executable.
+    """Return the name of a new node, which is also that of its module and executable.
 
     Raises:
-        InputError: ROS or Python forbids it, or the module would hide another one.
+        InputError: ROS or Python forbids it, or the module would shadow another one.
     """
     _check_form(text, "node name")
     if iskeyword(text):
@@ -143,7 +143,7 @@ def interface_name(text: str) -> str:
     """Return the name of a new message, service or action.
 
     Raises:
-        InputError: the parsers of ROS refuse it.
+        InputError: the parsers of ROS reject it.
     """
     if re.fullmatch(r"[A-Z][A-Za-z0-9]*", text) and len(text) <= MAX_LENGTH:
         if iskeyword(text):
@@ -160,7 +160,7 @@ def interface_name(text: str) -> str:
 
 
 def header_name(interface: str) -> str:
-    """Return what the files are called that are generated of an interface."""
+    """Return the base name of the files generated for an interface."""
     words = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", interface)
     return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", words).lower()
 
@@ -169,7 +169,7 @@ def program_name(text: str) -> str:
     """Return the name of a new C++ program: its source, its target and its executable.
 
     Raises:
-        InputError: it is none, or CMake has a target of that name.
+        InputError: it is invalid, or CMake has a target of that name.
     """
     _check_form(text, "program name")
     if text in _CMAKE_TARGETS:
@@ -206,7 +206,7 @@ def frame(text: str) -> str:
     """Return the name of a coordinate frame.
 
     Raises:
-        InputError: tf2 refuses it, or no tool could name it.
+        InputError: tf2 rejects it, or tools could not refer to it.
     """
     if len(text) > MAX_FRAME:
         raise InputError(
@@ -230,11 +230,11 @@ def resolve(name: str, node: str) -> str:
 
 
 _LIKE_DIGITS = {"I", "O"}
-"""Names of classes that flake8 refuses (E742): they look like 1 and 0."""
+"""Names of classes that flake8 rejects (E742): they look like 1 and 0."""
 
 
 def class_name(node: str, taken: Sequence[str] = ()) -> str:
-    """Return the name of a node's class, different from the classes it uses."""
+    """Return the class name of a node, distinct from the classes that it uses."""
     name = "".join(word[0].upper() + word[1:] for word in node.split("_"))
     # `None` and `True` are keywords, `ValueError` a class that the module may mean.
     is_taken = name in _IMPORTED_CLASSES or name in taken or hasattr(builtins, name)
@@ -256,7 +256,7 @@ def dependency(text: str) -> str:
 
 
 def _refuse_index_name(text: str) -> None:
-    """Raise if a name is that of Python's package index, and rosdep has another one."""
+    """Raise if a name is that of the Python package index and the rosdep key differs."""
     from scaffold.model.catalog import keys_of_module, module_of_key
 
     module = module_of_key(text)

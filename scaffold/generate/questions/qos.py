@@ -18,7 +18,7 @@ from scaffold.record import NamedTuple
 MAX_DEPTH = 10_000
 MAX_SECONDS = 1_000_000.0
 CONSTANT = "QOS"
-"""The name in the module of a quality of service that is built from settings."""
+"""The constant in a module for a quality of service built from settings."""
 _MAX_COLUMNS = 99
 
 
@@ -26,14 +26,14 @@ class Qos(NamedTuple):
     """The quality of service of a publisher or a subscription."""
 
     expression: str
-    """What ``create_publisher`` and ``create_subscription`` get."""
+    """The argument for ``create_publisher`` and ``create_subscription``."""
     imports: tuple[str, ...]
     says: str
-    """What it means, for people."""
+    """A description in words."""
     constants: tuple[str, ...] = ()
     """Lines of the module that the expression needs."""
     hint: str = "here how many messages wait at most until they are dealt with"
-    """What the expression is, for learners."""
+    """An explanation of the expression, for learners."""
     text: str = ""
     """What the user wrote."""
     reliability: str = "reliable"
@@ -43,11 +43,11 @@ class Qos(NamedTuple):
 
     @property
     def assignment(self) -> str:
-        """Lines of a module that give the name ``QOS`` to it."""
+        """Lines of a module that assign it to ``QOS``."""
         return "\n".join(self.constants) or f"{CONSTANT} = {self.expression}"
 
     def named(self, name: str) -> Qos:
-        """Return the same with another name for its constant: a module may have two."""
+        """Return the same quality of service with another constant, for modules with two."""
         constants = tuple(
             line.replace(f"{CONSTANT} = ", f"{name} = ", 1) for line in self.constants
         )
@@ -78,7 +78,7 @@ COMMON: Mapping[str, str] = {
     "latched": "reliable, who comes late gets the last one: maps, descriptions",
     "system_default": _SAYS["system_default"],
 }
-"""What suits most topics, and when."""
+"""Suggestions for most topics, with their purpose."""
 
 _POLICIES: Mapping[str, tuple[str, ...]] = {
     "history": ("keep_last", "keep_all"),
@@ -100,7 +100,7 @@ def qos(text: str) -> Qos:
     """Return a quality of service for a depth, the name of a profile, or settings.
 
     Raises:
-        InputError: it is neither; the message names the nearest words.
+        InputError: it is neither; the message names the closest words.
     """
     name, *others = words = [word.strip() for word in text.split(",")]
     if not others and name in _SAYS:
@@ -142,10 +142,10 @@ def _of_profile(name: str) -> Mapping[str, str]:
 
 
 def _settings(words: Sequence[str], text: str) -> dict[str, str]:
-    """Return the settings that the words of a user are.
+    """Parse the settings given by the user.
 
     Raises:
-        InputError: one is none, or contradicts another one.
+        InputError: one is invalid, or contradicts another one.
     """
     result: dict[str, str] = {}
     for word in words:
@@ -166,7 +166,7 @@ def _checked(key: str, value: str, text: str) -> str:
     """Return the value of a setting.
 
     Raises:
-        InputError: the setting cannot have it.
+        InputError: it is invalid for the setting.
     """
     if key in _POLICIES:
         if value not in _POLICIES[key]:
@@ -209,7 +209,7 @@ def _unknown(text: str, word: str) -> str:
 
 
 def _profile(settings: Mapping[str, str], name: str) -> Qos:
-    """Return the call that makes a profile of settings."""
+    """Return the call that builds a profile from settings."""
     classes, imports = {"QoSProfile"}, set()
     arguments: list[str] = []
     for key in [key for key in _KEYS if key in settings]:

@@ -20,9 +20,9 @@ from scaffold.generate.templates.template import Question, Template
 from scaffold.record import NamedTuple
 
 SEVERAL = "several"
-"""The type of a question that takes several of its choices."""
+"""The type of a question with a choice of several items."""
 INTERFACES: Mapping[str, str] = {"message": "msg", "service": "srv", "action": "action"}
-"""The kinds of interfaces by the types of answers that name one."""
+"""The kinds of interfaces by the types of questions for them."""
 
 
 class Given(NamedTuple):
@@ -34,7 +34,7 @@ class Given(NamedTuple):
 
 
 def unique(templates: Iterable[Template]) -> list[Question]:
-    """Return the questions of templates, each name once, in their order."""
+    """Return the questions of templates without duplicate names, in their order."""
     result: dict[str, Question] = {}
     for template in templates:
         for question in template.questions:
@@ -43,9 +43,9 @@ def unique(templates: Iterable[Template]) -> list[Question]:
 
 
 def shared(templates: Iterable[Template]) -> list[Question]:
-    """Return the questions with what all their templates say: the help of a flag.
+    """Return the questions with the merged help of all their templates.
 
-    A default in which the templates differ is skipped.
+    A default that differs between templates is omitted.
     """
     result: dict[str, Question] = {}
     for template in templates:
@@ -64,10 +64,10 @@ def add_flags(
 ) -> None:
     """Define a flag, or a positional argument, for each question.
 
-    The words are judged later, with one line for an error instead of argparse's usage text.
+    Values are validated later, with a one-line error instead of argparse's usage text.
 
     Args:
-        parser: Of the verb, or a group of its flags.
+        parser: The parser of the verb, or a group of its flags.
         questions: Each becomes a flag.
         kinds: The kinds of parts and their questions, for tab completion.
     """
@@ -87,7 +87,7 @@ def add_flags(
 
 
 def flag(name: str) -> str:
-    """Return how a question is written on the command line."""
+    """Return the flag of a question."""
     return "--" + name.replace("_", "-")
 
 
@@ -105,7 +105,7 @@ def _help(question: Question) -> str:
 
 
 def _listed(question: Question, default: Sequence[object]) -> str:
-    """Return several answers as the flag takes them: fields have spaces, so they need quotes."""
+    """Return several answers as written after the flag; fields have spaces and need quotes."""
     if question.type == "fields":
         return " ".join(f"'{item}'" for item in default)
     return ", ".join(map(str, default))
@@ -118,7 +118,7 @@ def _metavar(question: Question) -> str:
 
 
 def completer(question: Question) -> Callable[..., Sequence[str]] | None:
-    """Return what offers answers when the user presses tab; ``None``: names of files."""
+    """Return the tab completer of a question; ``None`` for file names."""
     if question.choices:
         return lambda **_: question.choices
     if question.type in INTERFACES:
@@ -147,7 +147,7 @@ def _part_completer(kinds: Mapping[str, Sequence[Question]]) -> Callable[..., Se
 
 
 def _interfaces(kind: str, prefix: str) -> list[str]:
-    """Return the types of a kind in full, or by their names alone after a capital."""
+    """Return the full types of a kind, or only their names if the prefix is capitalized."""
     from scaffold.generate import payload
 
     names = [name for name in payload.definitions().all_names() if f"/{kind}/" in name]
@@ -181,7 +181,7 @@ def from_file(path: str, questions: Iterable[Question]) -> dict[str, Given]:
 
 
 def from_table(entries: Mapping[str, Given], questions: Iterable[Question]) -> dict[str, Given]:
-    """Return entries of a file by the names of questions, written with ``_`` or ``-``.
+    """Return the entries of a table by question; keys are written with ``_`` or ``-``.
 
     Raises:
         InputError: a key is not a question.
@@ -204,7 +204,7 @@ class Answers(NamedTuple):
 
     values: dict[str, Any]
     written: dict[str, Any]
-    """The same as a user would write them into an answers file."""
+    """The answers in the form of an answers file."""
 
 
 def resolve(
@@ -218,18 +218,18 @@ def resolve(
 ) -> Answers:
     """Return an answer for every question.
 
-    Defaults without Jinja come first, so that the others may use them, and each other.
+    Defaults without Jinja come first, so that other defaults may use them.
 
     Args:
-        questions: Of the chosen templates.
-        given: What the user wrote, from the winning source of each.
-        context: What defaults may use besides the answers.
+        questions: The questions of the chosen templates.
+        given: The user's answers, each from the source that takes precedence.
+        context: Variables for defaults besides the answers.
         render: Renders a Jinja text over answers.
-        fallback: Finds an answer for a question without a default, by its name.
-        where: The directory that the package is in.
+        fallback: Returns the answer to a question without a default, by its name.
+        where: The directory of the package.
 
     Raises:
-        InputError: an answer is missing or not acceptable; the message says whose it is.
+        InputError: an answer is missing or invalid; the message names its source.
     """
     answers = Answers({}, {})
 
@@ -259,12 +259,12 @@ def resolve(
 
 
 def is_derived(default: object) -> bool:
-    """Tell whether a default follows from other answers."""
+    """Tell whether a default depends on other answers."""
     return isinstance(default, str) and "{" in default
 
 
 def _independent(later: Sequence[Question]) -> Question:
-    """Return the first question whose default does not need the answer to another of them."""
+    """Return the first question whose default does not depend on another one of them."""
     names = {question.name for question in later}
     for question in later:
         if not (names - {question.name}) & {*re.findall(r"\w+", question.default)}:
@@ -300,16 +300,16 @@ def parse(question: Question, given: Given, where: str = ".") -> Any:  # noqa: A
 
 
 def _words(given: object) -> Iterator[object]:
-    """Yield the words of an answer: a list, a text with commas between them, or both."""
+    """Yield the items of an answer: a list, a comma-separated text, or both."""
     for word in given if isinstance(given, list | tuple) else [given]:
         yield from map(str.strip, word.split(",")) if isinstance(word, str) else (word,)
 
 
 def choose(given: object, choices: Sequence[str], origin: str) -> str:
-    """Return the choice that was given.
+    """Return the given choice.
 
     Raises:
-        InputError: it is none; the nearest ones are named.
+        InputError: it is unknown; the message names the closest ones.
     """
     word = str(given)
     if word not in choices:
@@ -318,7 +318,7 @@ def choose(given: object, choices: Sequence[str], origin: str) -> str:
 
 
 def _no_choice(word: str, choices: Sequence[str]) -> str:
-    """Name the choices, and those that the word probably means."""
+    """Return a message that lists the choices and suggests the closest ones."""
     by_lower = {choice.lower(): choice for choice in choices}
     closest = get_close_matches(word.lower(), by_lower, n=3, cutoff=0.7)
     if not closest and len(word) >= _TELLING:
@@ -331,5 +331,5 @@ def _no_choice(word: str, choices: Sequence[str]) -> str:
 
 _TELLING = 3
 _LISTED = 15
-"""So many choices are listed although a hint names the closest ones."""
+"""The number of choices that are listed in addition to a suggestion."""
 """Letters at the start of a word that identify it: ``GPLv3``, ``BSD``."""

@@ -11,7 +11,7 @@ from scaffold.files import cache
 
 _HEAD = b"scaffold-template-2\n"
 _MOST = 500
-"""Templates that are kept in one form."""
+"""The maximum number of cached templates per form."""
 
 
 class Compiled(BytecodeCache):
@@ -20,14 +20,14 @@ class Compiled(BytecodeCache):
     A cache that cannot be read or written is ignored.
 
     Args:
-        form: Templates of one text and different code need different forms.
+        form: Distinguishes compiled code that differs for the same text.
     """
 
     def __init__(self, form: str) -> None:
         self._kept = cache.directory(f"templates_{form}")
 
     def load_bytecode(self, bucket: Bucket) -> None:
-        """Fill a bucket, if its code is there."""
+        """Load cached code into a bucket."""
         data = (
             cache.read_sealed(os.path.join(self._kept, bucket.key), _HEAD) if self._kept else None
         )
@@ -35,7 +35,7 @@ class Compiled(BytecodeCache):
             bucket.bytecode_from_string(data)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        """Keep the code of a bucket."""
+        """Save the code of a bucket."""
         if self._kept is None:
             return
         place = os.path.join(self._kept, bucket.key)

@@ -14,17 +14,17 @@ from scaffold.generate.templates.template import BASE, FOLDERS, MANIFEST, Templa
 
 
 def copy(templates: Mapping[str, Template], kind: str, content: str, name: str = "") -> str:
-    """Copy a template into a content directory and return where it is then.
+    """Copy a template into a content directory; return the path of the copy.
 
     Args:
         templates: All templates.
-        kind: The name of a template, or of one and the path of a file in it.
-        content: The directory that gets it, in its ``templates``.
-        name: What the copy is called; by default as the template, which it overrides.
+        kind: The name of a template, optionally with the path of one of its files.
+        content: The content directory to copy it to.
+        name: The name of the copy; by default that of the template, which it overrides.
 
     Raises:
         InputError: there is no such template or file.
-        ConflictError: something is there already.
+        ConflictError: the destination exists already.
     """
     original, _, path = kind.partition("/")
     if original not in templates:
@@ -50,7 +50,7 @@ def copy(templates: Mapping[str, Template], kind: str, content: str, name: str =
 
 
 def _rename_in_examples(path: str, original: str, name: str) -> None:
-    """Let examples with parts ``KIND:NAME`` make the copy."""
+    """Replace the kind in examples with parts ``KIND:NAME`` by that of the copy."""
     text = Path(path).read_text(encoding="utf-8")
     renamed = re.sub(rf"\b{re.escape(original)}:(?=\w)", f"{name}:", text)
     Path(path).write_text(renamed, encoding="utf-8")

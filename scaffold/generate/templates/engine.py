@@ -27,7 +27,7 @@ from scaffold.generate.templates.sandbox import Sandbox, refuse_outside
 from scaffold.generate.templates.template import ENDING, MAX_BYTES
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
-"""A line for learners: ``#: text``, ``//: text`` or ``<!--: text -->``; alone, an empty line."""
+"""A tutorial comment: ``#: text``, ``//: text`` or ``<!--: text -->``; an empty one is a blank line."""
 
 
 TOO_MUCH_MEMORY = "uses too much memory"
@@ -52,7 +52,7 @@ class LocalEngine:
     Args:
         roots: The ``templates`` directories; a later one wins.
         directories: The directories of the templates in them, by name; the first one wins.
-        is_tutorial: Whether the lines for learners are kept.
+        is_tutorial: Whether tutorial comments are kept.
     """
 
     def __init__(
@@ -136,9 +136,9 @@ class _Undefined(StrictUndefined):
 
 
 class _Loader(BaseLoader):
-    """Loads ``<template>/<path>`` and ``_licenses/...``, and handles the lines for learners.
+    """Loads ``<template>/<path>`` and ``_licenses/...``, and handles tutorial comments.
 
-    A short text is a template, too, so that it is kept compiled, as the files are.
+    A short text is a template as well, so that its compiled form is cached like that of files.
     """
 
     def __init__(
@@ -150,7 +150,7 @@ class _Loader(BaseLoader):
         self._texts: dict[str, str] = {}
 
     def named(self, text: str) -> str:
-        """Return the name of the template that a short text is."""
+        """Register a short text as a template and return its name."""
         name = f"text {digest(text.encode('utf-8', 'surrogatepass'))}"
         self._texts[name] = text
         return name

@@ -15,9 +15,9 @@ def literal(text: str, column: int = 0, indent: int = 0) -> str:
 
     Args:
         text: The value.
-        column: Where the literal starts on its line, from 0. One that would not fit is written as
-            several, below each other.
-        indent: The indentation of those lines; in parentheses when it differs from ``column``.
+        column: The column of the literal, from 0. A literal that would not fit is split into
+            several lines.
+        indent: The indentation of these lines; parentheses are added if ``column`` differs.
     """
     whole = _quoted(text)
     if column + len(whole) + len(",") <= MAX_COLUMNS:
@@ -44,7 +44,7 @@ def _escape(character: str) -> str:
 
 
 def _split(text: str, width: int) -> Iterator[str]:
-    """Yield literals, one below the other, that break the text after spaces where it has any."""
+    """Yield the literals of a split text, broken after spaces where possible."""
     start = 0
     while start < len(text):
         end = start + 1
@@ -61,13 +61,13 @@ def _split(text: str, width: int) -> Iterator[str]:
 
 
 def xml(text: object) -> str:
-    """Return text for XML, as content or as the value of an attribute."""
+    """Escape text for XML, as content or as the value of an attribute."""
     escaped = str(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     return escaped.replace('"', "&quot;")
 
 
 def markdown(text: str) -> str:
-    """Return text that Markdown shows as it is."""
+    """Escape text for Markdown."""
     escaped = re.sub(r"([\\`*<\[\]|])", r"\\\1", text)
     escaped = re.sub(r"(?<!\w)_|_(?!\w)", r"\\_", escaped)
     escaped = re.sub(r"&(?=#?\w+;)", r"\\&", escaped)
@@ -81,7 +81,7 @@ def comment(text: str, mark: str = "#") -> str:
 
 
 def slashes(text: str) -> str:
-    """Return comment lines of Python as those of C++."""
+    """Convert Python comment lines to C++."""
     return re.sub(r"(?m)^#", "//", text)
 
 
@@ -89,7 +89,7 @@ def import_block(lines: Iterable[str]) -> str:
     """Return import statements in the order of ament_flake8: by module, not by kind.
 
     Args:
-        lines: Statements, with or without a comment; duplicate imports count once.
+        lines: Statements, with or without a comment, possibly duplicate.
     """
     groups: tuple[list[str], list[str]] = ([], [])
     for line in _merged(lines):
@@ -100,7 +100,7 @@ def import_block(lines: Iterable[str]) -> str:
 
 
 def _merged(lines: Iterable[str]) -> list[str]:
-    """Return the statements with all names that come from one module on one line, if they fit."""
+    """Merge the imports from one module into one line, if they fit."""
     names: dict[str, set[str]] = {}
     others: dict[str, None] = {}
     for line in lines:

@@ -21,22 +21,22 @@ from typing import IO, Any
 from scaffold.errors import ContentError
 
 MAX_MEMORY = 512 * 2**20
-"""Bytes of the process."""
+"""The memory limit of the process in bytes."""
 MAX_CPU = 5
-"""Seconds of processor time for one file."""
+"""The limit of CPU time for one file in seconds."""
 MAX_WALL = 60.0
-"""Seconds for one file when the process waits for something, such as a disk or a pipe."""
+"""The limit of wall time for one file in seconds, for a process that waits."""
 MAX_CHARACTERS = 5_000_000
-"""Of a rendered file."""
+"""The maximum length of a rendered file."""
 
 _START = (
     "import json, sys; sys.path[:] = json.loads(sys.argv.pop()); "
     "from scaffold.generate.templates.foreign_worker import serve; serve()"
 )
 _SIZE = 8
-"""Bytes of the number in front of a message that says how long it is."""
+"""The size of the length prefix of a message."""
 _MOST_SHOWN = 80
-"""Characters of a short text that a message shows."""
+"""The number of characters of a short text shown in a message."""
 
 
 class ForeignEngine:
@@ -65,7 +65,7 @@ class ForeignEngine:
         """Send a request to the process, and return its answer.
 
         Raises:
-            ContentError: the template is at fault, or the process has died of it.
+            ContentError: the template is wrong, or the process died while rendering it.
         """
         process = self._process or self._started()
         answer = _exchange(process, request)
@@ -83,7 +83,7 @@ class ForeignEngine:
         return entry["value"]
 
     def _started(self) -> subprocess.Popen[bytes]:
-        """Start the process, which ends with this engine."""
+        """Start the process, which is ended with this engine."""
         paths = [os.path.abspath(path) for path in sys.path if path]
         process = subprocess.Popen(
             [sys.executable, "-I", "-c", _START, json.dumps(paths)],
@@ -98,7 +98,7 @@ class ForeignEngine:
         return process
 
     def _place(self, name: str) -> str:
-        """Return the file of a template, or of the manifest that a short text is from."""
+        """Return the file of a template, or the manifest of a short text."""
         first, _, rest = name.partition("/")
         if first in self._directories and rest:
             places = [os.path.join(place, rest) for place in self._directories[first]]
@@ -126,7 +126,7 @@ def receive(source: IO[bytes]) -> bytes | None:
 
 
 def _exchange(process: subprocess.Popen[bytes], request: object) -> bytes | None:
-    """Send a request and return the answer; ``None``: the process is dead, now at the latest."""
+    """Send a request and return the answer; ``None`` if the process died or was killed."""
     if process.stdin is None or process.stdout is None:
         return None
     try:

@@ -40,7 +40,7 @@ def _limit(which: int, most: int) -> None:
 
 
 def _rendered(engine: LocalEngine, request: bytes, characters: int) -> bytes:
-    """Return the answer to a request: a value, or what is wrong with the template."""
+    """Return the answer to a request: a value, or the error in the template."""
     task, name, *context = pickle.loads(request)  # noqa: S301  made by the parent
     try:
         value = getattr(engine, task)(name, *context)

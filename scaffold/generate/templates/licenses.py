@@ -10,7 +10,7 @@ HEADER = "header.jinja"
 TEXT = "LICENSE.jinja"
 CONTRIBUTING = "CONTRIBUTING.md.jinja"
 NOTE = "note.jinja"
-"""Something the user should know before choosing it; most licenses have none."""
+"""A file with a note about a license; most have none."""
 
 
 def names(roots: Sequence[str]) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ _INNER: Mapping[str, Any] = {
     "notes": str,
     "examples": dict,
 }
-"""The types of what is in a value."""
+"""The types of the items of a value."""
 _WORDS: Mapping[object, str] = {
     str: "text",
     dict: "mapping",
@@ -79,8 +79,8 @@ def load(roots: Sequence[str]) -> dict[str, Template]:
     """Return the templates of the content directories by name.
 
     Raises:
-        ContentError: a manifest cannot be used, a template is in no folder of a role, or two
-            templates ask different questions under one name.
+        ContentError: a manifest is invalid, a template is not in the folder of a role, or two
+            templates have different questions with one name.
     """
     places: dict[str, tuple[str, Role]] = {}
     overrides: dict[str, list[str]] = {}
@@ -127,10 +127,10 @@ def _places(root: str) -> dict[str, tuple[str, Role]]:
 
 
 def _overrides(root: str, places: Mapping[str, tuple[str, Role]]) -> Iterator[tuple[str, str]]:
-    """Yield the templates that a directory overrides some files of, and where those are.
+    """Yield the templates with overridden files in a directory, and the place of these files.
 
     Raises:
-        ContentError: it has files of a template that does not exist.
+        ContentError: it has files of an unknown template.
     """
     for folder in sorted(os.listdir(root)):
         place = os.path.join(root, folder)
@@ -155,7 +155,7 @@ def _overrides(root: str, places: Mapping[str, tuple[str, Role]]) -> Iterator[tu
 
 
 def _templates(place: str) -> Iterator[str]:
-    """Yield the names of the directories in a folder that are templates."""
+    """Yield the names of the template directories in a folder."""
     if os.path.isdir(place):
         for name in sorted(os.listdir(place)):
             if os.path.isfile(os.path.join(place, name, MANIFEST)):
@@ -163,7 +163,7 @@ def _templates(place: str) -> Iterator[str]:
 
 
 def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
-    """Return the manifests of templates, from the user's cache while no file has changed."""
+    """Return the manifests of templates, from the cache if no file has changed."""
     paths = [os.path.join(directory, MANIFEST) for directory in directories]
     stamps = "\n".join(f"{path} {stamp(path)}" for path in paths)
     head = b"scaffold-manifests-3\n" + digest(os.fsencode(stamps)).encode()
@@ -180,7 +180,7 @@ def _manifests(directories: Sequence[str]) -> list[dict[str, Any]]:
 
 
 _MOST_KEPT = 16
-"""Sets of content directories whose manifests are kept."""
+"""The maximum number of cached sets of content directories."""
 
 
 def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]) -> Template:
@@ -224,7 +224,7 @@ def _load_one(name: str, directory: str, role: Role, manifest: Mapping[str, Any]
 
 
 def _manifest(path: str) -> dict[str, Any]:
-    """Return a manifest whose keys and the types of whose values are right."""
+    """Parse a manifest and validate its keys and the types of its values."""
     manifest = yaml_file.read(path, ContentError)
     if not isinstance(manifest, dict):
         raise ContentError(f"{path}: must be a mapping with the keys {', '.join(_KEYS)}")
@@ -287,7 +287,7 @@ def _question(path: str, name: str, entry: object) -> Question:
 def _with_choices(
     template: Template, templates: Mapping[str, Template], known_licenses: tuple[str, ...]
 ) -> Template:
-    """Replace ``choices: <role>`` by the templates of that role; a license is one that is known."""
+    """Replace ``choices: <role>`` by the templates of that role, and likewise for licenses."""
     questions = []
     for question in template.questions:
         choices = question.choices
@@ -305,7 +305,7 @@ def _with_choices(
 
 
 def _refuse_ambiguous_questions(templates: Mapping[str, Template]) -> None:
-    """Raise if templates that share a question do not give it the same type and choices."""
+    """Raise if templates with a common question differ in its type or choices."""
     seen: dict[str, tuple[Question, str]] = {}
     for template in templates.values():
         for question in template.questions:

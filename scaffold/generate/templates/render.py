@@ -28,9 +28,9 @@ class Rendered(NamedTuple):
     files: Mapping[str, str]
     executable: frozenset[str]
     notes: Mapping[str, str]
-    """What a file is for, by path; not every file has one."""
+    """The purpose of files, by path; not every file has one."""
     unread: tuple[str, ...] = ()
-    """Files of the package that are read only if it is the top of a git repository."""
+    """Files of the package that tools only read at the top of a git repository."""
     templates: Mapping[str, str] = MappingProxyType({})
     """The template's file by path."""
 
@@ -41,7 +41,7 @@ class Renderer:
     Args:
         roots: The ``templates`` directories; a later one wins.
         templates: The templates in them.
-        is_tutorial: Whether the lines for learners are kept.
+        is_tutorial: Whether tutorial comments are kept.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Renderer:
         )
 
     def license_note(self, license_: str, context: Mapping[str, Any]) -> str | None:
-        """Return what the user should know about a license, if anything."""
+        """Return the note about a license, if there is one."""
         name = f"{licenses.DIRECTORY}/{license_}/{licenses.NOTE}"
         return self.file(name, context).strip() if self.has(name) else None
 
@@ -129,7 +129,7 @@ class Renderer:
         return expression is None or self.condition(str(expression), scope)
 
     def _path(self, layer: Template, source: str, scope: Mapping[str, Any]) -> str:
-        """Fill in the names in a path; it holds no other Jinja, so Jinja is not needed."""
+        """Fill in the variables of a path; it has no other Jinja."""
         path = _NAME.sub(lambda match: str(_value(match[1], scope)), source)
         where = _file(layer, source)
         refuse_leaving(path, where)
@@ -141,7 +141,7 @@ class Renderer:
 def _engine(
     roots: Sequence[str], directories: Mapping[str, Sequence[str]], *, is_tutorial: bool
 ) -> Engine:
-    """Return what renders: another process, unless all templates are built in."""
+    """Return the engine: in another process, unless all templates are built in."""
     if are_built_in(roots):
         return LocalEngine(roots, directories, is_tutorial=is_tutorial)
     from scaffold.generate.templates.foreign import ForeignEngine
@@ -150,13 +150,13 @@ def _engine(
 
 
 def _file(layer: Template, source: str) -> str:
-    """Return the file of a template that is rendered to a path."""
+    """Return the template file that is rendered to a path."""
     files = [os.path.join(directory, source + ENDING) for directory in layer.directories]
     return next(filter(os.path.exists, files), files[-1])
 
 
 def are_built_in(roots: Sequence[str]) -> bool:
-    """Tell whether all templates are those of this tool."""
+    """Tell whether all templates are built in."""
     return list(roots) == content.roots("templates")
 
 
@@ -177,7 +177,7 @@ def _sources(directory: str) -> Iterator[str]:
 
 
 def _value(name: str, scope: Mapping[str, Any]) -> object:
-    """Return the value of a dotted name, or the name in braces when there is none."""
+    """Return the value of a dotted name, or the name in braces if it is undefined."""
     value: Any = scope
     for part in name.split("."):
         if not isinstance(value, Mapping) or part not in value:

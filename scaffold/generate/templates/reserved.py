@@ -17,7 +17,7 @@ _FLAGS = frozenset(
         *("force", "help", "launch", "package_directory"),
     }
 )
-"""What the options of `new` and `add` are called."""
+"""The names of the options of `new` and `add`."""
 _VARIABLES = frozenset(
     {
         *("contents", "contributing_text", "date", "depends", "groups", "has_license", "header"),
@@ -28,16 +28,16 @@ _VARIABLES = frozenset(
         *("h", "entry", "templates", "verb", "command_line"),  # of the command line
     }
 )
-"""What the files of templates use besides answers, and what a part has besides them."""
+"""Variables of templates besides answers, and attributes of parts besides answers."""
 
 
 def refuse_shadowing(templates: Mapping[str, Template], base: str, manifest: str) -> None:
-    """Raise ContentError if a question has the name of something else.
+    """Raise ContentError if the name of a question is reserved.
 
     Args:
         templates: All templates.
         base: The name of the template that every package is built on.
-        manifest: The name of the file that has the questions.
+        manifest: The name of the file with the questions.
     """
     owners = {item.name: base for item in templates[base].questions}
     of_parts: dict[str, str] = {}

@@ -13,9 +13,9 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 from scaffold.errors import ContentError
 
 _MOST_ROUNDS = 1_000_000
-"""Numbers that all calls of `range` in the files of a package may give together."""
+"""The total length of all ranges in the files of a package."""
 _MOST_REPEATED = 1_000_000
-"""Characters or elements of what is repeated, digits of a power."""
+"""The maximum length of a repeated text or list, and of the digits of a power."""
 
 
 class Sandbox(ImmutableSandboxedEnvironment):
@@ -42,7 +42,7 @@ class Sandbox(ImmutableSandboxedEnvironment):
         left: Any,  # noqa: ANN401  as Jinja has it
         right: Any,  # noqa: ANN401
     ) -> Any:  # noqa: ANN401
-        """Multiply, or raise to a power, what is small enough."""
+        """Multiply, or raise to a power, within the limit."""
         if operator == "**" and _size(left) * abs(right) > _MOST_REPEATED:
             raise SecurityError("a power is too large")
         if operator == "*":
@@ -57,7 +57,7 @@ def _size(number: Any) -> int:  # noqa: ANN401  whatever a template computes wit
 
 
 def refuse_outside(path: str, places: Iterable[str]) -> None:
-    """Raise if a file is not in one of some directories, links followed.
+    """Raise if the real path of a file is not below one of some directories.
 
     Raises:
         ContentError: it is elsewhere.
@@ -71,7 +71,7 @@ def refuse_leaving(path: str, where: str) -> None:
     """Raise if the path of a rendered file leaves the package.
 
     Raises:
-        ContentError: it does, or is none.
+        ContentError: it does, or is no valid path.
     """
     parts = path.split("/")
     if "\0" in path or not all(parts) or {".", ".."} & set(parts):

@@ -16,7 +16,7 @@ from scaffold.record import NamedTuple
 MANIFEST = "template.yaml"
 ENDING = ".jinja"
 MAX_BYTES = 1_000_000
-"""Of a file of a template, and of one with answers; ours have a few kB."""
+"""The size limit of template and answers files; typical ones have a few kB."""
 BASE = "package"
 """The template that every package is built on."""
 DEPEND_KINDS = ("buildtool", "build", "build_export", "depend", "exec", "test")
@@ -37,7 +37,7 @@ class Role(Enum):
     PROGRAM = "program"
     """A C++ program; rendered once for each."""
     EXTRA = "extra"
-    """Something that a package may have besides: a launch file, a CI workflow."""
+    """An optional addition: a launch file, a CI workflow."""
 
 
 FOLDERS = {
@@ -47,9 +47,9 @@ FOLDERS = {
     "programs": Role.PROGRAM,
     "extras": Role.EXTRA,
 }
-"""Where the templates of a role are; ``package`` is itself the one for every package."""
+"""The directories of the roles; ``package`` is itself the template of every package."""
 PARTS = (Role.NODE, Role.INTERFACE, Role.PROGRAM)
-"""What a package has several of; the value of the role is the variable in its files."""
+"""The roles of parts; the value of the role is the variable in the templates."""
 
 
 class Question(NamedTuple):
@@ -76,47 +76,47 @@ class Template(NamedTuple):
     role: Role
     summary: str
     section: str
-    """The heading that lists of templates show it below."""
+    """The heading in lists of templates."""
     questions: tuple[Question, ...]
     executable_name: str
-    """Of a build type: what ``ros2 run`` calls a node, a Jinja text over ``node``."""
+    """Of a build type: the name of a node for ``ros2 run``, a Jinja text over ``node``."""
     parameter_file: str
-    """Of a node that brings one: its parameter file, a Jinja text over ``node``."""
+    """Of a node with parameters: its parameter file, a Jinja text over ``node``."""
     definition: str
     """Of an interface: the directory and the ending of its file, ``msg``, ``srv`` or ``action``."""
     build_types: Sequence[str]
-    """The build types that it is for; all when empty."""
+    """The supported build types; all if empty."""
     depends: Mapping[str, Sequence[str]]
     """Dependencies by kind: Jinja templates of names separated by spaces."""
     groups: Sequence[str]
-    """What the package is a member of, for package.xml."""
+    """Groups that the package becomes a member of, in package.xml."""
     installs: Sequence[str]
     """Directories that are installed to ``share/<package>``."""
     tests: Sequence[str]
-    """The tests of an extra; those of nodes are known by the names of the nodes."""
+    """The tests of an extra; those of nodes follow from their names."""
     is_alone: bool
     """Whether a package may consist of the extra, without any part."""
     include: Mapping[str, str]
-    """Conditions (Jinja expressions) by path pattern; without one a file is always written."""
+    """Conditions (Jinja expressions) by path pattern; a file without one is always written."""
     executable: Sequence[str]
     """Path patterns of files with executable bits."""
     repository: Sequence[str]
-    """Path patterns of files that are read at the top of a git repository, and nowhere else."""
+    """Path patterns of files that tools only read at the top of a git repository."""
     notes: Mapping[str, str]
-    """What a file is for, by path pattern."""
+    """The purposes of files, by path pattern."""
     examples: Mapping[str, Mapping[str, Any]]
     """Answers by title: tests, and documentation."""
     overrides: Sequence[str] = ()
-    """Directories with some files instead of its own; a later one wins."""
+    """Directories with files that override its own; a later one wins."""
 
     @property
     def directories(self) -> list[str]:
-        """Where its files are, the one that wins first."""
+        """The directories of its files, in order of precedence."""
         return [*reversed(self.overrides), self.directory]
 
     @property
     def needs_nodes(self) -> bool:
-        """Whether it writes nothing into a package without nodes."""
+        """Whether it has nothing to write for a package without nodes."""
         return self.include.get("*") == "nodes"
 
     @property

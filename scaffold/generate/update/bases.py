@@ -19,18 +19,18 @@ from scaffold.errors import InputError
 from scaffold.writing.transaction import BASES, RECORD
 
 MOST = 20_000_000
-"""Bytes of the files in a record; larger ones are not of a generated package."""
+"""The maximum size of the files in a record; those of generated packages are smaller."""
 
 _ABOUT = "# Rendered templates, for `ros2-scaffold update`. Commit this file; do not edit it.\n"
 _SAFE = "/:+@ ,{}()[]="
-"""What paths contain as it is; everything that could end a field or a line is escaped."""
+"""Characters that are not escaped in paths; all that could end a field or a line are."""
 _MARKS = ("<<<<<<<", "|||||||", "=======", ">>>>>>>")
 _MOST_EQUAL = 200_000
-"""Pairs of equal lines in two texts that are compared; far more than in files that people read."""
+"""The maximum number of compared pairs of equal lines; far more than in normal files."""
 
 
 def hash_of(content: bytes) -> str:
-    """Return the hash by which a record names the content of a file."""
+    """Return the hash of a file for the record."""
     return hashlib.sha256(content).hexdigest()
 
 
@@ -48,11 +48,11 @@ def parse(sidecar: str, path: str) -> dict[tuple[str, str], str]:
     """Return the texts in a sidecar, by path and hash.
 
     Args:
-        sidecar: What is in it.
+        sidecar: Its content.
         path: For messages.
 
     Raises:
-        InputError: it is damaged, or a merge has left a conflict in it.
+        InputError: it is damaged or has a merge conflict.
     """
     refuse_conflict(sidecar, path)
     texts: dict[tuple[str, str], str] = {}
@@ -75,10 +75,10 @@ def parse(sidecar: str, path: str) -> dict[tuple[str, str], str]:
 
 
 def _unpacked(packed: str, recorded: str, most: int) -> bytes:
-    """Return the text of a line.
+    """Decompress the text of a line.
 
     Raises:
-        ValueError: it is more than a record may hold, or not what was written.
+        ValueError: it is too large or does not match its hash.
         zlib.error: the same.
     """
     decoder = zlib.decompressobj()
@@ -91,7 +91,7 @@ def _unpacked(packed: str, recorded: str, most: int) -> bytes:
 
 
 def refuse_conflict(content: str, path: str) -> None:
-    """Raise InputError if git has left a conflict in the record or in its sidecar."""
+    """Raise InputError if the record or its sidecar has a merge conflict."""
     starts = {line[: len(_MARKS[0])] for line in content.split("\n")}
     if _MARKS[0] in starts and _MARKS[-1] in starts:
         raise InputError(
@@ -101,7 +101,7 @@ def refuse_conflict(content: str, path: str) -> None:
 
 
 def combined(texts: Sequence[str]) -> str:
-    """Return what two branches have made of a text: the lines of both, common ones once."""
+    """Combine the texts of two branches: the lines of both, common ones once."""
     first, *others = texts
     for other in others:
         first = _both(first.splitlines(keepends=True), other.splitlines(keepends=True))

@@ -12,21 +12,21 @@ from scaffold.generate.update.provenance import Provenance
 
 Parts = Sequence[Mapping[str, Any]]
 Drafted = Callable[[Parts], Mapping[str, str]]
-"""Renders a package with other parts than it has."""
+"""Renders the package with a given list of parts."""
 
 _MOST_PARTS = 8
-"""Each way to split the parts is rendered, at worst."""
+"""The maximum number of parts, as in the worst case each way to split them is rendered."""
 
 
 def joined(old: Provenance, drafted: Drafted) -> Provenance:
-    """Return the record with the files as the templates would have given them for both branches.
+    """Return the record with the files that the templates would have given for both branches.
 
-    That is known where the templates of today give what the record of each branch has; elsewhere
-    the files keep the lines of both.
+    This is known if the current templates reproduce the record of each branch; otherwise
+    the files have the lines of both.
 
     Args:
-        old: The record after a merge of branches, or any other.
-        drafted: Renders the package with the templates of today.
+        old: The record, possibly after a merge of branches.
+        drafted: Renders the package with the current templates.
     """
     parts = old.answers.get(ADD, [])
     if not old.merged or len(parts) > _MOST_PARTS:
@@ -43,14 +43,14 @@ def joined(old: Provenance, drafted: Drafted) -> Provenance:
 
 
 def _sides(parts: Parts) -> Iterator[tuple[Parts, Parts]]:
-    """Return what the two branches may have had: git writes common parts first."""
+    """Return the possible parts of the two branches: git writes common parts first."""
     for common in reversed(range(len(parts) - 1)):
         for end in range(common + 1, len(parts)):
             yield parts[:end], [*parts[:common], *parts[end:]]
 
 
 def _gave(old: Provenance, ours: Mapping[str, str], theirs: Mapping[str, str]) -> bool:
-    """Tell whether two branches with these files were merged."""
+    """Tell whether the merged record is that of two branches with these files."""
     return all(
         {hash_of(side.get(path, "").encode()) for side in (ours, theirs)} == set(hashes)
         for path, hashes in old.merged.items()

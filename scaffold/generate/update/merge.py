@@ -15,7 +15,7 @@ LABELS = ("yours", "template before", "template now")
 MARKS = (f"<<<<<<< {LABELS[0]}", f">>>>>>> {LABELS[2]}")
 """The lines around a conflict."""
 _FAILED = 128
-"""The least exit code of ``git merge-file`` that is not a number of conflicts."""
+"""The lowest exit code of ``git merge-file`` that is not a number of conflicts."""
 
 
 class Merged(NamedTuple):
@@ -26,15 +26,15 @@ class Merged(NamedTuple):
 
 
 def merge(yours: bytes, before: bytes, now: bytes) -> Merged:
-    """Bring the change from one text to another into a third one.
+    """Apply the change from one text to another to a third one.
 
     Args:
-        yours: The user's file; its line endings stay.
-        before: What the template gave when the file was made.
-        now: What it gives today.
+        yours: The user's file; its line endings are kept.
+        before: The rendered file when it was generated.
+        now: The file rendered by the current template.
 
     Raises:
-        InputError: git is not there, or refuses, as it does for binary files.
+        InputError: git is missing or fails, as for binary files.
     """
     if b"\r\n" in yours and b"\r\n" not in before:
         before, now = (text.replace(b"\n", b"\r\n") for text in (before, now))

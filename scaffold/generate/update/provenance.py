@@ -29,15 +29,15 @@ from scaffold.writing.transaction import BASES, RECORD
 NAME = RECORD
 """The record's path in a package."""
 ATTRIBUTES = ".gitattributes"
-"""The path of the file that says how git merges the record and its sidecar."""
+"""The path of the git attributes for merging the record and its sidecar."""
 HIDDEN = (BASES, NAME)
-"""What no diff shows."""
+"""Files that are not shown in diffs."""
 PURPOSES = {
     ATTRIBUTES: f"how git merges the two {RECORD.rpartition('.')[0]} files",
     BASES: "the rendered templates, for `ros2-scaffold update`",
     NAME: "answers and hashes, for `ros2-scaffold update`",
 }
-"""What each file is for."""
+"""The purpose of each file."""
 
 _ABOUT = (
     "Answers and hashes of the files, for `ros2-scaffold update`. Commit this file; do not edit it."
@@ -66,31 +66,31 @@ class Provenance(NamedTuple):
     answers: Mapping[str, Any]
     """As in an answers file."""
     rendered: Mapping[str, str]
-    """The files as the templates gave them, by path."""
+    """The files as rendered by the templates, by path."""
     version: str = __version__
     """Of this tool."""
     lost: Mapping[str, Sequence[str]] = MappingProxyType({})
-    """The hashes of files that the sidecar lacks, by path; several after a merge."""
+    """The hashes of files missing from the sidecar, by path; several after a merge."""
     merged: Mapping[str, Sequence[str]] = MappingProxyType({})
     """The hashes of files that two branches have changed, by path."""
     is_canonical: bool = True
-    """Whether the record has the form in which it would be written now."""
+    """Whether the record has the current format."""
     has_sidecar: bool = True
-    """Whether its form has one; that of earlier versions had not."""
+    """Whether it has a sidecar; those of earlier versions have none."""
     sources: tuple[Source, ...] = ()
     """The git repositories that templates came from."""
 
     @classmethod
     def of(cls, made: Draft) -> Provenance:
-        """Return the record of a package that is made now."""
+        """Return the record of a new package."""
         return cls(made.day, made.answers, made.rendered.files).with_roots(made.roots)
 
     def with_files(self, answers: Mapping[str, Any], rendered: Mapping[str, str]) -> Provenance:
-        """Return the record of the same package with more in it, which is added now."""
+        """Return the record with more files, which are being added."""
         return Provenance(self.date, answers, rendered, sources=self.sources)
 
     def with_roots(self, roots: Sequence[str]) -> Provenance:
-        """Return the record of a package that templates in these directories are used for now."""
+        """Return the record with the sources of the templates that are now used."""
         now = [Source(item.url, item.name, item.commit) for item in content.revisions(roots)]
         urls = {source.url for source in now}
         others = [source for source in self.sources if source.url not in urls]
@@ -100,7 +100,7 @@ class Provenance(NamedTuple):
         """Return the record with lost files that are found elsewhere.
 
         Args:
-            candidates: Files by path; one is used only if it has the recorded hash.
+            candidates: Files by path; one is only used if it has the recorded hash.
         """
         matching = {
             path: candidates[path].decode(errors="replace")
@@ -114,15 +114,15 @@ class Provenance(NamedTuple):
         """Return the record and its sidecar as files.
 
         Args:
-            is_new: The package has no sidecar so far: git has to learn how to merge both.
+            is_new: Whether there is no sidecar yet, so that git attributes are needed.
         """
         attributes = {ATTRIBUTES: _ATTRIBUTES} if is_new else {}
         return {**attributes, BASES: bases.text(self.rendered), NAME: self.text()}
 
     def text(self) -> str:
-        """Return the record as a file, in which every line can be merged by itself.
+        """Return the text of the record, in which every line can be merged by itself.
 
-        The last entry of what grows is always the same: git keeps the new lines of both sides of
+        Growing lists always have the same last entry: git keeps the new lines of both sides of
         a merge, and each of them ends in a comma.
         """
         parts = self.answers.get(ADD, [])
@@ -160,12 +160,12 @@ def parse(text: str, path: str, sidecar: str | None = None) -> Provenance:
     """Return the record in a file.
 
     Args:
-        text: What is in it.
+        text: Its content.
         path: For messages.
         sidecar: The file next to it; ``None`` if there is none.
 
     Raises:
-        InputError: it is damaged, a merge has left a conflict in it, or a newer version of this
+        InputError: it is damaged, has a merge conflict, or a newer version of this
             tool wrote it.
     """
     bases.refuse_conflict(text, path)
@@ -207,13 +207,13 @@ class _TypeError(Exception):
 
 
 _MOST_SIDES = 100
-"""How often an entry is there after merges, and how long lists are of which one is made."""
+"""The maximum number of duplicates of an entry, and of items of merged lists."""
 
 
 def _merged_entries(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object of JSON; a merge may have kept an entry of both sides.
+    """Return a JSON object; a merge may have kept an entry of both sides.
 
-    Lists become one, and of other entries there is a tuple, which JSON does not have.
+    Lists are joined; other duplicates become a tuple, which JSON does not have.
     """
     entries: dict[str, Any] = {}
     for name, value in pairs:
@@ -234,9 +234,9 @@ def _newest(version: object) -> str:
 
 
 def _merged_answers(answers: object) -> dict[str, Any]:
-    """Return the answers; where two sides of a merge differ, the question is asked again.
+    """Return the answers without those that differ between the sides of a merge.
 
-    That is the description, which follows from the parts unless the user has given one.
+    These are derived again: the description, unless the user has given one.
     """
     if not isinstance(answers, dict):
         raise _TypeError
@@ -264,7 +264,7 @@ def _hashes(entries: object) -> dict[str, tuple[str, ...]]:
 
 
 def _sources(entries: object) -> tuple[Source, ...]:
-    """Return the repositories that templates came from."""
+    """Return the git repositories of the templates."""
     if not isinstance(entries, list):
         raise _TypeError
     sources = [entry for entry in entries if entry is not None]
@@ -277,7 +277,7 @@ def _sources(entries: object) -> tuple[Source, ...]:
 
 
 def _unpacked(packed: str) -> dict[str, str]:
-    """Return the files of a record that has them in itself."""
+    """Return the files of a record without a sidecar."""
     decoder = zlib.decompressobj()
     files = json.loads(decoder.decompress(base64.b64decode(packed), bases.MOST))
     if not isinstance(files, dict) or not all(isinstance(text, str) for text in files.values()):
@@ -287,13 +287,13 @@ def _unpacked(packed: str) -> dict[str, str]:
 
 
 def _refuse_surrogates(texts: Iterable[str]) -> None:
-    """Raise ValueError for what JSON can say and no file can hold."""
+    """Raise ValueError for lone surrogates, which JSON allows but no file can contain."""
     for text in texts:
         text.encode()
 
 
 def _refuse_newer(version: str, path: str) -> None:
-    """Raise if a later release wrote a record: this one would take back what that one changed."""
+    """Raise if a later release wrote a record: this one would revert its changes."""
     if _release(version) > _release(__version__):
         raise InputError(
             f"{path}: written by ros2-scaffold {version}, but this is {__version__}; install "
@@ -302,7 +302,7 @@ def _refuse_newer(version: str, path: str) -> None:
 
 
 def _release(version: str) -> list[int]:
-    """Return the numbers of a release, except those of betas and the like."""
+    """Return the numbers of a version, without pre-release parts."""
     release = re.match(r"\d+(\.\d+)*", version)
     numbers = [int(number) for number in release[0].split(".")] if release else []
     while numbers and not numbers[-1]:
@@ -311,13 +311,13 @@ def _release(version: str) -> list[int]:
 
 
 _MOST_DEEP = 10
-"""Levels of answers; generated ones have four."""
+"""The maximum depth of answers; generated ones have four levels."""
 
 
 def _depth(value: object) -> int:
-    """Return how deep lists and mappings are nested; what is too deep is skipped.
+    """Return the nesting depth of lists and mappings, up to a limit.
 
-    A tuple, which is an entry that two sides of a merge differ in, is too deep anywhere.
+    A tuple, which is an entry that differs between two sides of a merge, is too deep anywhere.
     """
     depth, level = 0, [value]
     while level and depth <= _MOST_DEEP:
@@ -337,7 +337,7 @@ def _depth(value: object) -> int:
 
 
 def _are_answers(answers: object) -> bool:
-    """Tell whether answers have the form in which they are kept; each is judged later."""
+    """Tell whether answers have the right structure; each is validated later."""
     if not isinstance(answers, dict) or not isinstance(answers.get("package"), str):
         return False
     if _depth(answers) > _MOST_DEEP:

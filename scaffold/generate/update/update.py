@@ -36,16 +36,16 @@ class Updated(NamedTuple):
     """A package updated to the current templates, in memory."""
 
     files: Mapping[str, bytes]
-    """What is written: files that change, and the record with its sidecar."""
+    """The files to write: changed ones, and the record with its sidecar."""
     executable: frozenset[str]
     conflicts: Mapping[str, int]
-    """How many places of a file the user has to decide, by path."""
+    """The number of conflicts of a file, by path."""
     remarks: tuple[str, ...]
-    """What the user should know, a line each."""
+    """Notes for the user, one line each."""
 
     @property
     def changed(self) -> list[str]:
-        """The files that change, besides the record and its sidecar."""
+        """The changed files, besides the record and its sidecar."""
         return [path for path in self.files if path not in HIDDEN]
 
 
@@ -59,7 +59,7 @@ def update(
     *,
     moved: Sequence[Distribution] | None = None,
 ) -> Updated:
-    """Merge the difference between the recorded files and those of today into the user's.
+    """Merge the difference between the recorded and the newly rendered files into the user's.
 
     Args:
         tree: The package.
@@ -68,11 +68,11 @@ def update(
         templates: The templates in them.
         user: Supplies answers to new questions.
         place: The git repository that the package is in.
-        moved: The distributions that it is for from now on, if these are to be others.
+        moved: The new target distributions, if they are to change.
 
     Raises:
-        InputError: the package has no record, a damaged one, or answers that the templates of
-            today do not accept.
+        InputError: the package has no record, a damaged one, or answers that the current
+            templates do not accept.
         ContentError: a template is broken.
     """
     provenance = read(tree, where)
@@ -107,12 +107,12 @@ def update(
 
 
 def recorded_content(tree: Tree, where: str, given: Sequence[str]) -> list[str]:
-    """Return the repositories that the templates of a package came from, as ``--content`` has them.
+    """Return the git repositories of the templates of a package, as given to ``--content``.
 
     Args:
         tree: The package.
         where: Its directory, for messages.
-        given: Content that the user names; of a repository in it, this revision counts.
+        given: Content given by the user; its revision of a repository takes precedence.
 
     Raises:
         InputError: the record is damaged, or has two revisions of a repository.
@@ -153,7 +153,7 @@ def read(tree: Tree, where: str) -> Provenance:
 
 
 def refuse_lost(provenance: Provenance, where: str, needed: Collection[str]) -> None:
-    """Raise InputError if what the templates gave for a file is needed and lost."""
+    """Raise InputError if a needed base of a file is lost."""
     lost = sorted(provenance.lost.keys() & set(needed))
     if lost:
         raise InputError(
@@ -165,7 +165,7 @@ def refuse_lost(provenance: Provenance, where: str, needed: Collection[str]) -> 
 def recorded(
     provenance: Provenance, templates: Mapping[str, Template], where: str, remarks: list[str]
 ) -> dict[str, Given]:
-    """Return the recorded answers that the templates of today still ask for."""
+    """Return the recorded answers that the current templates still ask for."""
     origin = f"{where}/{NAME}"
     names = {question.name for question in questions.unique(templates.values())}
     given: dict[str, Given] = {}
@@ -196,7 +196,7 @@ def _known_part(
 
 
 def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict[str, bytes]:
-    """Return those of some files that are there, in the package or at the top of the repository."""
+    """Return the existing ones of some files, in the package or at the top of the repository."""
     files = set(tree.files)
     result: dict[str, bytes] = {}
     for path in filter(is_below, paths):
@@ -213,7 +213,7 @@ def _present(tree: Tree, where: str, place: Place, paths: Iterable[str]) -> dict
 
 
 def _refuse_undecided(present: Mapping[str, bytes], where: str, made: Draft) -> None:
-    """Raise if a merge left something to decide: another one would garble it."""
+    """Raise if a file has unresolved conflicts, which another merge would garble."""
     for path in sorted(present.keys() & set(made.rendered.files)):
         if all(mark.encode() in present[path] for mark in MARKS):
             raise InputError(

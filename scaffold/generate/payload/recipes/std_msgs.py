@@ -13,7 +13,7 @@ _SINE = Recipe(
 
 
 def _counter(bits: int) -> Recipe:
-    """Return a counter that starts again before an integer would overflow."""
+    """Return a counter that wraps around before an integer overflows."""
     end = 2**bits - 1
     limit = str(end + 1) if bits <= 16 else f"2**{bits}"  # noqa: PLR2004  readable up to 65536
     return Recipe(
