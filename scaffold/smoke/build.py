@@ -19,7 +19,7 @@ from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.result import Build
 
 _COMPILED = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".msg", ".srv", ".action", ".idl")
-"""What needs a compiler, or is made into something that does."""
+"""Files that need a compiler, or from which such files are generated."""
 
 _INCLUDES = Path(__file__).with_name("embedded") / "includes.cmake"
 
@@ -29,7 +29,7 @@ _JOB = re.compile(
 )
 _REPEAT_STARTS = "--- stderr: "
 _REPEAT_ENDS = "---"
-"""Around what colcon repeats on the console from the logs of the packages."""
+"""The lines around package logs that colcon repeats on the console."""
 _SUCCESS = re.compile(r"'rc': 0\b")
 
 
@@ -58,19 +58,19 @@ async def build(
     with_tests: bool = False,
     done: dict[str, Build] | None = None,
 ) -> dict[str, Build]:
-    """Build packages; return what became of each, by name.
+    """Build packages; return the results by name.
 
-    Colcon is started again for packages that had no turn, because another made it fail.
+    Colcon is started again for packages that were not reached because another one made it fail.
 
     Args:
         environment: The ROS 2 to build with.
-        packages: They are built where they are; nothing is written to them.
+        packages: The packages, which are built in place; nothing is written to them.
         layout: The directories for build, install and log.
         scratch: A directory for the output of colcon itself.
         origin: The run that it belongs to.
-        timeout: Seconds after which the build is given up.
+        timeout: Seconds after which the build is aborted.
         with_tests: Whether tests are built as well.
-        done: Gets what became of each, also when the build is interrupted.
+        done: Receives the results, also of an interrupted build.
     """
     deadline = time.monotonic() + timeout
     done = {} if done is None else done
@@ -112,9 +112,9 @@ def _resolved(path: Path) -> str:
 async def _run(
     command: list[str], variables: Mapping[str, str], out: Path, origin: Origin, deadline: float
 ) -> tuple[str, int | None, list[str]]:
-    """Return the output of colcon, its exit code, and the processes that it left running.
+    """Return the output of colcon, its exit code, and its remaining processes.
 
-    The exit code is ``None`` if time was up before.
+    The exit code is ``None`` after a timeout.
     """
     run = await process.start(command, variables, out, origin)
     try:
@@ -202,7 +202,7 @@ def _has_compiler(variables: Mapping[str, str], variable: str, names: tuple[str,
 
 
 def without_repeats(console: str) -> str:
-    """Return what colcon itself has written, line by line: a log may hold anything."""
+    """Return the output of colcon itself, without the repeated logs of packages."""
     lines = console.splitlines(keepends=True)
     ends = {index for index, line in enumerate(lines) if line.rstrip("\n") == _REPEAT_ENDS}
     last_end = max(ends, default=-1)
@@ -221,7 +221,7 @@ def without_repeats(console: str) -> str:
 @dataclass
 class _Job:
     queued: str = ""
-    """What colcon says about it at first; names its dependencies in quotes."""
+    """The first message of colcon about it, with its dependencies in quotes."""
     started: float = 0.0
     ended: float | None = None
     succeeded: bool = False
@@ -234,12 +234,12 @@ class _Log:
 
     directory: Path
     jobs: Mapping[str, _Job] | None
-    """By package; ``None`` with a colcon that lacks colcon-output."""
+    """The jobs by package; ``None`` if colcon lacks colcon-output."""
     console: str
-    """On its own stdout and stderr."""
+    """The stdout and stderr of colcon itself."""
     succeeded: bool
     left_running: tuple[str, ...] = ()
-    """Processes that have outlived the build."""
+    """Processes that survived the build."""
 
     @classmethod
     def read(cls, directory: Path, text: str, *, succeeded: bool) -> _Log:
@@ -264,12 +264,12 @@ class _Log:
         return cls(directory, jobs, without_repeats(text), succeeded)
 
     def has_ended(self, name: str) -> bool:
-        """Tell whether the build got to the end of a package."""
+        """Tell whether the build of a package ended."""
         job = (self.jobs or {}).get(name)
         return job is not None and job.ended is not None
 
     def had_no_turn(self, name: str) -> bool:
-        """Tell whether the build ended early, for no reason that concerns this package."""
+        """Tell whether the build ended before this package for an unrelated reason."""
         job = (self.jobs or {}).get(name)
         return job is not None and job.skipped and not self._failed_dependencies(job)
 

@@ -22,7 +22,7 @@ _Entity = TypeVar("_Entity", bound=Endpoint)
 
 
 def expectations(package: Package) -> dict[str, Expectation]:
-    """Return what is expected of the executables that are Python, by their names."""
+    """Return the expectations of Python executables, by name."""
     result: dict[str, Expectation] = {}
     for start in starts_of(package):
         expectation = _expectation(package, start)
@@ -50,13 +50,13 @@ def _expectation(package: Package, start: EntryPoint) -> Expectation | None:
 
 
 def _has_own_arguments(file: RclpyFile) -> bool:
-    """Tell whether a program gives itself ROS arguments, which may change all names and rates."""
+    """Tell whether a program passes ROS arguments to itself, which may change names and rates."""
     texts = (node.value for node in file.module.walk(ast.Constant) if isinstance(node.value, str))
     return any(text.split()[:1] == ["--ros-args"] for text in texts)
 
 
 def _is_node(package: Package, file: RclpyFile) -> bool | None:
-    """Tell whether a file uses rclpy; ``None`` if it may, through another of the package."""
+    """Tell whether a file uses rclpy; ``None`` if it may do so through another module."""
     if file.uses_rclpy:
         return True
     roots = set(file.module.imports_by_root)
@@ -94,7 +94,7 @@ def _publications(
 
 
 def _offers(owners: Iterable[NodeDefinition], starts: Sequence[FunctionNode]) -> Iterator[Offer]:
-    """Yield the services and actions that are there once the nodes are made."""
+    """Yield the services and actions that exist once the nodes are constructed."""
     for owner in owners:
         for service in _made(owner, starts, lambda item: item.services):
             name = _resolved(service.name, owner)
@@ -111,7 +111,7 @@ def _made(
     starts: Sequence[FunctionNode],
     own: Callable[[NodeDefinition], Sequence[_Entity]],
 ) -> Iterator[_Entity]:
-    """Yield what exists of a kind once the node is made."""
+    """Yield the entities of a kind that exist once the node is constructed."""
     if not isinstance(owner, NodeClass):
         for entity in own(owner):
             if not entity.is_conditional and entity.function in {*starts, None}:
@@ -135,7 +135,7 @@ def _made(
 
 
 def _constructors(owner: NodeClass) -> Iterator[FunctionNode]:
-    """Yield what makes the parts of a node; of a managed one, also what leads it up."""
+    """Yield the methods that create the entities of a node: constructor and lifecycle callbacks."""
     if owner.constructor is not None:
         yield owner.constructor
     for item in owner.node.body if owner.is_lifecycle else ():
@@ -168,7 +168,7 @@ def _resolved(topic: str | Unknown, owner: NodeDefinition) -> str | None:
 
 
 def _merged(publications: Iterable[Publication]) -> tuple[Publication, ...]:
-    """Join what is published on the same topic: the rates add up."""
+    """Merge publications on the same topic: their rates add up."""
     result: dict[str, Publication] = {}
     for publication in publications:
         other = result.get(publication.topic)

@@ -25,7 +25,7 @@ from scaffold.smoke.processes.process import Captured, Origin
 INSTALLED = Path("/opt/ros")
 DEFAULT_RMW = "rmw_fastrtps_cpp"
 TIMEOUT = 120.0
-"""Seconds for the start of an interpreter or a shell, on a machine that is busy."""
+"""Seconds for the start of an interpreter or a shell on a busy machine."""
 
 _PASSED_ON = frozenset(
     {
@@ -33,11 +33,11 @@ _PASSED_ON = frozenset(
         "DISPLAY", "WAYLAND_DISPLAY", "XAUTHORITY", "XDG_RUNTIME_DIR", "CC", "CXX",
     }
 )  # fmt: skip
-"""What of the user's variables an environment made from nothing needs, besides ``LC_*``."""
+"""User variables that a clean environment inherits, besides ``LC_*``."""
 
 _ROS_PREFIXES = ("ROS_", "RMW_", "RCUTILS_", "AMENT_", "COLCON_", "FASTRTPS_", "FASTDDS_")
 _ROS_VARIABLES = frozenset({"CMAKE_PREFIX_PATH", "PYTHONPATH", "CYCLONEDDS_URI"})
-"""With the prefixes above: what sourcing another installation may have left behind."""
+"""Variables that another installation may have set, besides those with the prefixes above."""
 
 _FROM_OUTSIDE = frozenset(
     {
@@ -47,7 +47,7 @@ _FROM_OUTSIDE = frozenset(
         "FASTDDS_DEFAULT_PROFILES_FILE", "COLCON_DEFAULTS_FILE",
     }
 )  # fmt: skip
-"""What would let an executable under test reach other machines, or change how it is built."""
+"""Variables that would let executables reach other machines, or change the build."""
 
 _NO_RUN = Origin("environment")
 
@@ -71,7 +71,7 @@ class Environment:
     distribution: str = ""
     """Its name, such as ``jazzy``; empty if unknown."""
     notes: tuple[str, ...] = ()
-    """Why an environment that the user may have expected was not taken."""
+    """Why environments that the user may expect were not used."""
 
 
 class _UnusableError(Exception):
@@ -88,16 +88,16 @@ def select(
     own_prefix: str = sys.prefix,
     origin: Origin = _NO_RUN,
 ) -> Environment:
-    """Return the first environment that can be used, or the one that is asked for.
+    """Return the first usable environment, or the requested one.
 
     Args:
         variables: The environment variables of this process.
         forced: ``sourced``, ``wheels``, the name of an installation, or its directory.
-        wanted: The distributions that count; any without one.
-        paths: What is to be run, for the message.
-        installed: Where installations are, one directory for each distribution.
+        wanted: The accepted distributions; any if empty.
+        paths: The paths to run, for the message.
+        installed: The directory of installations, with one directory per distribution.
         own_prefix: The Python environment that may hold the ROS wheels.
-        origin: The run that it is for.
+        origin: The run.
 
     Raises:
         EnvironmentMissingError: there is none.
@@ -129,7 +129,7 @@ def select(
 
 
 def _named(environment: Environment) -> str:
-    """Return an environment in words."""
+    """Describe an environment in words."""
     if environment.kind == "sourced":
         return "the sourced environment"
     return f"{'the wheels in ' if environment.kind == 'wheels' else ''}{environment.prefix}"
@@ -138,13 +138,13 @@ def _named(environment: Environment) -> str:
 def _ways(
     wanted: Sequence[Distribution], why: str, paths: Sequence[str], *, has_wheels: bool
 ) -> str:
-    """Return that there is none of the distributions, and how to get one.
+    """Return a message that no environment has one of the distributions, and how to get one.
 
     Args:
-        wanted: The distributions, each of which would do.
-        why: Why none of the environments can be used.
+        wanted: The accepted distributions.
+        why: Why no environment is usable.
         paths: What is run.
-        has_wheels: Whether the environment of this tool has wheels already, of another one.
+        has_wheels: Whether the environment of this tool has wheels of another distribution.
     """
     ways = ["source the setup file of an installation"]
     for distribution in wanted:
@@ -167,10 +167,10 @@ def _ways(
 def _forced(
     wanted: str, variables: Mapping[str, str], installed: Path, own_prefix: str, origin: Origin
 ) -> Environment:
-    """Return the environment that is asked for.
+    """Return the requested environment.
 
     Raises:
-        _UnusableError: it is not there, or cannot be used.
+        _UnusableError: it does not exist or is unusable.
     """
     if wanted == "sourced":
         if not variables.get("AMENT_PREFIX_PATH"):
@@ -191,27 +191,27 @@ def _forced(
 
 
 def source(setup: Path, variables: Mapping[str, str], origin: Origin = _NO_RUN) -> dict[str, str]:
-    """Return the variables as they are after a shell has read a setup file.
+    """Return the variables after sourcing a setup file in a shell.
 
     Raises:
-        EnvironmentMissingError: the shell gave up.
+        EnvironmentMissingError: the shell failed.
     """
     done = process.capture(*sourcing(setup, variables), origin, TIMEOUT)
     return sourced_variables(setup, done)
 
 
 def sourcing(setup: Path, variables: Mapping[str, str]) -> tuple[list[str], Mapping[str, str]]:
-    """Return the command that has a shell read a setup file, and the variables for it."""
+    """Return the command that sources a setup file in a shell, and its variables."""
     name = "bash" if setup.suffix == ".bash" else "sh"
     shell = shutil.which(name, path=variables.get("PATH") or os.defpath) or f"/bin/{name}"
     return [shell, "-c", '. "$1" && exec env -0', shell, str(setup)], variables
 
 
 def sourced_variables(setup: Path, done: Captured) -> dict[str, str]:
-    """Return the variables that such a command has printed.
+    """Parse the variables printed by this command.
 
     Raises:
-        EnvironmentMissingError: the shell gave up.
+        EnvironmentMissingError: the shell failed.
     """
     if done.exit_code:
         last = done.err.strip().rpartition("\n")[2] or f"exit code {done.exit_code}"
@@ -311,10 +311,10 @@ def _wheels(variables: Mapping[str, str], prefix: str) -> Environment:
 def _from_variables(
     kind: str, variables: Mapping[str, str], description: str, origin: Origin
 ) -> Environment:
-    """Return the environment that these variables make.
+    """Return the environment described by variables.
 
     Raises:
-        _UnusableError: it cannot build or cannot run.
+        _UnusableError: it cannot build or run packages.
     """
     path = variables.get("PATH") or os.defpath
     python = shutil.which("python3", path=path)
@@ -347,7 +347,7 @@ def _from_variables(
 
 
 def _rmw(prefixes: list[str], wanted: str | None) -> str:
-    """Return the middleware: the wanted one if it is there and works without a router."""
+    """Return the middleware: the wanted one if it is installed and works without a router."""
     result: set[str] = set()
     for prefix in prefixes:
         index = os.path.join(prefix, "share/ament_index/resource_index/rmw_typesupport")
@@ -366,7 +366,7 @@ def _has_package(prefix: str, name: str) -> bool:
 
 
 def _without_bootstrap(variables: Mapping[str, str]) -> dict[str, str]:
-    """Take back what ROS wheels have set for this process: it misleads those of another Python."""
+    """Remove variables set by the ROS wheels of this process, wrong for another Python."""
     clean = dict(variables)
     if clean.pop(_BOOTSTRAPPED, None) is None:
         return clean

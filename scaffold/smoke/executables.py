@@ -29,10 +29,10 @@ class ExecutableRuns:
     """Runs executables, as many in parallel as there are jobs.
 
     Args:
-        plan: What is the same for all runs.
-        options: How it is done.
-        expected: What is expected of the executables.
-        tell: Called with what is going on.
+        plan: The settings common to all runs.
+        options: The options of the run.
+        expected: The expectations of the executables.
+        tell: Called with the current activity.
     """
 
     def __init__(
@@ -55,8 +55,8 @@ class ExecutableRuns:
         """Run all executables of packages.
 
         Args:
-            packages: They have been built.
-            done: Gets what came of each, by package and name, also when the run is interrupted.
+            packages: The built packages.
+            done: Receives the results by package and name, also when the run is interrupted.
         """
         runs = []
         for package in packages:
@@ -106,7 +106,7 @@ class ExecutableRuns:
     async def _try(
         self, path: Path, expectation: Expectation, label: str, trials: list[NodeRun]
     ) -> None:
-        """Run an executable, once for every signal; the first of the trials is the observed one."""
+        """Run an executable once for every signal; the first run is the observed one."""
         first, *others = self._options.signals
         await _observed(self._plan, path, expectation, f"{label}/{first.name}", first, trials)
         for number in others:
@@ -131,7 +131,7 @@ async def _observed(
     number: Signals,
     trials: list[NodeRun],
 ) -> None:
-    """Observe an executable, and once more when its rate is wrong: that may be the machine's."""
+    """Observe an executable, again if its rate is wrong, which may be due to a busy machine."""
     first = await trial.run(plan, path, expectation, label, number, first=trials[0])
     wrong = wrong_rates(expectation, first.observation) if first.stopped_cleanly else []
     if not wrong:
@@ -143,7 +143,7 @@ async def _observed(
 
 
 async def _all(runs: Sequence[Coroutine[Any, Any, None]]) -> None:
-    """Run coroutines at the same time; all have ended when this ends, in whatever way.
+    """Run coroutines concurrently; all have ended when this returns or raises.
 
     ``asyncio.gather`` would go on as soon as the first of them is cancelled.
     """

@@ -20,7 +20,7 @@ ENOUGH_SECONDS_SLOW = 3.0
 LATENESS = 0.05
 """Seconds by which the first or the last message may be late."""
 PATIENCE = 2
-"""Periods that have to pass before silence means something."""
+"""Periods without a message before a topic counts as silent."""
 
 
 _SIM_TIME = "use_sim_time"
@@ -37,11 +37,11 @@ class Publication:
     rate_hz: float | None = None
     """``None`` if the number is unknown."""
     certain: bool = False
-    """It publishes without anything having to happen before."""
+    """Whether it is published without a precondition."""
     never: bool = False
-    """Its source makes the publisher, and nothing that is run publishes."""
+    """Whether the publisher is created but never used."""
     sources: int = 1
-    """Timers and calls that make up the rate: so many messages may come at once."""
+    """The number of timers and calls behind the rate: so many messages may arrive at once."""
     timer_hz: float | None = None
     """How often timers publish it, unless their callbacks return or raise before."""
     tolerance: float | None = None
@@ -71,9 +71,9 @@ class Expectation:
     publications: tuple[Publication, ...] = ()
     offers: tuple[Offer, ...] = ()
     is_node: bool | None = None
-    """Whether it uses rclpy; ``None``: the source is not known."""
+    """Whether it uses rclpy; ``None`` if the source is unknown."""
     runs_nothing: bool = False
-    """It is a script that defines nodes and makes none."""
+    """Whether it is a script that defines nodes but creates none."""
     source: str | None = None
     """The file with the expectation."""
     exit_code: int | None = None
@@ -87,10 +87,10 @@ def compare(
     """Return the problems and the notes.
 
     Args:
-        expectation: What the source says.
-        observation: What was seen.
+        expectation: The expectation from the source.
+        observation: The observation.
         seconds: How long it ran until the end of the observation.
-        finished: Whether it has ended by itself, without a complaint.
+        finished: Whether it has exited by itself without an error.
     """
     problems = [
         *(
@@ -128,7 +128,7 @@ def compare(
 
 
 def wrong_rates(expectation: Expectation, observation: Observation) -> list[Problem]:
-    """Return the problems that a machine may have made that was too busy to be in time."""
+    """Return the problems that may be caused by a busy machine."""
     return [
         problem
         for publication in expectation.publications
@@ -193,7 +193,7 @@ def _silent(
 
 
 def _stands_still(observation: Observation) -> str:
-    """Return why timers do not run, if that is seen."""
+    """Return why timers do not run, if known."""
     clock = observation.topic("/clock")
     if clock is not None and clock.publishers:
         return ""

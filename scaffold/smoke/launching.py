@@ -28,7 +28,7 @@ source = AnyLaunchDescriptionSource(sys.argv[1])
 service.include_launch_description(LaunchDescription([IncludeLaunchDescription(source)]))
 sys.exit(service.run())
 """
-"""What `ros2 launch` does, which the ROS wheels lack."""
+"""A replacement for `ros2 launch`, which the ROS wheels lack."""
 
 
 def require(environment: Environment, packages: Sequence[Package], origin: Origin) -> None:
@@ -36,8 +36,8 @@ def require(environment: Environment, packages: Sequence[Package], origin: Origi
 
     Args:
         environment: The ROS 2.
-        packages: Those to build, which may have launch among them.
-        origin: The run that it is for.
+        packages: The packages to build, which may include launch.
+        origin: The run.
 
     Raises:
         EnvironmentMissingError: there is no launch_ros; the message says how to get it.
@@ -66,7 +66,7 @@ def groups(package: str, python: str, variables: Mapping[str, str]) -> list[Grou
     Args:
         package: Its name.
         python: The interpreter that has launch.
-        variables: Those of the environment with the built packages in it.
+        variables: The variables of the environment with the built packages.
     """
     for prefix in variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
         share = Path(prefix, "share", package)

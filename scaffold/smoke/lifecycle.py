@@ -11,7 +11,7 @@ from scaffold.smoke.scenario.model import Call
 
 _NUMBERS = {"configure": 1, "cleanup": 2, "activate": 3, "deactivate": 4}
 _SHUTDOWN = {"unconfigured": 5, "inactive": 6, "active": 7}
-"""Numbers of transitions, those of ``lifecycle_msgs/msg/Transition``; of a shutdown by state."""
+"""Numbers of ``lifecycle_msgs/msg/Transition``; those of a shutdown depend on the state."""
 _STARTS = {
     "configure": ("unconfigured",),
     "activate": ("inactive",),
@@ -37,9 +37,9 @@ class Lifecycles:
     """The lifecycle nodes of an executable.
 
     Args:
-        observer: It has seen them.
+        observer: The observer, which has discovered them.
         running: The executable.
-        timeout: Seconds that an answer may take.
+        timeout: Seconds to wait for a response.
     """
 
     def __init__(self, observer: Observer, running: Watched, timeout: float) -> None:
@@ -49,11 +49,11 @@ class Lifecycles:
         self.transitions: list[Transition] = []
 
     async def pause(self, seconds: float, names: Sequence[str]) -> None:
-        """Go on observing for a while; the time begins once the nodes are led up.
+        """Continue to observe for a while after the nodes have been brought up.
 
         Args:
             seconds: How long.
-            names: The transitions that come first.
+            names: The transitions to do first.
 
         Raises:
             ObserverError: the probe has ended.
@@ -66,7 +66,7 @@ class Lifecycles:
         return bool(self._nodes())
 
     async def lead(self, names: Sequence[str]) -> None:
-        """Take all nodes through transitions, one after the other, as far as they follow.
+        """Take all nodes through transitions one after the other, until one fails.
 
         Raises:
             ObserverError: the probe has ended.
@@ -103,7 +103,7 @@ class Lifecycles:
         self.transitions.append(Transition(node, name, before, after, seconds, error))
 
     async def _state(self, node: str) -> tuple[str, str]:
-        """Return the state of a node, and why it is not known."""
+        """Return the state of a node, and why it is unknown."""
         call = Call("service", f"{node}{_GET}", _GET_TYPE)
         answer = await self._observer.call(call, self._timeout, self._running)
         state = (answer.value or {}).get("current_state") or {}

@@ -29,13 +29,13 @@ from scaffold.smoke.scenario.model import Call, Stimulus
 PROBE = Path(__file__).with_name("probe")
 _COPY = "ros2_scaffold_probe"
 START_TIMEOUT = 120.0
-"""Seconds for the start of an interpreter and the import of rclpy, on a machine that is busy."""
+"""Seconds for the start of an interpreter and the import of rclpy on a busy machine."""
 ANSWER_TIMEOUT = 30.0
 LAST_ANSWER_TIMEOUT = 2.0
-"""Seconds for the last answer, to a run that is interrupted."""
+"""Seconds for the last response in an interrupted run."""
 END_TIMEOUT = 5.0
 LONGEST_LINE = 2**24
-"""Bytes of one event: the report holds several messages of every topic."""
+"""The size limit of an event in bytes: the report has several messages of every topic."""
 
 _OF_EVERY_NODE = (
     "/describe_parameters",
@@ -71,11 +71,11 @@ class ObserverError(Exception):
 async def observing(
     python: str, variables: Mapping[str, str], directory: Path, origin: Origin
 ) -> AsyncIterator[Observer]:
-    """Run the probe; it is ready when the block begins, and has ended when the block ends.
+    """Run the probe for the duration of the block.
 
     Args:
         python: The interpreter that has rclpy.
-        variables: The environment variables: they choose the domain.
+        variables: The environment variables, which select the domain.
         directory: For the files of the probe.
         origin: The run that it belongs to.
 
@@ -136,7 +136,7 @@ class Observer:
         return bool(self._nodes) or any(topic["publishers"] for topic in self._topics.values())
 
     def count(self, topic: str) -> int:
-        """Return how many messages of a topic have come, counting the first few only."""
+        """Return the number of messages of a topic, counting only the first few."""
         return self._counts.get(topic, 0)
 
     def offers(self, offer: Offer) -> bool:
@@ -145,7 +145,7 @@ class Observer:
         return offer.name + ending in self._services
 
     def offering(self, ending: str, kind: str) -> list[str]:
-        """Return what comes before the ending in the names of services of a type."""
+        """Return the prefixes of the names of services of a type with an ending."""
         return sorted(
             name.removesuffix(ending)
             for name, type_name in self._services.items()
@@ -155,7 +155,7 @@ class Observer:
     async def wait_for(
         self, condition: Callable[[], bool], timeout: float, running: Watched
     ) -> bool:
-        """Wait until the condition holds after an event, the executable ends, or time is up.
+        """Wait until the condition holds after an event, the executable ends, or the time is up.
 
         Raises:
             ObserverError: the probe has ended.
@@ -173,11 +173,11 @@ class Observer:
         return True
 
     async def pause(self, seconds: float, running: Watched) -> None:
-        """Go on observing for a while, or until the executable ends."""
+        """Continue to observe for a while, or until the executable ends."""
         await self.wait_for(lambda: False, seconds, running)
 
     async def settle(self, seconds: float, timeout: float, running: Watched) -> None:
-        """Wait until nothing has been added for a while: then it has made all it needs."""
+        """Wait until no entities have been added for a while."""
         deadline = time.monotonic() + timeout
         while running.exit_code is None:
             now = time.monotonic()
@@ -187,12 +187,12 @@ class Observer:
             await self.pause(left, running)
 
     def watch_fields(self, paths: Mapping[str, Sequence[str]]) -> None:
-        """Have values of fields looked at, by topic; before the executable is started."""
+        """Record values of fields by topic; to be called before the executable is started."""
         if paths:
             self._tell("fields", topics=paths)
 
     def publish(self, stimulus: Stimulus) -> None:
-        """Publish messages from now on."""
+        """Start to publish messages."""
         self._tell(
             "publish",
             topic=stimulus.topic,
@@ -222,14 +222,14 @@ class Observer:
         return self._answers[number]
 
     def dismiss(self) -> None:
-        """Let the probe go: nothing more is to be seen."""
+        """Stop the probe."""
         self._stdin.close()
 
     async def observation(self, timeout: float = ANSWER_TIMEOUT) -> Observation:
-        """Return all that was seen so far.
+        """Return the observation so far.
 
         Args:
-            timeout: Seconds that the probe has to answer.
+            timeout: Seconds for the response of the probe.
 
         Raises:
             ObserverError: the probe has ended or does not answer.
@@ -244,7 +244,7 @@ class Observer:
         return self._as_observation(self._reports.pop())
 
     async def get_ready(self) -> None:
-        """Wait until the probe watches.
+        """Wait until the probe is ready.
 
         Raises:
             ObserverError: it does not.
@@ -257,7 +257,7 @@ class Observer:
             await self._event_or(None, left)
 
     async def read(self) -> None:
-        """Take in what the probe tells until it ends."""
+        """Process the events of the probe until it ends."""
         async for line in self._stdout:
             self._take(json.loads(line))
             self._changed.set()
@@ -267,7 +267,7 @@ class Observer:
     # -- inside
 
     async def _event_or(self, other: asyncio.Future[None] | None, timeout: float) -> None:
-        """Wait for an event of the probe, for something else, or for the time to pass."""
+        """Wait for an event of the probe, another event, or the timeout."""
         if self._ended:
             last = "".join(output.tail(output.read(self._errors), 1))
             raise ObserverError(f"the observer has exited: {last or 'no message'}")
@@ -299,7 +299,7 @@ class Observer:
             self._take_graph(event)
 
     def _take_graph(self, graph: Mapping[str, Any]) -> None:
-        """Keep the most that was ever seen: an executable that has ended takes all away."""
+        """Keep the largest graph, as that of an executable that has ended is empty."""
         self._graph_changed = time.monotonic()
         self._nodes.update(graph["nodes"])
         self._doubled = {name for name, count in Counter(graph["nodes"]).items() if count > 1}

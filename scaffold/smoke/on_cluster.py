@@ -78,15 +78,15 @@ def smoke_on_cluster(
     """Run packages on a cluster, each in a task of its own.
 
     Args:
-        address: Of the scheduler.
-        packages: Those to run, and what they need.
-        options: How each is run.
-        progress: Called with what is going on.
-        announce: Called with each package that is done.
-        interruption: Takes the signals that ask for the end.
+        address: The address of the scheduler.
+        packages: The packages to run, with their dependencies.
+        options: The options of each run.
+        progress: Called with the current activity.
+        announce: Called with each finished package.
+        interruption: Handles the signals that end the run.
 
     Raises:
-        EnvironmentMissingError: there is no cluster, or it cannot be used.
+        EnvironmentMissingError: there is no usable cluster.
     """
     begun = time.monotonic()
     wanted = [package for package in packages if options.runs(package.name)]
@@ -133,7 +133,7 @@ def _verdict(item: Done[Outcome]) -> str:
 
 
 def _of_package(package: Package, done: Done[Outcome] | None) -> PackageResult:
-    """Return the result of a package with paths of this machine."""
+    """Return the result of a package with the paths of this machine."""
     manifest = in_repository(package, MANIFEST)
     if done is None:
         build = Build(ok=False, interrupted=True)

@@ -17,10 +17,10 @@ TIMEOUT = 900.0
 
 
 def only_build(packages: Sequence[Package]) -> dict[str, Build]:
-    """Build packages in a directory that is removed; return what became of each, by name.
+    """Build packages in a temporary directory; return the results by name.
 
     Raises:
-        EnvironmentMissingError: there is no ROS 2 to do it with.
+        EnvironmentMissingError: there is no usable ROS 2.
     """
     with leftovers.recorded_run() as run:
         selected = environment.select(os.environ, origin=run.origin)

@@ -11,28 +11,28 @@ from scaffold.distributions import Distribution
 from scaffold.smoke.cleanup.workspace_lock import WAIT
 
 Progress = Callable[[str], None]
-"""Called with what is going on, in a few words."""
+"""Called with the current activity in a few words."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """How a run is done; times are in seconds."""
+    """The options of a run; times are in seconds."""
 
     duration: float = 5.0
-    """Observation after the first sign of life."""
+    """The time to observe after the first sign of life."""
     timeout: float = 20.0
-    """From the start of an executable to its first sign of life and to its first messages."""
+    """The limit from the start of an executable to its first sign of life and messages."""
     build_timeout: float = 900.0
     signals: tuple[signal.Signals, ...] = (signal.SIGINT,)
     workspace: Path | None = None
-    """Where build, install and log go; ``None``: into the scratch directory."""
+    """The directory for build, install and log; ``None``: the scratch directory."""
     keep: bool = False
     workspace_wait: float = WAIT
-    """For another run in the same workspace to end."""
+    """The time to wait for another run in the same workspace."""
     jobs: int = 4
-    """Executables that run at the same time, each in its own domain."""
+    """The number of executables run in parallel, each in its own domain."""
     run_only: frozenset[str] | None = None
-    """The packages whose executables are run; the others are built, as those need them."""
+    """The packages whose executables are run; the others are built as dependencies."""
 
     test: bool = False
     """Whether the tests of the packages are run as well."""
@@ -41,13 +41,13 @@ class Options:
     """Whether all executables of a package are also run in one domain."""
 
     wanted: Sequence[Distribution] = ()
-    """The distributions that count; any without one."""
+    """The accepted distributions; any if empty."""
 
     launch: bool = False
     """Whether the launch files of a package are also run."""
 
     ros: str | None = None
-    """The environment to take; ``None``: the first that can be used."""
+    """The environment to use; ``None``: the first usable one."""
 
     def runs(self, package: str) -> bool:
         """Tell whether the executables of a package are run."""

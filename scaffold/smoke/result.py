@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Problem:
-    """Something that is wrong, with the lines of output that show it."""
+    """A problem, with the lines of output that show it."""
 
     message: str
     output: tuple[str, ...] = ()
@@ -20,7 +20,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Spread:
-    """Figures about many numbers: sizes in bytes, times in seconds."""
+    """Statistics of numbers: sizes in bytes, times in seconds."""
 
     count: int
     mean: float
@@ -43,7 +43,7 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic as another process saw it."""
+    """A topic as observed by another process."""
 
     name: str
     type: str
@@ -60,32 +60,32 @@ class Topic:
     messages: tuple[Any, ...] = ()
     """The first messages, as nested dictionaries."""
     types: tuple[str, ...] = ()
-    """All types in use on the topic: more than one is a mistake."""
+    """All types in use on the topic; more than one is an error."""
     error: str | None = None
     """Why the messages could not be read."""
     endpoints: tuple[Endpoint, ...] = ()
     first: float | None = None
-    """When the first message was sent, as ``time.time`` tells it."""
+    """When the first message was sent, in seconds of ``time.time``."""
     first_after: float | None = None
     """Seconds from the start of the executable to its first message."""
     lost: int | None = None
     """Messages that were sent and not received; ``None`` if the middleware does not count them."""
     interval: Spread | None = None
-    """Between messages."""
+    """The intervals between messages."""
     bytes: int = 0
-    """Of all messages, serialized."""
+    """The size of all messages, serialized."""
     size: Spread | None = None
-    """Of a message, serialized."""
+    """The sizes of messages, serialized."""
     delay: Spread | None = None
-    """From the stamp in the header to the sending."""
+    """The times from the stamp in the header to sending."""
     transport: Spread | None = None
-    """From the sending to the arrival."""
+    """The times from sending to arrival."""
     rates: tuple[tuple[float, float], ...] = ()
     """Seconds since the first message, and the rate until then."""
 
     @property
     def bandwidth(self) -> float | None:
-        """Bytes per second; ``None`` where there is no rate."""
+        """Bytes per second; ``None`` without a rate."""
         return None if self.rate_hz is None or self.size is None else self.rate_hz * self.size.mean
 
 
@@ -101,7 +101,7 @@ class LogLine:
 
 @dataclass(frozen=True)
 class Log:
-    """What nodes have logged: all lines counted by level, the first of each level kept."""
+    """The log of nodes: counts by level, and the first lines of each level."""
 
     counts: Mapping[str, int] = field(default_factory=dict)
     lines: tuple[LogLine, ...] = ()
@@ -123,7 +123,7 @@ class FieldFigures:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a service or an action has answered."""
+    """The response of a service or an action."""
 
     value: Mapping[str, Any] | None
     error: str = ""
@@ -131,7 +131,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Transition:
-    """What came of a change of state of a managed node."""
+    """The result of a state transition of a managed node."""
 
     node: str
     name: str
@@ -145,27 +145,27 @@ class Transition:
 
     @property
     def ok(self) -> bool:
-        """Tell whether it did what it is for."""
+        """Tell whether it succeeded."""
         return not self.error
 
 
 @dataclass(frozen=True)
 class Usage:
-    """What an executable and the processes that it has started have used."""
+    """The resource usage of an executable and its descendants."""
 
     cpu_seconds: float
     """Since its start."""
     cpu_percent: float | None
-    """Of one processor, while it was observed."""
+    """The percentage of one processor during the observation."""
     memory: int
     """Bytes in memory at the end of the observation."""
     memory_peak: int
-    """The most that was seen of them."""
+    """The observed maximum."""
 
 
 @dataclass(frozen=True)
 class Observation:
-    """What another process saw of an executable."""
+    """The observation of an executable by another process."""
 
     nodes: tuple[str, ...] = ()
     topics: tuple[Topic, ...] = ()
@@ -181,15 +181,15 @@ class Observation:
     answers: Mapping[tuple[str, str], Answer] = field(default_factory=dict)
     """By kind and name."""
     refused: tuple[tuple[str, str], ...] = ()
-    """Topics that could not be published, and why."""
+    """Topics that could not be published, with the reason."""
     transitions: tuple[Transition, ...] = ()
-    """Of managed nodes."""
+    """The transitions of managed nodes."""
     doubled: tuple[str, ...] = ()
-    """Names that several nodes have at the end."""
+    """Names shared by several nodes at the end."""
 
     @property
     def alive(self) -> bool:
-        """Tell whether anything of the executable was seen."""
+        """Tell whether the executable showed a sign of life."""
         return bool(self.nodes or any(topic.publishers for topic in self.topics))
 
     def topic(self, name: str) -> Topic | None:
@@ -204,9 +204,9 @@ class Stop:
     signal: str | None
     """The last signal that was sent (``SIGINT``...); ``None``: it finished by itself."""
     exit_code: int | None
-    """As Python tells it: negative for the number of a signal that killed it."""
+    """The exit code as in Python: negative for a signal that killed it."""
     seconds: float
-    """From the first signal, or from the start when it finished by itself, to the end."""
+    """The time to the end, from the first signal, or from the start if it finished by itself."""
     traceback: str | None = None
 
 
@@ -217,14 +217,14 @@ class Executable:
     name: str
     observation: Observation = Observation()
     stops: tuple[Stop, ...] = ()
-    """One for every run: a second signal to be tried takes a second run."""
+    """One for every run; each signal needs its own run."""
     problems: tuple[Problem, ...] = ()
     notes: tuple[str, ...] = ()
     source: str = ""
     """Its file, relative to the repository; empty if unknown."""
     seconds: float = field(default=0.0, compare=False)
     interrupted: bool = False
-    """The run ended before it was done with this one."""
+    """Whether the run ended before this executable was finished."""
 
     @property
     def ok(self) -> bool:
@@ -234,15 +234,15 @@ class Executable:
 
 @dataclass(frozen=True)
 class Build:
-    """What colcon said about one package."""
+    """The result of colcon for a package."""
 
     ok: bool
     seconds: float = 0.0
     errors: tuple[str, ...] = ()
-    """The lines of the output that tell why it failed."""
+    """The lines of the output that explain the failure."""
     warnings: tuple[str, ...] = ()
     interrupted: bool = False
-    """The run ended before it was built."""
+    """Whether the run ended before it was built."""
 
 
 @dataclass(frozen=True)
@@ -253,18 +253,18 @@ class TestCase:
     outcome: str
     """``passed``, ``failed`` or ``skipped``."""
     message: tuple[str, ...] = ()
-    """The first lines of why it failed."""
+    """The first lines of the failure message."""
 
     __test__ = False  # no test of pytest
 
 
 @dataclass(frozen=True)
 class Tests:
-    """What ``colcon test`` has run of a package."""
+    """The tests of a package run by ``colcon test``."""
 
     cases: tuple[TestCase, ...] = ()
     error: str = ""
-    """Why colcon itself did not get to the end."""
+    """Why colcon itself failed."""
 
     __test__ = False  # likewise
 
@@ -289,27 +289,27 @@ class PackageResult:
     manifest: str = ""
     """Its package.xml, relative to the repository."""
     is_dependency: bool = False
-    """It was built for others, and not run."""
+    """Whether it was only built as a dependency, and not run."""
     tests: Tests | None = None
     """``None`` if they were not run."""
     together: Executable | None = None
-    """What came of all executables in one domain; ``None`` if that was not tried."""
+    """The result of all executables in one domain; ``None`` if not run."""
     ran: bool = True
-    """Its turn came: without executables, it has none."""
+    """Whether it was run."""
     launches: tuple[Executable, ...] = ()
-    """What came of its launch files."""
+    """The results of its launch files."""
     worker: str = ""
-    """Where it ran; empty for this machine."""
+    """The worker that ran it; empty for this machine."""
 
     @property
     def runs(self) -> tuple[Executable, ...]:
-        """The executables, all of them together, and launch files."""
+        """The runs of executables, of all together, and of launch files."""
         together = (self.together,) if self.together else ()
         return (*self.executables, *together, *self.launches)
 
     @property
     def ok(self) -> bool:
-        """Tell whether it was built and all its executables are as they should be."""
+        """Tell whether it was built and all its runs are ok."""
         if self.tests is not None and not self.tests.ok:
             return False
         return self.build.ok and all(executable.ok for executable in self.runs)
@@ -324,12 +324,12 @@ class Smoke:
     packages: tuple[PackageResult, ...]
     notes: tuple[str, ...] = ()
     scratch: str | None = None
-    """The directory of the run, when it was kept."""
+    """The directory of the run, if kept."""
     seconds: float = field(default=0.0, compare=False)
     ended_early: str = ""
-    """Why the run ended before all was seen; empty if it did not."""
+    """Why the run ended early; empty if it did not."""
 
     @property
     def ok(self) -> bool:
-        """Tell whether all packages are as they should be."""
+        """Tell whether all packages are ok."""
         return not self.ended_early and all(package.ok for package in self.packages)

@@ -28,12 +28,12 @@ RETRIES = 2
 SETTLING = 1.0
 """Seconds between the last change of the graph and the signal."""
 ENDING = 2.0
-"""Seconds that a program may take to end because of an exception."""
+"""Seconds for a program to end after an exception."""
 
 _GIVING = f"if it needs arguments, set `arguments` of the executable in {FILE}"
 
 _LATE_CALL = re.compile(r"context is (?:invalid|not valid)")
-"""rclpy ends the context at once on a signal, also in the middle of a callback."""
+"""Errors of calls after a signal: rclpy ends the context at once, even during a callback."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class RunSettings:
     """The settings that all runs share."""
 
     variables: Mapping[str, str]
-    """Those of the environment with the built packages in it."""
+    """The variables of the environment with the built packages."""
     stations: Stations
     install: Path
     scratch: Path
@@ -59,15 +59,15 @@ class NodeRun:
     problems: list[Problem] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     joined: bool = False
-    """Whether something of it was seen and it was running until it was asked to stop."""
+    """Whether it showed a sign of life and was running until it was asked to stop."""
     seconds: float = 0.0
     """From its start to the end of the observation."""
     doubtful: Problem | None = None
-    """The problem that may be rclpy's and not the package's: another run will tell."""
+    """A problem that may be due to rclpy, to be confirmed by another run."""
 
     @property
     def stopped_cleanly(self) -> bool:
-        """Tell whether it was up, and was stopped without a problem."""
+        """Tell whether it was running and stopped without a problem."""
         return self.joined and not self.problems
 
 
@@ -83,17 +83,17 @@ async def run(
 ) -> NodeRun:
     """Run an executable until it has been observed, and stop it with a signal.
 
-    rclpy itself loses a signal now and then, or lets the call fail during which it comes. What
-    looks like that is tried again, and counts when it happens again.
+    rclpy itself occasionally loses a signal, or lets the interrupted call fail. What
+    looks like that is tried again, and is only reported if it happens again.
 
     Args:
-        plan: What is the same for all runs.
+        plan: The settings common to all runs.
         executable: The file, started with the arguments of its scenario.
-        expectation: What its source says about it.
+        expectation: The expectation from its source.
         label: Names the run, as a relative path.
         number: The signal to stop it with.
-        brief: Observe only until it is up: the run is about the signal.
-        first: Gets what comes of it, also when it is interrupted.
+        brief: Whether to observe only until it is running, to test the signal.
+        first: Receives the result, also of an interrupted run.
     """
     first = first or NodeRun()
     await _run_once(plan, executable, expectation, label, number, first, brief=brief)
@@ -201,7 +201,7 @@ class _Run:
     async def _look(
         self, running: process.Running, meter: Meter, timeout: float = ANSWER_TIMEOUT
     ) -> None:
-        """Take down what was seen so far."""
+        """Record the observation so far."""
         observation = await self._observer.observation(timeout)
         meter.measure()
         transitions = tuple(self._lifecycles.transitions) if self._lifecycles else ()
@@ -322,7 +322,7 @@ class _Run:
         return f"{ending(code)}, but {FILE} expects {wanted}"
 
     def _report_exception(self, running: process.Running) -> None:
-        """Report an exception that did not end the executable: of a thread, or printed by it."""
+        """Report an exception that did not end the executable: in a thread, or printed by it."""
         trace = output.traceback(output.read(running.err))
         if trace is not None:
             message = f"exception at run time: {output.exception(trace)}"
@@ -347,12 +347,12 @@ def _since(running: process.Running, observation: Observation, meter: Meter) -> 
 
 
 def is_late_call(exception: str) -> bool:
-    """Tell whether a call came too late: rclpy had ended its context already."""
+    """Tell whether an error is due to a call after rclpy ended its context."""
     return bool(_LATE_CALL.search(exception.partition("RCLError: ")[2]))
 
 
 def ending(code: int | None) -> str:
-    """Say how a process ended."""
+    """Describe how a process ended."""
     if code is not None and code < 0:
         try:
             return f"killed by {signal.Signals(-code).name}"
@@ -366,5 +366,5 @@ def _missing_arguments(running: process.Running) -> str | None:
 
 
 def _said(running: process.Running) -> tuple[str, ...]:
-    """Return the last lines of what an executable has written."""
+    """Return the last lines of the output of an executable."""
     return tuple(output.tail(output.read(running.err)) or output.tail(output.read(running.out)))

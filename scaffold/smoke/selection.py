@@ -1,4 +1,4 @@
-"""Selects the packages to run, and those to build because others need them."""
+"""Selects the packages to run, and their dependencies to build."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MOST_NAMED = 10
 
 
 def named(packages: Sequence[Package], names: Sequence[str], flag: str) -> set[str]:
-    """Return names that are those of packages.
+    """Validate names of packages and return them.
 
     Raises:
         InputError: there is no such package.
@@ -31,7 +31,7 @@ def named(packages: Sequence[Package], names: Sequence[str], flag: str) -> set[s
 
 
 def with_dependencies(packages: Sequence[Package], names: Collection[str]) -> set[str]:
-    """Return names of packages and of all that they need, as far as it is among the packages."""
+    """Return names of packages and of their dependencies among the given packages."""
     by_name = {package.name: package for package in packages}
     result: set[str] = set()
     waiting = [*names]

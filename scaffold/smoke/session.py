@@ -41,7 +41,7 @@ from scaffold.smoke.unavailable import unavailable
 
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
 _EARLY_STATIONS = 4
-"""Observers that are started during the build; more of them would slow it down."""
+"""The number of observers started during the build; more would slow it down."""
 
 
 def smoke(
@@ -53,22 +53,22 @@ def smoke(
     announce: Progress | None = None,
     interruption: Interruption | None = None,
 ) -> Smoke:
-    """Build packages, run what they install, and compare it with what the sources say.
+    """Build packages, run their executables, and compare the behavior with the sources.
 
-    A run that is interrupted returns what was seen until then, once it has seen anything.
+    An interrupted run returns its observations, if there are any.
 
     Args:
         sources: The packages; they are not changed.
-        options: How it is done.
-        variables: The environment variables to start from; those of this process.
-        progress: Called with what is going on.
-        announce: Called with what the user should know, such as what a run waits for.
-        interruption: Takes the signals that ask for the end; without it, only this run does.
+        options: The options of the run.
+        variables: The environment variables of this process.
+        progress: Called with the current activity.
+        announce: Called with messages for the user, such as the reason for waiting.
+        interruption: Handles the signals that end the run; by default, only during this run.
 
     Raises:
-        InputError: another run holds the workspace, or a ``smoke.yaml`` has a mistake.
-        EnvironmentMissingError: there is no ROS 2 to do it with.
-        InterruptedBySignalError: a signal asked for the end before it had begun.
+        InputError: another run uses the workspace, or a ``smoke.yaml`` is invalid.
+        EnvironmentMissingError: there is no usable ROS 2.
+        InterruptedBySignalError: a signal ended the run before it started.
     """
     begun = time.monotonic()
     stated = {source.name: _scenarios(source) for source in sources}
@@ -119,13 +119,13 @@ def smoke(
 
 
 def _distribution_of(environment: Environment) -> Distribution:
-    """Return the distribution of an environment; that of the packages, if it is not known."""
+    """Return the distribution of an environment, or that of the packages if it is unknown."""
     is_known = environment.distribution in distributions.NAMES
     return distributions.named(environment.distribution) if is_known else distributions.target()
 
 
 def _refusal(error: OSError) -> str:
-    """Return what the system has refused, such as space on a disk."""
+    """Return a message about an error of the system, such as a full disk."""
     reason = error.strerror or str(error) or type(error).__name__
     return reason if error.filename is None else f"{os.fsdecode(error.filename)}: {reason}"
 
@@ -140,7 +140,7 @@ def _scenarios(source: Source) -> Mapping[str, Scenario]:
 
 
 def packages_of(targets: Sequence[Target]) -> list[Source]:
-    """Return the packages that can be built; of a single file, the package that it is in.
+    """Return the packages that can be built; for a file, its package.
 
     Raises:
         InputError: a file belongs to no package.
@@ -153,7 +153,7 @@ def packages_of(targets: Sequence[Target]) -> list[Source]:
 
 @contextmanager
 def _subreaper() -> Iterator[None]:
-    """Let what has lost its supervisor come to this process."""
+    """Make this process adopt the orphans of killed supervisors."""
     supervisor.become_subreaper()
     try:
         yield
@@ -208,7 +208,7 @@ class _Session:
     def _without_hopeless(self, sources: Sequence[Source]) -> list[Source]:
         """Report missing dependencies; return the packages that can be built.
 
-        What others need when they run does not keep them from being built and run.
+        Missing run-time dependencies do not prevent a build and a run.
         """
         users: set[str] = set()
         for lack in unavailable(self._environment, sources):
@@ -227,7 +227,7 @@ class _Session:
         return [source for source in sources if source.name not in self._left_out]
 
     def results(self, sources: Sequence[Source]) -> tuple[PackageResult, ...]:
-        """Return what is known of packages, also after an interruption."""
+        """Return the results of packages, also after an interruption."""
         return tuple(
             PackageResult(
                 source.name,
@@ -256,7 +256,7 @@ class _Session:
         )
 
     async def _build(self, sources: Sequence[Source]) -> None:
-        """Build; meanwhile read the sources and get ready for what they are likely to have."""
+        """Build; meanwhile read the sources and prepare for their likely executables."""
         self._tell(f"building {', '.join(source.name for source in sources)}")
         building = asyncio.create_task(
             build(
@@ -359,7 +359,7 @@ class _Session:
         return sourced
 
     def say_interrupted(self) -> None:
-        """Tell what takes its time after ^C."""
+        """Report what takes time after ^C."""
         self._tell("interrupted, stopping all processes")
 
     def _tell(self, text: str) -> None:

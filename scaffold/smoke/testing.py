@@ -20,11 +20,11 @@ from scaffold.smoke.processes.process import Origin
 from scaffold.smoke.result import TestCase, Tests
 
 MOST_BYTES = 20_000_000
-"""Of one file of results."""
+"""The size limit of a results file."""
 MOST_CASES = 10_000
-"""Of one package."""
+"""The maximum number of cases of a package."""
 SHOWN_LINES = 12
-"""Of the message of a failure."""
+"""The number of lines shown of a failure message."""
 
 _FAILED = ("failure", "error")
 
@@ -42,13 +42,13 @@ async def run_tests(
     """Run the tests of built packages in a ROS domain of their own.
 
     Args:
-        environment: What they were built with.
-        packages: Those whose tests are run.
-        layout: Where they were built.
+        environment: The environment that they were built with.
+        packages: The packages to test.
+        layout: The directories that they were built in.
         scratch: A directory for the output of colcon.
         origin: The run that it belongs to.
-        timeout: Seconds after which the tests are given up.
-        done: Gets the tests by package, also when they are interrupted.
+        timeout: Seconds after which the tests are aborted.
+        done: Receives the tests by package, also when interrupted.
     """
     begun = time.time()
     error = "interrupted"
@@ -68,7 +68,7 @@ async def _run(
     origin: Origin,
     timeout: float,
 ) -> str:
-    """Run ``colcon test``; return why it did not get to the end, or nothing."""
+    """Run ``colcon test``; return why it failed, or an empty text."""
     with domain.reserved() as number:
         run = await process.start(
             command(environment, packages, layout),
@@ -115,7 +115,7 @@ def _of_package(build: Path, begun: float, error: str) -> Tests:
 
 
 def read(data: bytes) -> Iterator[TestCase]:
-    """Yield the cases in a file of JUnit; nothing for other files."""
+    """Yield the cases in a JUnit file; nothing for other files."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=False)
     try:
         root = etree.fromstring(data, parser)

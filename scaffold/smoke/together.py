@@ -28,14 +28,14 @@ _KEPT = ("transient_local", "transient", "persistent")
 _DIED = re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)"
 )
-"""The message of launch about a node that has ended."""
+"""The message of launch about a dead node."""
 _ASKED = "user interrupted with ctrl-c (SIGINT)"
-"""Its message when it receives the signal that it forwards."""
+"""The message of launch when it receives a signal."""
 _IGNORED = re.compile(
     r"\[ERROR\] \[(?P<name>[^\]]+)\]: process\[[^\]]+\] failed to terminate '(?P<seconds>[\d.]+)' "
     r"seconds after receiving '(?P<signal>SIGINT)'"
 )
-"""The message of launch about a node that it has signaled to end."""
+"""The message of launch about a node that ignored a signal."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +66,9 @@ async def run_together(
     """Start commands in one domain, observe them, and stop them.
 
     Args:
-        plan: What is the same for all runs.
+        plan: The settings common to all runs.
         group: The commands.
-        record: Gets what came of it, also when it is interrupted.
+        record: Receives the result, also of an interrupted run.
     """
     begun = time.monotonic()
     result = Executable(group.name, interrupted=True)
@@ -121,18 +121,18 @@ class _All:
 
     @property
     def exit_code(self) -> int | None:
-        """That of the last one, once all have ended."""
+        """The exit code of the last one, once all have ended."""
         codes = [running.exit_code for running in self._runs]
         return None if None in codes else codes[-1]
 
     async def wait(self) -> None:
-        """Wait for the end of all."""
+        """Wait until all have ended."""
         for running in self._runs:
             await running.wait()
 
 
 async def _stop(runs: Mapping[str, process.Running], grace: float) -> list[str]:
-    """Interrupt all at once, as ^C in a terminal does; return what is wrong with the end of it."""
+    """Interrupt all at once, like ^C in a terminal; return the problems on shutdown."""
     running = {name: item for name, item in runs.items() if item.exit_code is None}
     endings = await asyncio.gather(*(end(item, signal.SIGINT, grace) for item in running.values()))
     # Interrupted once more, a program that ends may have been one whose signal rclpy has lost.
@@ -152,7 +152,7 @@ async def _stop(runs: Mapping[str, process.Running], grace: float) -> list[str]:
 
 
 def below_launch(runs: Mapping[str, process.Running]) -> Iterator[str]:
-    """Yield which nodes died before they were asked to end, and which did not obey."""
+    """Yield nodes that died before they were asked to end, and those that did not obey."""
     for running in runs.values():
         written = output.read(running.out) + output.read(running.err)
         for died in _DIED.finditer(written.partition(_ASKED)[0]):
@@ -173,7 +173,7 @@ async def _close(runs: Mapping[str, process.Running]) -> None:
 
 
 def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
-    """Yield what ended before it was stopped."""
+    """Yield commands that ended before they were stopped."""
     for name, running in runs.items():
         if running.exit_code:
             written = output.read(running.out) + output.read(running.err)
@@ -184,7 +184,7 @@ def ended(runs: Mapping[str, process.Running]) -> Iterator[Problem]:
 
 
 def connections(seen: Observation) -> Iterator[Problem]:
-    """Yield what keeps nodes from talking to each other: types, quality of service, names."""
+    """Yield why nodes do not communicate: types, quality of service, names."""
     for topic in seen.topics:
         publishers = [item for item in topic.endpoints if item.kind == "publisher"]
         subscriptions = [item for item in topic.endpoints if item.kind == "subscription"]
@@ -201,7 +201,7 @@ def connections(seen: Observation) -> Iterator[Problem]:
 
 
 def _mismatch(publisher: Endpoint, subscription: Endpoint) -> str:
-    """Return why nothing comes from a publisher to a subscription; empty if it does."""
+    """Return why a subscription receives nothing from a publisher; empty if it does."""
     if publisher.type != subscription.type:
         return f"the types {publisher.type} and {subscription.type} differ"
     offered, wanted = publisher.qos, subscription.qos

@@ -21,17 +21,17 @@ class Lack(NamedTuple):
     """A missing ROS package."""
 
     message: str
-    """Who needs it and how to get it, in a line."""
+    """A line with its dependents and how to install it."""
     users: frozenset[str]
     """The names of the packages that need it."""
 
 
 def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterator[Lack]:
-    """Yield the ROS packages that are not there.
+    """Yield the missing ROS packages.
 
     Args:
-        environment: The one to build and run with.
-        packages: Those to build: what they provide is there.
+        environment: The environment to build and run with.
+        packages: The packages to build, which provide themselves.
     """
     available = {package.name for package in packages}
     for prefix in environment.variables.get("AMENT_PREFIX_PATH", "").split(os.pathsep):
@@ -54,7 +54,7 @@ def unavailable(environment: Environment, packages: Sequence[Package]) -> Iterat
 
 
 def _needed(package: Package) -> set[str]:
-    """Return what is needed to build a package and to start its executables."""
+    """Return the dependencies to build a package and to start its executables."""
     with suppress(ViewError):
         manifest = package.manifest
         needed = manifest.build_names if package.has("CMakeLists.txt") else set[str]()

@@ -27,7 +27,7 @@ from scaffold.generate.templates.sandbox import Sandbox, refuse_outside
 from scaffold.generate.templates.template import ENDING, MAX_BYTES
 
 _COMMENT = re.compile(r"^([ \t]*)(?:(#|//):(?: (.*))?|<!--: (.*))$", re.MULTILINE)
-"""A tutorial comment: ``#: text``, ``//: text`` or ``<!--: text -->``; an empty one is a blank line."""
+"""A tutorial comment: ``#: text``, ``//: text`` or ``<!--: text -->``; may be empty."""
 
 
 TOO_MUCH_MEMORY = "uses too much memory"

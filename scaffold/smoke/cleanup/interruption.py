@@ -1,4 +1,4 @@
-"""Signals that interrupt a run, and how the run ends then."""
+"""Signals that interrupt a run, and how the run reacts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 Result = TypeVar("Result")
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""^C, what systemd and containers send, and the end of a terminal."""
+"""Signals of ^C, of systemd and containers, and of a closed terminal."""
 
 
 class InterruptedBySignalError(BaseException):
@@ -27,8 +27,8 @@ class InterruptedBySignalError(BaseException):
 class Interruption:
     """Converts the first signal to one exception, at a safe moment.
 
-    A second signal changes nothing: it must not cut the cleaning up short. Outside of the main
-    thread no signal arrives, and nothing is done. It may be entered again inside of its block.
+    A second signal is ignored, as it must not cut the cleanup short. Outside of the main
+    thread no signal arrives, and nothing is done. The context manager is reentrant.
     """
 
     def __init__(self) -> None:
@@ -62,20 +62,20 @@ class Interruption:
                 signal.signal(number, previous)
 
     def check(self) -> None:
-        """Raise if a signal has come.
+        """Raise if a signal has arrived.
 
         Raises:
-            InterruptedBySignalError: a signal asked for the end.
+            InterruptedBySignalError: a signal ended the run.
         """
         if self._number is not None:
             raise InterruptedBySignalError(self._number)
 
     @contextmanager
     def at_once(self) -> Iterator[None]:
-        """Let a signal end the block wherever it is.
+        """Let a signal end the block immediately.
 
         Raises:
-            InterruptedBySignalError: a signal asked for the end.
+            InterruptedBySignalError: a signal ended the run.
         """
         previous, self._action = self._action, self.check
         try:
@@ -86,7 +86,7 @@ class Interruption:
 
     @contextmanager
     def later(self) -> Iterator[None]:
-        """Let a signal wait until it is asked for: what cleans up must not be cut short."""
+        """Delay a signal until `check`, as the cleanup must not be cut short."""
         previous, self._action = self._action, None
         try:
             yield
@@ -98,14 +98,14 @@ class Interruption:
         main: Callable[[], Coroutine[Any, Any, Result]],
         tell: Callable[[], None] = lambda: None,
     ) -> Result:
-        """Run a coroutine, which is cancelled when a signal comes.
+        """Run a coroutine, which is cancelled when a signal arrives.
 
         Args:
             main: Returns the coroutine.
-            tell: Called when the signal has come: the cleaning up may take a while.
+            tell: Called when a signal has arrived, as the cleanup may take a while.
 
         Raises:
-            InterruptedBySignalError: a signal asked for the end.
+            InterruptedBySignalError: a signal ended the run.
         """
 
         async def cancellable() -> Result:

@@ -28,7 +28,7 @@ class Entries:
 
     mark: str
     is_of_this_boot: bool = False
-    """Whether process ids and shared memory mean today what they meant when it was written."""
+    """Whether it is from the current boot, so that process ids and shared memory are valid."""
     scratch: Path | None = None
     processes: set[tuple[int, int]] = field(default_factory=set)
     """Ids and start times."""
@@ -36,7 +36,7 @@ class Entries:
 
 
 def directory() -> Path | None:
-    """Return where the ledgers of this user are; ``None`` if there is no such place."""
+    """Return the directory of the ledgers of this user, if there is one."""
     state_home = os.environ.get("XDG_STATE_HOME") or os.path.join(
         os.path.expanduser("~"), ".local", "state"
     )
@@ -45,11 +45,11 @@ def directory() -> Path | None:
 
 @contextmanager
 def opened(mark: str, scratch: Path | None) -> Iterator[Path | None]:
-    """Keep a ledger for the length of the block; without a place for it, there is none.
+    """Keep a ledger for the duration of the block, if there is a directory for it.
 
     Args:
         mark: Marks the processes of the run.
-        scratch: The directory that the run is about to make, unless it is to be kept.
+        scratch: The directory that the run is about to create, unless it will be kept.
     """
     created = _create(mark, scratch)
     if created is None:
@@ -80,7 +80,7 @@ def read(path: Path) -> Entries:
 
 @contextmanager
 def abandoned() -> Iterator[list[tuple[Path, Entries]]]:
-    """Return the ledgers of dead runs of this user, held for the length of the block."""
+    """Return the ledgers of dead runs of this user, locked for the duration of the block."""
     held: list[int] = []
     ledgers: list[tuple[Path, Entries]] = []
     parent = directory()
@@ -101,7 +101,7 @@ def _files(parent: Path) -> list[Path]:
 
 
 def _create(mark: str, scratch: Path | None) -> tuple[Path, int] | None:
-    """Return a new ledger with its first line and its lock; ``None`` where it cannot be made."""
+    """Create and lock a ledger with its first line; return ``None`` if that fails."""
     parent = directory()
     if parent is None:
         return None
@@ -129,7 +129,7 @@ def _create(mark: str, scratch: Path | None) -> tuple[Path, int] | None:
 
 
 def _take(path: Path) -> int | None:
-    """Open and lock the ledger of a dead run of this user; ``None`` if it is another's."""
+    """Open and lock a ledger of a dead run of this user; ``None`` for any other."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
@@ -164,7 +164,7 @@ def _add(entries: Entries, line: Mapping[str, Any]) -> None:
 
 
 def _place() -> str:
-    """Return what differs after a restart, and in another container."""
+    """Return an id of the current boot and container."""
     try:
         with open("/proc/sys/kernel/random/boot_id", encoding="ascii") as file:
             boot = file.read().strip()

@@ -1,4 +1,4 @@
-"""Cleans up after killed runs, by their ledgers."""
+"""Cleans up after killed runs, using their ledgers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MARKER = ".ros2-scaffold-smoke"
 """The file in a scratch directory that holds the mark of its run."""
 _PREFIX = "ros2-scaffold-smoke-"
 _PATIENCE = 8.0
-"""Seconds that the supervisors of a killed run have to clean up by themselves."""
+"""Seconds for the supervisors of a killed run to clean up themselves."""
 
 
 @dataclass(frozen=True)
@@ -37,10 +37,10 @@ class Run:
 
 @contextmanager
 def recorded_run(*, keep: bool = False) -> Iterator[Run]:
-    """Give out a scratch directory; after the block, nothing of the run is left.
+    """Provide a scratch directory; clean up after the block.
 
     Args:
-        keep: Leave the scratch directory where it is.
+        keep: Whether to keep the scratch directory.
     """
     mark = uuid.uuid4().hex
     scratch = Path(tempfile.gettempdir(), _PREFIX + mark)
@@ -56,7 +56,7 @@ def recorded_run(*, keep: bool = False) -> Iterator[Run]:
 
 
 def _clean_up(mark: str, path: Path | None) -> None:
-    """Remove what the supervisors of a run should have removed, had they not been killed."""
+    """Remove the leftovers of a run whose supervisors were killed."""
     marks.sweep(mark)
     if path is None:
         return
@@ -67,10 +67,10 @@ def _clean_up(mark: str, path: Path | None) -> None:
 
 
 def sweep() -> None:
-    """Remove what dead runs of this user have left: processes, shared memory, directories.
+    """Remove leftovers of dead runs of this user: processes, shared memory, directories.
 
-    Only what is provably theirs: processes with the recorded start time or the mark of the run,
-    segments that those used and that are unused now, and directories that hold the mark.
+    Only those of certain origin: processes with the recorded start time or the mark of the run,
+    segments that these used and that are unused now, and directories with the mark.
     """
     with ledger.abandoned() as ledgers:
         for path, entries in ledgers:
@@ -83,7 +83,7 @@ def sweep() -> None:
 
 
 def remove_scratch(scratch: Path, mark: str) -> bool:
-    """Remove the directory of a run, if it is one; return whether it is gone."""
+    """Remove the directory of a run, if it is one; return whether it no longer exists."""
     if not _is_scratch(scratch, mark):
         return not os.path.lexists(scratch)
     for unlock in (False, True):
@@ -103,7 +103,7 @@ def remove_scratch(scratch: Path, mark: str) -> bool:
 
 
 def _is_scratch(path: Path, mark: str) -> bool:
-    """Tell whether a directory was made by the run of this mark, and by this user."""
+    """Tell whether a directory was created by the run with a mark, and by this user."""
     if path.name != _PREFIX + mark or not path.is_absolute():
         return False
     try:
@@ -128,7 +128,7 @@ def _remove(entry: os.DirEntry[str]) -> None:
 
 
 def _unlock(root: Path) -> None:
-    """Give back the permissions that executables have taken from their directories."""
+    """Restore the permissions that executables have removed from their directories."""
     os.chmod(root, stat.S_IRWXU)
     for parent, names, _ in os.walk(root):
         for name in names:
@@ -139,7 +139,7 @@ def _unlock(root: Path) -> None:
 
 
 def _end(entries: ledger.Entries, patience: float = _PATIENCE) -> None:
-    """End the processes of a dead run; its supervisors do so by themselves, if they live."""
+    """End the processes of a dead run, after waiting for its living supervisors."""
     deadline = time.monotonic() + patience
     while _living(entries) and time.monotonic() < deadline:
         time.sleep(0.05)

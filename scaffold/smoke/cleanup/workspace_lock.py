@@ -19,15 +19,15 @@ _PERIOD = 0.1
 
 @contextmanager
 def locked(workspace: Path, wait: float, tell: Callable[[str], None]) -> Iterator[None]:
-    """Hold a workspace for the length of the block.
+    """Lock a workspace for the duration of the block.
 
     Args:
-        workspace: The directory; made if it is not there.
+        workspace: The directory; created if missing.
         wait: Seconds to wait for another run to end.
-        tell: Called with what this run waits for.
+        tell: Called with the reason for waiting.
 
     Raises:
-        InputError: another run holds it, or it cannot be written to.
+        InputError: it is locked by another run, or not writable.
     """
     path = workspace / NAME
     try:
@@ -66,7 +66,7 @@ def _acquire(path: Path, wait: float, tell: Callable[[str], None]) -> int:
 
 
 def _try(path: Path) -> int | None:
-    """Lock the file, if it is not locked; record which process holds it."""
+    """Try to lock the file; record the process that holds it."""
     flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
     descriptor = os.open(path, flags, 0o644)
     try:

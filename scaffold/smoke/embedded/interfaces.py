@@ -24,7 +24,7 @@ from scaffold.smoke.result import Build
 from scaffold.smoke.selection import needed_by
 
 PLACE = "interfaces"
-"""Below the cache; a directory for each environment, and in it one for each package."""
+"""The directory below the cache, with one for each environment, and in it one per package."""
 
 _GENERATOR = "share/rosidl_generator_py/package.xml"
 _INTERFACES = (".msg", ".srv", ".action", ".idl")
@@ -41,16 +41,16 @@ async def provide(
     tell: Callable[[str], None],
     announce: Callable[[str], None],
 ) -> Environment:
-    """Return an environment that also has the interfaces that packages need, if they can be had.
+    """Return an environment extended by the interfaces that packages need, if possible.
 
     Args:
-        environment: The one of the ROS wheels; others are complete, and returned as they are.
-        packages: Those to build.
+        environment: That of the ROS wheels; others are complete and returned unchanged.
+        packages: The packages to build.
         scratch: The directory of the run.
         origin: The run that it belongs to.
         timeout: Seconds for the build.
-        tell: Called with what is going on.
-        announce: Called with what cannot be had, and why.
+        tell: Called with the current activity.
+        announce: Called with missing interfaces and the reason.
     """
     if environment.kind != "wheels":
         return environment
@@ -99,7 +99,7 @@ def _has_interfaces(package: Package) -> bool:
 
 
 def with_prefixes(environment: Environment, prefixes: Sequence[Path]) -> Environment:
-    """Return an environment that finds what is in prefixes: definitions, modules and libraries."""
+    """Return an environment that finds the definitions, modules and libraries in prefixes."""
     variables = dict(environment.variables)
     for prefix in prefixes:
         _prepend(variables, "AMENT_PREFIX_PATH", str(prefix))
@@ -119,7 +119,7 @@ def _packages_in(prefix: str) -> list[str]:
 
 
 def _place(environment: Environment, bundle: Bundle, *, complete: bool) -> Path | None:
-    """Return where packages are remembered; ``None`` without a home directory."""
+    """Return the directory of cached packages; ``None`` without a home directory."""
     cache = home.cache()
     if cache is None:
         return None
@@ -150,7 +150,7 @@ def _failures(builds: Mapping[str, Build]) -> Iterator[str]:
 
 
 def _kept(built: Path, place: Path | None) -> Path:
-    """Move a package to where it is remembered; return where it is."""
+    """Move a package to the cache; return its directory."""
     if place is None:
         return built
     kept = place / built.name

@@ -16,7 +16,7 @@ _FOR_PYTHON = (
     "rosidl_typesupport_c", "rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c",
     "rosidl_generator_py",
 )  # fmt: skip
-"""What Python needs: less of C++ has to be compiled."""
+"""The generators that Python needs, so that less C++ is compiled."""
 
 _OTHER_PACKAGE = re.compile(r"^([a-z][a-z0-9_]*)/[A-Z]", re.MULTILINE)
 
@@ -57,15 +57,15 @@ class Bundle:
 
     @property
     def content(self) -> bytes:
-        """All of it, to tell whether it has changed."""
+        """The complete content, to detect changes."""
         return Path(distributions.target().path("interfaces.txt")).read_bytes()
 
     def closure(self, names: Iterable[str], available: Iterable[str]) -> list[str]:
-        """Return the packages that have to be built for some to be there, sorted.
+        """Return the packages to build, with their dependencies, sorted.
 
         Args:
-            names: Packages; those that are not in the bundle are left out.
-            available: What need not be built.
+            names: The wanted packages; those not in the bundle are skipped.
+            available: Packages that need not be built.
         """
         installed = {*available}
         result: set[str] = set()
@@ -83,8 +83,8 @@ class Bundle:
 
         Args:
             name: The package.
-            directory: Where it goes.
-            complete: Generate all that other interface packages need, not only Python's part.
+            directory: The directory to write to.
+            complete: Whether to generate all that dependents need, not only the Python part.
         """
         package = self._source.package(name)
         if package is None:

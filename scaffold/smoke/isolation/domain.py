@@ -12,7 +12,7 @@ from scaffold.errors import EnvironmentMissingError
 
 FIRST = 1
 LAST = 101
-"""The domains whose ports are below those that Linux gives to outgoing connections."""
+"""The last domain with ports below those that Linux uses for outgoing connections."""
 
 _FIRST_PORT = 7400
 _PORTS = 250
@@ -21,16 +21,16 @@ _PORTS = 250
 _FIRST_OF_PARTICIPANTS = 10
 
 _FIRST_LOCK = 32768
-"""``domain_coordinator/impl.py``: who holds the TCP port 32768 + d has domain ``d``."""
+"""``domain_coordinator/impl.py``: the TCP port 32768 + d reserves domain ``d``."""
 
 
 @contextmanager
 def reserved() -> Iterator[int]:
-    """Hold a domain that is not in use on this machine.
+    """Reserve a domain that is not in use on this machine.
 
-    It is held by a TCP port, as ``domain_coordinator`` of ROS 2 does it, so that tests that use
-    that and executables under test keep apart. The kernel gives a port back when the process ends
-    in any way.
+    It is reserved with a TCP port, like ``domain_coordinator`` of ROS 2, so that tests that use
+    that and executables under test are separate. The kernel releases the port when the process
+    ends.
 
     Raises:
         EnvironmentMissingError: all domains are in use.
@@ -61,7 +61,7 @@ def domains_in_use() -> set[int]:
 
 
 def domains_of(pids: Iterable[int]) -> set[int]:
-    """Return the domains that processes are in, as far as this user may see that."""
+    """Return the domains of processes, as far as visible to this user."""
     own = {socket for pid in pids for socket in _sockets_of(pid)}
     ports = {port for port, inode in _udp_sockets() if inode in own and port >= _FIRST_PORT}
     result: set[int] = set()

@@ -16,7 +16,7 @@ _NAME = re.compile(r"(?:sem\.)?(?P<segment>(?:fastrtps|fastdds|fast_datasharing)
 _SUFFIXES = ("_mutex", "_el", "_sl")
 _LOCKS = ("_el", "_sl")
 _OF_ALL = "lttng-ust-"
-"""liblttng-ust, which tracetools brings, makes segments once, for all processes and for good."""
+"""Permanent segments of liblttng-ust, which tracetools uses, shared by all processes."""
 
 
 def segments() -> set[str]:
@@ -33,7 +33,7 @@ def is_of_middleware(name: str) -> bool:
 
 
 def last_change() -> int:
-    """Return a number that differs after a segment was created or removed."""
+    """Return a number that changes when a segment is created or removed."""
     try:
         return os.stat(DIRECTORY).st_mtime_ns
     except OSError:
@@ -50,7 +50,7 @@ def used_by(pids: Iterable[int]) -> set[str]:
 
 
 def used_by_anybody() -> set[str]:
-    """Return the segments that any process uses, as far as this user may see that."""
+    """Return the segments that any process uses, as far as visible to this user."""
     return used_by(int(name) for name in os.listdir("/proc") if name.isdigit())
 
 
@@ -58,7 +58,7 @@ def remove_unused(names: Iterable[str]) -> list[str]:
     """Remove those of the segments that no process uses any more; return their paths.
 
     A living user has the segment mapped, or holds a lock on the file next to it: the latter is
-    seen also where the user is not ours. Files of other users are left alone.
+    visible also for processes of other users. Files of other users are kept.
     """
     existing = segments()
     wanted = [name for name in names if name in existing]
@@ -94,7 +94,7 @@ def _remove(name: str) -> list[str]:
 
 
 def _lock(path: str) -> int | None:
-    """Lock a file; return its descriptor, -1 if it is in use, ``None`` if there is none."""
+    """Lock a file; return its descriptor, -1 if it is in use, ``None`` if it does not exist."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
@@ -121,7 +121,7 @@ def _is_segment(path: str) -> bool:
 
 
 def _segment(name: str) -> str:
-    """Return the segment that a file belongs to: of Fast DDS, several belong to one."""
+    """Return the segment of a file; Fast DDS uses several files for one segment."""
     match = _NAME.fullmatch(name)
     if match is None:
         return name

@@ -31,7 +31,7 @@ FAST_DISCOVERY = """\
   </participant>
 </profiles>
 """
-"""Says hello often at first: an announcement that was missed costs 0.1 s instead of 3 s."""
+"""Frequent initial announcements: a missed one costs 0.1 s instead of 3 s."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Isolation:
     scratch: Path
 
     def variables(self, of_user: Mapping[str, str]) -> dict[str, str]:
-        """Return variables for a process that is to be seen here and nowhere else."""
+        """Return variables for a process that is only visible in this domain."""
         return isolated(of_user, self.number, self.scratch)
 
 
@@ -83,13 +83,13 @@ class Stations:
         self._waiting: list[asyncio.Task[tuple[AsyncExitStack, Isolation]]] = []
 
     def open_early(self, variables: Mapping[str, str], count: int) -> None:
-        """Begin to open some stations; ``close`` has to follow."""
+        """Start to open some stations; ``close`` must be called afterwards."""
         for _ in range(count):
             self._waiting.append(asyncio.create_task(self._open(variables)))
 
     @asynccontextmanager
     async def one(self, variables: Mapping[str, str]) -> AsyncIterator[Isolation]:
-        """Give out a station, for the length of the block.
+        """Provide a station for the duration of the block.
 
         Raises:
             ObserverError: its observer does not start.

@@ -1,4 +1,4 @@
-"""Observes one ROS domain and writes what it sees on stdout, line by line in JSON.
+"""Observes one ROS domain and writes events to stdout as JSON lines.
 
 This package is copied and run by the Python of the ROS environment, which need not know
 ``scaffold``: it uses the standard library and rclpy. Events on stdout::

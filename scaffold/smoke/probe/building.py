@@ -8,7 +8,7 @@ from typing import Any
 from .messages import find_type
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 _STEP = re.compile(r"[^.\[\]]+")
 _ELEMENTS = re.compile(r"sequence<(?P<bounded>[^,>]+)(?:, ?\d+)?>|(?P<array>[^\[]+)\[\d*\]")

@@ -9,7 +9,7 @@ from .building import field_of
 from .messages import plain
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 
 class Field:
@@ -31,7 +31,7 @@ class Field:
         self._is_finite = True
 
     def take(self, message: Ros) -> None:
-        """Take in the value in a message."""
+        """Record the value in a message."""
         try:
             value = field_of(message, self._path)
         except ValueError as error:
@@ -51,7 +51,7 @@ class Field:
             self._greatest = value if self._greatest is None else max(self._greatest, value)
 
     def as_data(self) -> dict[str, object]:
-        """Return what goes into the report."""
+        """Return the data for the report."""
         return {
             "count": self._count,
             "changes": self._changes,

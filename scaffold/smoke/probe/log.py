@@ -6,16 +6,16 @@ from importlib import import_module
 from typing import Any
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 TOPIC = "/rosout"
 SHOWN_LINES = 50
-"""Of each level."""
+"""The number of lines kept for each level."""
 SHOWN_CHARACTERS = 500
 
 _DEPTH = 1000
 _LEVEL_AT = 12
-"""The byte of a serialized message with the level: after four for the encoding and the stamp."""
+"""The offset of the level in a serialized message: after the encoding and the stamp."""
 _LEVELS = {10: "debug", 20: "info", 30: "warn", 40: "error", 50: "fatal"}
 
 
@@ -25,7 +25,7 @@ class Log:
     Args:
         node: The observing node.
         qos: The module with the profiles.
-        deserialize: Makes a message of bytes.
+        deserialize: Deserializes a message.
     """
 
     def __init__(self, node: Ros, qos: Ros, deserialize: Ros) -> None:
@@ -41,7 +41,7 @@ class Log:
         node.create_subscription(self._type, TOPIC, self._receive, profile, raw=True)
 
     def as_data(self) -> dict[str, object]:
-        """Return what goes into the report."""
+        """Return the data for the report."""
         return {"counts": self._counts, "lines": self._lines}
 
     def _receive(self, data: bytes) -> None:

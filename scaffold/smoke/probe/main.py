@@ -21,15 +21,15 @@ from .stimuli import Stimuli
 from .topics import SHOWN_MESSAGES, Topic
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 NAME = "_ros2_scaffold_probe"
 """The name of the observing node; a leading underscore hides it from ``ros2 node list``."""
 
 GRAPH_PERIOD = 0.05
-"""Seconds between two looks at the graph."""
+"""Seconds between two readings of the graph."""
 MOST_ENDPOINTS = 100
-"""Publishers and subscriptions of a topic that are listed; all are counted."""
+"""The maximum number of listed endpoints of a topic; all are counted."""
 
 _UNWATCHED = (ROSOUT, "/parameter_events")
 
@@ -112,7 +112,7 @@ class Probe:
     # -- the graph
 
     def _look(self) -> None:
-        """Read the graph, subscribe to what is new, tell what has changed."""
+        """Read the graph, subscribe to new topics, report changes."""
         nodes = sorted(
             f"{namespace.rstrip('/')}/{name}"
             for name, namespace in self._node.get_node_names_and_namespaces()
@@ -131,7 +131,7 @@ class Probe:
         self._parameters.look(nodes)
 
     def _services_of(self, node: str) -> list[list[str]]:
-        """Return name and type of the services that a node answers."""
+        """Return name and type of the services of a node."""
         namespace, _, name = node.rpartition("/")
         try:
             services = self._node.get_service_names_and_types_by_node(name, namespace or "/")
@@ -168,7 +168,7 @@ class Probe:
     # -- messages
 
     def _watch(self, name: str, type_name: str, publishers: list[Ros]) -> None:
-        """Subscribe with what every publisher of the topic offers."""
+        """Subscribe with a QoS compatible with every publisher of the topic."""
         profile = self._weakest(publishers)
         topic = self._topics.setdefault(name, Topic())
         depth = topic.fitting_depth()
@@ -201,7 +201,7 @@ class Probe:
         return self._node.create_subscription(message_type, name, receive, qos, raw=True)
 
     def _weakest(self, publishers: list[Ros]) -> tuple[bool, bool]:
-        """Return whether all publishers are reliable, and whether all keep messages for later."""
+        """Return whether all publishers are reliable, and whether all are transient local."""
         profiles = [info.qos_profile for info in publishers]
         reliable = self._qos.ReliabilityPolicy.RELIABLE
         transient = self._qos.DurabilityPolicy.TRANSIENT_LOCAL
@@ -220,14 +220,14 @@ class Probe:
 
 
 class Commands:
-    """Lines of stdin, read without waiting for them."""
+    """Lines of stdin, read without blocking."""
 
     def __init__(self) -> None:
         self.ended = False
         self._rest = b""
 
     def read(self) -> list[str]:
-        """Return the commands that have come."""
+        """Return the received commands."""
         if not select.select([0], [], [], 0)[0]:
             return []
         data = os.read(0, 4096)
@@ -239,7 +239,7 @@ class Commands:
 
 
 def say(event: dict[str, object]) -> None:
-    """Write an event; without a reader there is nothing left to do."""
+    """Write an event; exit if there is no reader."""
     try:
         sys.stdout.write(json.dumps(event) + "\n")
         sys.stdout.flush()

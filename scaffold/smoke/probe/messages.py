@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 SHOWN_ELEMENTS = 16
 SHOWN_CHARACTERS = 500
@@ -55,7 +55,7 @@ def _sequence(values: Ros, kind: str) -> list[object]:
 
 
 def _number(value: float, *, single: bool) -> object:
-    """Return a number that JSON can hold, a float32 without digits that it does not have."""
+    """Return a number for JSON; a float32 without spurious digits."""
     if not math.isfinite(value):
         return str(value)
     if not single:

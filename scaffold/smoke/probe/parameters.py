@@ -9,7 +9,7 @@ from typing import Any
 from .messages import SHOWN_CHARACTERS, SHOWN_ELEMENTS
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 MOST_NODES = 50
 MOST_PARAMETERS = 500
@@ -37,7 +37,7 @@ class Parameters:
         self._nodes: dict[str, _Inquiry] = {}
 
     def look(self, nodes: list[str]) -> None:
-        """Go on with the nodes that are known, and begin with those that are new."""
+        """Continue the requests to known nodes, and start those to new ones."""
         for name in nodes:
             if name not in self._nodes and len(self._nodes) < MOST_NODES:
                 self._nodes[name] = _Inquiry(self._node, self._services, name)
@@ -62,7 +62,7 @@ class _Inquiry:
         self._get = node.create_client(services.GetParameters, f"{name}/get_parameters")
 
     def go_on(self) -> None:
-        """Take the next step that is possible; nothing is waited for."""
+        """Take the next possible step without blocking."""
         if self._is_over or not self._is_quiet():
             return
         if self._answer is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 FOREVER = 10**9
 """Seconds: middlewares differ in the number that means no limit; all are above."""
@@ -17,7 +17,7 @@ _DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
 def as_data(profile: Ros) -> dict[str, object]:
     """Return a profile as JSON data: names in lower case, and seconds or ``None`` for no limit.
 
-    What the middleware does not tell about others is ``unknown``, and a depth of 0.
+    Values that the middleware does not report are ``unknown``, and a depth is 0.
     """
     data: dict[str, object] = {
         name: getattr(profile, name).name.lower() for name in _POLICIES if hasattr(profile, name)

@@ -6,7 +6,7 @@ import math
 import struct
 
 MOST_POINTS = 240
-"""Moments that are kept of a topic: enough for a plot."""
+"""The number of times kept for a topic, enough for a plot."""
 
 _HEADER_SIZE = 12
 """Bytes of a serialized message up to the end of the stamp: four that name the encoding, and two
@@ -14,7 +14,7 @@ numbers of four."""
 
 
 class Spread:
-    """Mean, standard deviation and extremes, as Welford computes them."""
+    """Mean, standard deviation and extremes, with Welford's algorithm."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -24,7 +24,7 @@ class Spread:
         self._greatest = -math.inf
 
     def add(self, value: float) -> None:
-        """Take in a value."""
+        """Add a value."""
         self.count += 1
         before = value - self._mean
         self._mean += before / self.count
@@ -33,7 +33,7 @@ class Spread:
         self._greatest = max(self._greatest, value)
 
     def as_data(self) -> dict[str, float] | None:
-        """Return the figures; ``None`` if there was no value."""
+        """Return the statistics; ``None`` if there was no value."""
         if not self.count:
             return None
         return {
@@ -54,7 +54,7 @@ class Moments:
         self._until_next = 1
 
     def add(self, moment: float) -> None:
-        """Take in the time of a message."""
+        """Add the time of a message."""
         self._until_next -= 1
         if self._until_next:
             return

@@ -11,7 +11,7 @@ from .building import fill
 from .messages import as_data, find_type
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 Say = Callable[[dict[str, object]], None]
 
@@ -34,7 +34,7 @@ class Stimuli:
         self._kept: list[Ros] = []
 
     def publish(self, command: dict[str, Ros]) -> None:
-        """Publish a message again and again."""
+        """Publish a message periodically."""
         qos = import_module("rclpy.qos")
         try:
             kind = find_type(command["type"])
@@ -56,7 +56,7 @@ class Stimuli:
         self._calls.append(_Call(self._node, command))
 
     def go_on(self) -> None:
-        """Take the next step of every call; nothing is waited for."""
+        """Take the next step of every call without blocking."""
         for call in tuple(self._calls):
             event = call.go_on()
             if event is not None:

@@ -9,29 +9,29 @@ from .messages import as_data
 from .statistics import Moments, Spread, stamp
 
 Ros = Any
-"""Whatever rclpy returns: it has no types."""
+"""Objects of rclpy, which are untyped."""
 
 SHOWN_MESSAGES = 5
 QUEUE_DEPTH = 1000
-"""Messages that may wait: two seconds of a topic at 500 Hz."""
+"""The maximum queue depth: two seconds of a topic at 500 Hz."""
 QUEUE_BYTES = 2**28
-"""Of all that may wait on a topic: large messages get a shorter queue once they wait long."""
+"""The size limit of the queue of a topic: that of large messages is shortened if they wait long."""
 LONG_WAIT = 1.0
-"""Seconds in the queue: the observer does not keep up."""
+"""Seconds in the queue from which the observer does not keep up."""
 
 _HEADER = "std_msgs/Header"
 _SEQUENCE_UNSUPPORTED = 2**64 - 1
 
 
 class Topic:
-    """What was received on a topic; times of sending are those of ``time.time``, in seconds."""
+    """The messages received on a topic; source times are those of ``time.time``, in seconds."""
 
     def __init__(self) -> None:
         self.count = 0
         self.error: str | None = None
         self.subscription: Ros = None
         self.profile: tuple[bool, bool] | None = None
-        """Whether all publishers are reliable, and whether all keep messages for later."""
+        """Whether all publishers are reliable, and whether all are transient local."""
         self.depth = QUEUE_DEPTH
         self._first = 0.0
         self._last = 0.0
@@ -70,9 +70,9 @@ class Topic:
             self.error = f"{type(error).__name__}: {error}"
 
     def fitting_depth(self) -> int:
-        """Return how many messages as large as those seen may wait.
+        """Return the queue depth for messages as large as the observed ones.
 
-        A new queue costs messages: it is made shorter only where messages wait.
+        A new queue loses messages, so it is only shortened where messages wait.
         """
         sizes = self._sizes.as_data()
         if sizes is None or not self._is_late:
@@ -80,7 +80,7 @@ class Topic:
         return max(1, min(QUEUE_DEPTH, int(QUEUE_BYTES // max(sizes["greatest"], 1))))
 
     def as_report(self, *, publishers: int) -> dict[str, object]:
-        """Return what goes into the report."""
+        """Return the data for the report."""
         lost = self._last_number - self._first_number + 1 - self.count
         return {
             "count": self.count,
@@ -98,7 +98,7 @@ class Topic:
         }
 
     def _take_times(self, data: bytes, info: dict[str, int], message_type: Ros) -> None:
-        """Take in how old the message was when it was sent, and how long it traveled."""
+        """Record the age of a message when it was sent, and its transport time."""
         sent, received = info.get("source_timestamp"), info.get("received_timestamp")
         if not sent:
             return
@@ -114,7 +114,7 @@ class Topic:
 
 
 def _number(info: dict[str, int]) -> int:
-    """Return the number that the publisher gave to a message; 0 if the middleware has none."""
+    """Return the sequence number of a message; 0 if the middleware has none."""
     number = info.get("publication_sequence_number") or 0
     return 0 if number >= _SEQUENCE_UNSUPPORTED else number
 
@@ -122,7 +122,7 @@ def _number(info: dict[str, int]) -> int:
 def _sending(info: dict[str, int]) -> float:
     """Return the source timestamp of a message from the middleware.
 
-    This process may be late, and what is kept for late subscribers comes all at once.
+    The receiving time depends on this process, and latched messages arrive at once.
     """
     sent = info.get("source_timestamp") or info.get("received_timestamp")
     return sent / 1e9 if sent else time.time()

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from scaffold.smoke.processes.process import Running
 
 GRACE = 5.0
-"""Seconds that an executable has to obey a signal."""
+"""Seconds for an executable to obey a signal."""
 GRACE_OF_NEXT = 2.0
-"""Seconds that it has to obey the next one, once it has ignored the first."""
+"""Seconds for the next signals, once the first was ignored."""
 
 
 @dataclass(frozen=True)
@@ -19,12 +19,12 @@ class Ending:
     """How a process was ended."""
 
     asked: str
-    """The first signal that was sent."""
+    """The first signal."""
     sent: tuple[str, ...]
-    """All of them: one if it was obeyed."""
+    """All signals sent; only one if it was obeyed."""
     seconds: float
     grace: float = GRACE
-    """Seconds that it had to obey the first one."""
+    """Seconds allowed for the first one."""
 
     @property
     def was_ignored(self) -> bool:
@@ -33,18 +33,18 @@ class Ending:
 
     @property
     def was_missed(self) -> bool:
-        """Tell whether it did not react once, and then did."""
+        """Tell whether it ignored a signal once, and then obeyed."""
         return self.sent == (self.asked, self.asked)
 
     @property
     def of_ignored(self) -> str:
-        """Say what ended it instead of the first signal."""
+        """Describe what ended it instead of the first signal."""
         last = "a second one" if self.was_missed else self.sent[-1]
         return f"ignored {self.asked}: still running after {self.grace:g} s, {last} ended it"
 
 
 async def end(running: Running, number: signal.Signals, grace: float = GRACE) -> Ending:
-    """Send a signal to the group; where it is ignored, again, then what is harder to ignore."""
+    """Send a signal to the group; if ignored, send it again, then stronger ones."""
     begun, seconds = time.monotonic(), grace
     sent: list[str] = []
     for item in (number, number, *{signal.SIGTERM} - {number}, signal.SIGKILL):

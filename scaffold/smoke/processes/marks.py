@@ -11,13 +11,13 @@ from pathlib import Path
 from scaffold.smoke.processes import table as process_table
 
 MARK = "ROS2_SCAFFOLD_SMOKE"
-"""The variable by which a process of a run is known, whatever has become of its parent."""
+"""The variable that identifies the processes of a run, even without their parent."""
 GRACE_OF_KILL = 5.0
-"""Seconds that the kernel has to end a process."""
+"""Seconds for the kernel to end a process."""
 
 
 def marked(mark: str) -> dict[int, str]:
-    """Return the living processes of a mark, or of marks below it, with their command lines."""
+    """Return the living processes with a mark or one below it, with their command lines."""
     wanted = os.fsencode(f"{MARK}={mark}")
     result: dict[int, str] = {}
     for name in os.listdir("/proc"):
@@ -34,7 +34,7 @@ def marked(mark: str) -> dict[int, str]:
 
 
 def sweep(mark: str) -> list[str]:
-    """Kill the processes of a mark; return their command lines."""
+    """Kill the processes with a mark; return their command lines."""
     killed: list[str] = []
     for _ in range(3):  # what is started while the list is read is caught in the next round
         alive = marked(mark)

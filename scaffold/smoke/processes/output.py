@@ -9,18 +9,18 @@ from itertools import pairwise
 from pathlib import Path
 
 SHOWN_LINES = 24
-"""Lines of one problem that are shown at most."""
+"""The maximum number of lines shown for a problem."""
 READ_BYTES = 1_000_000
 
 TRACEBACK = "Traceback (most recent call last):"
 
 _FRAMES = 2
-"""Frames of a traceback that are shown: where it happened and who called."""
+"""The number of traceback frames shown: the place of the error and its caller."""
 _LIBRARY = re.compile(
     r"/rclpy/|/colcon_|/setuptools/|<frozen |load_entry_point|"
     r"/lib/python3\.\d+/(?!(?:site|dist)-packages/)"
 )
-"""Frames outside the user's code; the second to last is in the scripts of setuptools."""
+"""Paths of frames outside the user's code; the second to last is that of setuptools scripts."""
 PASSED_ON = "CalledProcessError"
 """An exception that reports the failure of another program, which printed the reason itself."""
 _CMAKE_ERROR = re.compile(r"CMake Error")
@@ -32,26 +32,26 @@ _COMPLAINT = re.compile(
     r"(?P<text>.*(?:\n(?!\[|---|[A-Z][a-z]+ (?:>>>|<<<)|\s).+)*)",
     re.MULTILINE,
 )
-"""What colcon itself reports."""
+"""A message of colcon itself."""
 _NAMED_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*")
 _USAGE = re.compile(r"^[ \t]*usage:.*", re.IGNORECASE | re.MULTILINE)
 _REFUSAL = re.compile(r"^(?:.*: )?error: (?P<reason>.*)", re.IGNORECASE | re.MULTILINE)
-"""What argparse, click and their like print, and what they then say."""
+"""The usage text of argparse, click and the like, with the error message."""
 _IS_LACK = re.compile(r"\brequired\b|\bmissing\b|\btoo few\b|\bexpect", re.IGNORECASE)
 _TOO_SHORT = re.compile(r"IndexError: |ValueError: not enough values to unpack")
 _ARGUMENTS = re.compile(r"\bargv\b|\barg\w*\[")
-"""In the line of a program that reads its arguments by their number."""
+"""A source line of a program that reads arguments by index."""
 _OWN_DOING = "byte-compiling is disabled"
-"""A message of setuptools, because the build must not write into the sources."""
+"""A message of setuptools caused by our own settings: the build must not write into the sources."""
 _ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
 def read(path: Path, start: int = 0) -> str:
-    """Return what was written to a file, without terminal colors; empty if there is none.
+    """Return the content of a file without terminal colors; empty if there is no file.
 
     Args:
         path: The file; of a large one, the end is read.
-        start: Bytes to skip at its beginning.
+        start: The number of bytes to skip.
     """
     try:
         with path.open("rb") as file:
@@ -64,7 +64,7 @@ def read(path: Path, start: int = 0) -> str:
 
 
 def size(path: Path) -> int:
-    """Return the bytes of a file; none of one that a program has removed with its directory."""
+    """Return the size of a file; 0 if a program has removed it."""
     try:
         return path.stat().st_size
     except OSError:
@@ -72,10 +72,10 @@ def size(path: Path) -> int:
 
 
 def traceback(text: str) -> str | None:
-    """Return the last Python traceback that tells a cause.
+    """Return the last Python traceback with a cause.
 
-    What Python itself calls ignored is none, such as a destructor of rclpy that a signal came upon
-    while its object was half made.
+    Exceptions ignored by Python do not count, as in a destructor of rclpy called by a signal
+    during construction.
     """
     parts = text.split(TRACEBACK)
     for before, part in reversed([*pairwise(parts)]):
@@ -92,7 +92,7 @@ def traceback(text: str) -> str | None:
 
 
 def exception(trace: str) -> str:
-    """Return the line of a traceback with the exception."""
+    """Return the exception line of a traceback."""
     return trace.rpartition("\n")[2].strip()
 
 
@@ -115,7 +115,7 @@ def short(trace: str) -> list[str]:
 
 
 def relative(lines: Iterable[str], install: Path) -> list[str]:
-    """Return lines with the names of installed files as the sources have them."""
+    """Return lines with installed paths replaced by those of the sources."""
     place = rf"{re.escape(str(install))}/(?:[^/\"]+/)?lib/(?:python[\d.]+/[a-z]+-packages/)?"
     return [re.sub(place, "", line) for line in lines]
 
@@ -126,7 +126,7 @@ def tail(text: str, count: int = 10) -> list[str]:
 
 
 def errors(text: str) -> list[str]:
-    """Return the lines of a build's output that tell why it failed."""
+    """Return the lines of the output of a build that explain its failure."""
     blocks = [line for block in _cmake_blocks(text, _CMAKE_ERROR) for line in block]
     trace = traceback(text)
     if trace is not None:
@@ -155,7 +155,7 @@ def complaints(text: str, directory: str) -> list[str]:
 
 
 def named_error(text: str) -> str | None:
-    """Return the exception in the last line, as a syntax error has it without a traceback."""
+    """Return the exception in the last line, as for a syntax error without a traceback."""
     last = "".join(tail(text, 1))
     return last if _NAMED_ERROR.match(last) else None
 
@@ -182,7 +182,7 @@ def missing_arguments(text: str) -> str | None:
 
 
 def _cmake_blocks(text: str, start: re.Pattern[str]) -> Iterator[list[str]]:
-    """Yield the messages of CMake: a head line and what is indented below it."""
+    """Yield the messages of CMake: a first line with the indented lines below it."""
     block: list[str] = []
     for line in text.splitlines():
         if start.match(line):

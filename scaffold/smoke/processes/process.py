@@ -20,19 +20,19 @@ from scaffold.smoke.processes import table as process_table
 from scaffold.smoke.processes.marks import GRACE_OF_KILL, MARK
 
 GRACE_OF_SUPERVISOR = 60.0
-"""Seconds that a supervisor has to end what it has started, and itself."""
+"""Seconds for a supervisor to end its processes and itself."""
 GRACE_OF_CHILDREN = 1.0
-"""Seconds that the children of a command may live on after it."""
+"""Seconds that the children of a command may outlive it."""
 
 LONGEST_EVENT = 2**24
-"""Bytes of an event of a supervisor: it may hold many command lines."""
+"""The size limit of an event of a supervisor, which may have many command lines."""
 
 _ROOT = os.path.dirname(str(Path(__file__).parent.parent.parent))
 _SUPERVISE = (
     f"import sys; sys.path.append({_ROOT!r}); "
     "from scaffold.smoke.processes.supervisor import main; main()"
 )
-"""Run without the site module: that of the ROS wheels would start Python twice."""
+"""Runs without the site module, as that of the ROS wheels would start Python twice."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class Origin:
     """The run that a process belongs to."""
 
     mark: str
-    """Marks the process and its children, whatever becomes of their parent."""
+    """The mark of the process and its descendants, even without their parent."""
     ledger: Path | None = None
-    """Where its leftovers are written down, for a later run to remove them."""
+    """The ledger of leftovers, for cleanup by a later run."""
 
     def below(self, label: str) -> Origin:
         """Return the origin of a part of the run."""
@@ -52,7 +52,7 @@ class Origin:
 class Running:
     """A command that is the leader of its own session and process group.
 
-    Between it and this process is a supervisor, which ends all that the command has started.
+    A supervisor between it and this process ends all descendants of the command.
     """
 
     def __init__(
@@ -69,14 +69,14 @@ class Running:
         self.exit_code: int | None = None
         """Negative for a signal that killed it; ``None`` while it runs."""
         self.lost_supervisor = False
-        """Whether the supervisor was killed, which only the command does."""
+        """Whether the supervisor was killed, by the command."""
         self._supervisor = supervisor
         self._events, self._requests = control
         self._left: list[str] = []
         self.leaked: Sequence[str] = ()
-        """Paths of shared memory that it has made and left, known once it is finished."""
+        """Paths of leftover shared memory, known once it is finished."""
         self.used: Sequence[str] = ()
-        """Names of shared memory that it has used and not found there, known likewise."""
+        """Names of shared memory that it has used and created, known once it is finished."""
         self._is_closing = False
         self._is_started = asyncio.Event()
         self._is_ended = asyncio.Event()
@@ -96,7 +96,7 @@ class Running:
     async def begin(
         self, command: Sequence[str], variables: Mapping[str, str], origin: Origin
     ) -> None:
-        """Have the supervisor start the command.
+        """Let the supervisor start the command.
 
         Raises:
             OSError: it cannot be started.
@@ -111,39 +111,39 @@ class Running:
         await self._is_ended.wait()
 
     async def ended_within(self, seconds: float) -> bool:
-        """Wait for the end at most so long; tell whether it came."""
+        """Wait for the end with a timeout; return whether it has ended."""
         if not self._is_ended.is_set():
             with suppress(asyncio.TimeoutError):
                 await asyncio.wait_for(self.wait(), max(seconds, 0.0))
         return self._is_ended.is_set()
 
     def signal(self, number: int) -> None:
-        """Send a signal to the whole group, as ^C in a terminal does."""
+        """Send a signal to the whole group, like ^C in a terminal."""
         self._request({"signal": int(number)})
 
     async def kill(self) -> None:
-        """End the group in the way that cannot be ignored."""
+        """Kill the group."""
         self.signal(signal.SIGKILL)
         await self.ended_within(GRACE_OF_KILL)
 
     async def finish(self, grace: float = GRACE_OF_CHILDREN) -> list[str]:
-        """End all processes that the command has left behind; return their command lines.
+        """End the remaining processes of the command; return their command lines.
 
         Args:
-            grace: Seconds in which it may end by itself.
+            grace: Seconds for them to end by themselves.
         """
         self._request({"finish": grace})
         await self._await_supervisor(grace)
         return self._left
 
     def captured(self) -> Captured:
-        """Return the exit code and all that was written to the files."""
+        """Return the exit code and the output."""
         out = self.out.read_bytes().decode(errors="surrogateescape")
         err = self.err.read_bytes().decode(errors="replace")
         return Captured(self.exit_code or 0, out, err)
 
     async def close(self) -> None:
-        """End the command and all that it has started, if that has not been done."""
+        """End the command and its descendants, if they have not ended."""
         self._is_closing = True
         with suppress(OSError):
             self._requests.close()
@@ -166,7 +166,7 @@ class Running:
             self._requests.write(json.dumps(request).encode() + b"\n")
 
     async def _read(self) -> None:
-        """Take in what the supervisor tells until it ends."""
+        """Process the events of the supervisor until it ends."""
         is_finished = False
         with suppress(OSError):
             async for line in self._events:
@@ -217,14 +217,14 @@ async def start_with_pipes(
     *,
     limit: int,
 ) -> Running:
-    """Start a process that is talked to; its errors go to a file in the directory.
+    """Start a process with pipes; its stderr goes to a file in the directory.
 
     Args:
-        command: What to run.
+        command: The command to run.
         variables: Its whole environment.
-        directory: Where it runs.
+        directory: The working directory.
         origin: The run that it belongs to.
-        limit: Bytes of the longest line that it may write.
+        limit: The maximum length of its output lines in bytes.
 
     Raises:
         OSError: it cannot be started.
@@ -275,7 +275,7 @@ class Captured:
     """The outcome of a short command."""
 
     exit_code: int
-    """Negative for a signal that killed it, as it is when its time was up."""
+    """Negative for a signal that killed it, also after a timeout."""
     out: str
     err: str
 
@@ -283,7 +283,7 @@ class Captured:
 def capture(
     command: Sequence[str], variables: Mapping[str, str], origin: Origin, timeout: float
 ) -> Captured:
-    """Run a short command to its end; nothing that it has started lives on.
+    """Run a short command to its end, and end its descendants.
 
     Raises:
         OSError: it cannot be started.
@@ -339,13 +339,13 @@ def _configuration(
 
 
 def writing(path: Path) -> BinaryIO:
-    """Open a file for writing in a directory that need not exist."""
+    """Open a file for writing, creating its directory."""
     path.parent.mkdir(parents=True, exist_ok=True)
     return path.open("wb")
 
 
 def _end_orphans() -> None:
-    """Kill what a killed supervisor has left to this process, which is a subreaper as well."""
+    """Kill the orphans of a killed supervisor, inherited by this process as subreaper."""
     deadline = time.monotonic() + GRACE_OF_KILL
     while time.monotonic() < deadline:
         table = process_table.snapshot()

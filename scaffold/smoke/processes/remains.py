@@ -12,18 +12,18 @@ from scaffold.smoke.processes.process import Running
 
 @dataclass(frozen=True)
 class Remains:
-    """Something that remained and was ended or removed."""
+    """A process or segment that remained and was ended or removed."""
 
     commands: tuple[str, ...]
-    """The names of those that may have left it: several may use the same shared memory."""
+    """The names of the commands that may have left it: several may use the same shared memory."""
     message: str
     """Such as ``leaves a process running: sleep 600``."""
 
 
 async def remains(runs: Mapping[str, Running]) -> list[Remains]:
-    """Finish commands that have ended; return what they have left.
+    """Finish commands that have ended; return their leftovers.
 
-    They are finished at the same time, as what one of them has made the others may still use.
+    They are finished together, as they may share segments.
 
     Args:
         runs: The commands by name.

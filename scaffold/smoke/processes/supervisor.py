@@ -1,7 +1,7 @@
 """A subprocess that runs one command and ends all of its descendants.
 
 It runs between ``smoke`` and the command, as the subreaper of everything that the command starts:
-detached processes become its children. It ends when its socket closes: if ``smoke`` was interrupted
+detached processes become its children. It ends when its socket closes: if ``smoke`` is interrupted
 or killed, it ends what it has started and removes the shared memory that those processes used. It
 imports only the standard library and its neighbors, because it runs in an isolated interpreter.
 
@@ -35,24 +35,24 @@ if TYPE_CHECKING:
     from typing import Any
 
 PERIOD = 0.05
-"""Seconds between two looks at what has no event: shared memory, and the children's end."""
+"""Seconds between two checks of shared memory and the end of children, which have no events."""
 GRACE = 2.0
-"""Seconds that processes have to obey SIGTERM."""
+"""Seconds for processes to obey SIGTERM."""
 GRACE_OF_STOP = 0.2
-"""Seconds that the kernel has to stop a process at SIGSTOP."""
+"""Seconds for the kernel to stop a process after SIGSTOP."""
 GRACE_OF_KILL = 10.0
-"""Seconds that the kernel has to end what may start others all the time."""
+"""Seconds for the kernel to kill processes that may fork all the time."""
 LISTING_PERIOD = 1.0
-"""Seconds between two looks at the processes."""
+"""Seconds between two listings of the processes."""
 SECOND_LOOK = 0.5
 """Seconds after a change of the shared memory at which its users are looked for once more: a file
 is created before it is mapped."""
 
 SHOWN_COMMAND = 500
-"""Characters of a command line."""
+"""The maximum length of a shown command line."""
 
 MOST_OUTPUT = 2**26
-"""Bytes of output that are kept on disk; what came before is given back to the file system."""
+"""The number of output bytes kept on disk; earlier output is freed."""
 _KEEP_SIZE_PUNCH_HOLE = 3
 
 _SET_CHILD_SUBREAPER = 36
@@ -62,7 +62,7 @@ _OWN_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, si
 
 
 def become_subreaper(*, enabled: bool = True) -> bool:
-    """Have orphaned descendants of this process become its children; tell whether that works."""
+    """Make this process adopt orphaned descendants; return whether that works."""
     try:
         done: int = ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, int(enabled), 0, 0, 0)
     except (OSError, AttributeError):
@@ -90,14 +90,14 @@ class Supervisor:
         self._existing = {
             name for name in shared_memory.segments() if not shared_memory.is_of_middleware(name)
         }
-        """What others have made, who may want it back."""
+        """Segments of other processes, which must be kept."""
         self._processes: set[tuple[int, int]] = set()
         self._next_listing = 0.0
         self._last_change = shared_memory.last_change()
         self._second_look: float | None = None
 
     def run(self) -> None:
-        """Serve until the command has ended and nothing in it is left."""
+        """Serve until the command and its descendants have ended."""
         become_subreaper()
         wakeup, wakeup_writer = socket.socketpair()
         wakeup_writer.setblocking(False)  # noqa: FBT003  takes no keyword
@@ -178,7 +178,7 @@ class Supervisor:
     # -- while it runs
 
     def _reap(self) -> None:
-        """Take the exit status of what has ended: the command's, and those of orphans."""
+        """Reap the command and orphans."""
         while True:
             try:
                 pid, status = os.waitpid(-1, os.WNOHANG)
@@ -196,7 +196,7 @@ class Supervisor:
             self._finish = self._finish_after_command
 
     def _watch_segments(self) -> None:
-        """Look for the users of shared memory after a change of it."""
+        """Find the users of shared memory after a change."""
         now = time.monotonic()
         change = shared_memory.last_change()
         if change != self._last_change:
@@ -208,7 +208,7 @@ class Supervisor:
             self._note_segments()
 
     def _note_segments(self) -> None:
-        """Write down which segments the processes use: kept, should we be killed ourselves."""
+        """Record the segments that the processes use in the ledger, in case we are killed."""
         pids = [process.pid for process in table.descendants(os.getpid())]
         new = sorted(shared_memory.used_by(pids) - self._segments - self._existing)
         if not new:
@@ -217,7 +217,7 @@ class Supervisor:
         self._write_down({"segments": new})
 
     def _note_processes(self) -> None:
-        """Write down the processes, this one included: kept, should we be killed ourselves."""
+        """Record the processes, including this one, in the ledger, in case we are killed."""
         if time.monotonic() < self._next_listing:
             return
         self._next_listing = time.monotonic() + LISTING_PERIOD
@@ -243,7 +243,7 @@ class Supervisor:
             os.close(descriptor)
 
     def _bound_output(self) -> None:
-        """Free the disk space of output that will not be read."""
+        """Free the disk space of old output."""
         for descriptor in (1, 2):
             status = os.fstat(descriptor)
             if status.st_blocks * 512 > 2 * MOST_OUTPUT:
@@ -252,7 +252,7 @@ class Supervisor:
     # -- the end
 
     def _await_children(self, seconds: float) -> None:
-        """Give what the command has started the time to end by itself."""
+        """Give the descendants of the command time to end by themselves."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline and self._living():
             time.sleep(PERIOD)
@@ -262,7 +262,7 @@ class Supervisor:
         return table.descendants(os.getpid())
 
     def _end_all(self) -> list[str]:
-        """End all descendants; return the command lines of those that had outlived the command."""
+        """End all descendants; return the command lines of those that outlived the command."""
         living = self._hold()
         left = [table.command_line(process.pid)[:SHOWN_COMMAND] for process in living]
         for process in living:
@@ -286,7 +286,7 @@ class Supervisor:
     def _hold(self) -> list[Process]:
         """Stop all descendants and note their segments; return the processes.
 
-        One that ran on could create a segment unseen and end before it removes it. Stopped between
+        A running one could create a segment unnoticed and end without removing it. Stopped between
         creating and mapping a segment, it still has the file open.
         """
         living = self._living()
@@ -305,7 +305,7 @@ def _is_running(process: Process) -> bool:
 
 
 def _leave_pipes() -> None:
-    """Let go of the pipes of the command: who reads them waits for their end."""
+    """Close the pipes of the command, as their readers wait for the end."""
     null = os.open(os.devnull, os.O_RDWR | os.O_CLOEXEC)
     for descriptor in range(3):
         if not stat.S_ISREG(os.fstat(descriptor).st_mode):
@@ -321,7 +321,7 @@ def _send(pid: int, number: int, *, group: bool = False) -> None:
 
 
 def _punch_hole(descriptor: int, end: int) -> None:
-    """Free the blocks of a file up to an offset; its size and its offsets stay as they are."""
+    """Free the blocks of a file up to an offset, without changing its size and offsets."""
     try:
         ctypes.CDLL(None).fallocate(
             descriptor,

@@ -14,7 +14,7 @@ _ZOMBIE = "Z"
 
 
 class Process(NamedTuple):
-    """A line of the table; ``started`` is in ticks since boot, and tells reused ids apart."""
+    """A process; ``started``, in ticks since boot, distinguishes reused ids."""
 
     pid: int
     state: str
@@ -25,7 +25,7 @@ class Process(NamedTuple):
 
     @property
     def is_alive(self) -> bool:
-        """Whether it still runs; a zombie only waits for its parent."""
+        """Whether it is running; a zombie is not."""
         return self.state != _ZOMBIE
 
 
@@ -49,7 +49,7 @@ def of_pid(pid: int) -> Process | None:
 
 
 def descendants(root: int, table: Mapping[int, Process] | None = None) -> list[Process]:
-    """Return the living children of a process, their children and so on."""
+    """Return the living descendants of a process."""
     children: dict[int, list[Process]] = {}
     for process in (snapshot() if table is None else table).values():
         children.setdefault(process.parent, []).append(process)

@@ -12,16 +12,16 @@ from scaffold.smoke.processes import table
 from scaffold.smoke.result import Usage
 
 PERIOD = 0.5
-"""Seconds between two looks."""
+"""Seconds between two measurements."""
 
 _TICKS = os.sysconf("SC_CLK_TCK")
 _PAGE = os.sysconf("SC_PAGE_SIZE")
 _MOST_PROCESSES = 100
-"""Of one executable that are measured: one that forks all the time must not keep us busy."""
+"""The maximum number of measured processes per executable, as a fork bomb must not keep us busy."""
 
 
 class Meter:
-    """Measures the session that a process leads."""
+    """Measures the session of a process."""
 
     def __init__(self, session: int) -> None:
         self._session = session
@@ -37,7 +37,7 @@ class Meter:
         self._begin = (self._now, sum(self._cpu_of.values()))
 
     def measure(self) -> None:
-        """Look once; what has ended keeps its last figure."""
+        """Measure once; ended processes keep their last values."""
         self._now = time.monotonic()
         members = [
             member for member in table.snapshot().values() if member.session == self._session
@@ -53,7 +53,7 @@ class Meter:
             self._peak = max(self._peak, memory)
 
     def usage(self) -> Usage | None:
-        """Return what was measured; ``None`` if it had ended before the first look."""
+        """Return the usage; ``None`` if it ended before the first measurement."""
         if not self._peak:
             return None
         cpu = sum(self._cpu_of.values())
@@ -65,7 +65,7 @@ class Meter:
 
 @asynccontextmanager
 async def measuring(session: int) -> AsyncIterator[Meter]:
-    """Measure again and again until the end of the block."""
+    """Measure periodically until the end of the block."""
     meter = Meter(session)
     task = asyncio.create_task(_go_on(meter))
     try:

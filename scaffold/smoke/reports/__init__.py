@@ -15,9 +15,9 @@ def report(result: Smoke, form: str, out: TextIO, *, verbose: bool = False) -> N
     """Write the result in one of ``FORMATS``.
 
     Args:
-        result: What was found out.
+        result: The result of the run.
         form: The format.
         out: The stream.
-        verbose: Whether people are shown all figures; programs get them in any case.
+        verbose: Whether text formats show all measurements; other formats always do.
     """
     import_module(f"{__name__}.{form}").report(result, out, verbose=verbose)

@@ -22,7 +22,7 @@ def count(number: int, noun: str) -> str:
 
 
 def flow(value: object) -> str:
-    """Return a value in YAML's flow style, as short as it goes."""
+    """Return a value in the flow style of YAML, as short as possible."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in value.items()) + "}"
     if isinstance(value, (list, tuple)):
@@ -53,7 +53,7 @@ def milliseconds(spread: Spread) -> str:
 
 
 def of_transitions(transitions: Sequence[Transition]) -> Iterator[str]:
-    """Yield through which states managed nodes went, a line for each node."""
+    """Yield the states of managed nodes, one line per node."""
     for node in dict.fromkeys(item.node for item in transitions):
         steps = [item for item in transitions if item.node == node]
         went = ", ".join(
@@ -66,7 +66,7 @@ def of_transitions(transitions: Sequence[Transition]) -> Iterator[str]:
 
 
 def of_topic(topic: Topic) -> Iterator[str]:
-    """Yield what is known of the messages and the endpoints of a topic."""
+    """Yield details of the messages and endpoints of a topic."""
     if topic.first_after is not None:
         yield f"first message {topic.first_after:.2f} s after the start"
     if topic.interval is not None:
@@ -85,7 +85,7 @@ def of_topic(topic: Topic) -> Iterator[str]:
 
 
 def quality(endpoint: Endpoint) -> str:
-    """Return the quality of service of an endpoint: what is known and no default of all."""
+    """Return the quality of service of an endpoint: known settings other than defaults."""
     qos = endpoint.qos
     parts = [str(qos[name]).replace("_", " ") for name in ("reliability", "durability")]
     if qos["history"] != "unknown":
@@ -101,7 +101,7 @@ def quality(endpoint: Endpoint) -> str:
 
 
 def of_executable(seen: Observation) -> Iterator[str]:
-    """Yield parameters, the log, and what the processes have used."""
+    """Yield parameters, the log, and the resource usage."""
     for node, values in seen.parameters.items():
         if values is None:
             yield f"parameters of {node}: no answer"
@@ -113,18 +113,18 @@ def of_executable(seen: Observation) -> Iterator[str]:
 
 
 def own_parameters(values: Mapping[str, Any]) -> list[tuple[str, Any]]:
-    """Return the parameters of a node that not every node has."""
+    """Return the parameters of a node without those that every node has."""
     return [item for item in values.items() if not item[0].startswith(_OF_EVERY_NODE)]
 
 
 def usage(used: Usage) -> str:
-    """Return what an executable has used."""
+    """Return the resource usage of an executable."""
     percent = "" if used.cpu_percent is None else f", {used.cpu_percent:.0f} % of a core"
     return f"memory {size(used.memory)}, at most {size(used.memory_peak)}{percent}"
 
 
 def warnings(log: Log) -> Iterator[str]:
-    """Yield one line about what was logged as a warning or worse, with the first of them."""
+    """Yield one line about logged warnings and errors, with the first of them."""
     counts = {level: log.counts.get(level, 0) for level in ("fatal", "error", "warn")}
     if any(counts.values()):
         first = next((line.text for line in log.lines if line.level in counts), "")

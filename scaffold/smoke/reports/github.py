@@ -13,11 +13,11 @@ from scaffold.smoke.reports.details import count
 from scaffold.smoke.result import PackageResult, Smoke
 
 _MOST_ROWS = 100
-"""Executables in a summary: it may have 1 MiB."""
+"""The maximum number of executables in a summary, which may have 1 MiB."""
 
 
 def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
-    """Write a command for each problem, and the text: the log of the step shows both."""
+    """Write a workflow command for each problem, and the text report."""
     if result.ended_early:
         title = {"title": "smoke ended early"}
         out.write(command("error", _plain(title), printable(result.ended_early)))

@@ -28,7 +28,7 @@ class Box:
     kind: str
     name: str
     label: str
-    """The name, shortened to what fits."""
+    """The name, shortened to fit."""
     x: float
     y: float
     width: float
@@ -89,7 +89,7 @@ def _arrows(seen: Observation) -> list[Arrow]:
 
 
 def _layers(names: Sequence[Name], arrows: Sequence[Arrow]) -> list[list[Name]]:
-    """Put each name right of all that lead to it; arrows that close a circle do not count."""
+    """Put each name right of its predecessors; arrows that close a cycle are ignored."""
     forward = _without_circles(names, arrows)
     layer = dict.fromkeys(names, 0)
     for _ in names:
@@ -126,7 +126,7 @@ def _is_reachable(following: dict[Name, list[Name]], begin: Name, end: Name) -> 
 
 
 def _placed(layers: Iterable[list[Name]], arrows: Sequence[Arrow]) -> dict[Name, Box]:
-    """Place the layers next to each other; in each, names are as high as their neighbors."""
+    """Place the layers next to each other, with names at the height of their neighbors."""
     boxes: dict[Name, Box] = {}
     x = float(_MARGIN)
     for layer in layers:

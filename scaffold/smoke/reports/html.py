@@ -18,7 +18,7 @@ def write(result: Smoke, directory: str) -> str:
     """Write the page; return its path.
 
     Raises:
-        InputError: the directory cannot be made, or the page not written.
+        InputError: the directory cannot be created, or the page cannot be written.
     """
     path = os.path.join(directory, NAME)
     content = page(result)
@@ -32,7 +32,7 @@ def write(result: Smoke, directory: str) -> str:
 
 
 def page(result: Smoke) -> str:
-    """Return the page; every text of others is escaped by the template."""
+    """Return the page; the template escapes all foreign text."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

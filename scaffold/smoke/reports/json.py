@@ -10,7 +10,7 @@ from scaffold.smoke.reports import shape
 from scaffold.smoke.result import Executable, PackageResult, Smoke, Spread, Stop, Tests, Topic
 
 SCHEMA_VERSION: Literal[1] = 1
-"""Raised when a field changes its meaning or goes; new fields come without that."""
+"""Incremented when a field changes its meaning or is removed, but not for new fields."""
 
 _DIGITS = 6
 _Outcome = Literal["passed", "failed", "skipped"]

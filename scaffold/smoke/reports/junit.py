@@ -15,7 +15,7 @@ _BUILD = "smoke build"
 
 
 def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
-    """Write the suites; what was seen of an executable is the output of its case."""
+    """Write the suites; the observation of an executable is the output of its case."""
     suites = [_suite(package, verbose=verbose) for package in without_escapes(result).packages]
     junit.write(suites, out)
 

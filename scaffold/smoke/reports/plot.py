@@ -10,12 +10,12 @@ from scaffold.smoke.result import Topic
 WIDTH, HEIGHT = 640, 180
 LEFT, RIGHT, TOP, BOTTOM = 56, 16, 14, 34
 _STEPS = 4
-"""Lines across the plot, at round numbers."""
+"""The number of grid lines, at round numbers."""
 
 
 @dataclass(frozen=True)
 class Tick:
-    """A number at an axis."""
+    """A labeled value of an axis."""
 
     at: float
     label: str
@@ -23,7 +23,7 @@ class Tick:
 
 @dataclass(frozen=True)
 class Plot:
-    """A line with its axes; all places are in units of the picture."""
+    """A line with its axes, in coordinates of the picture."""
 
     points: str
     rates: tuple[Tick, ...]
@@ -57,7 +57,7 @@ def of_topic(topic: Topic) -> Plot | None:
 
 
 def _ticks(greatest: float) -> list[float]:
-    """Return round numbers from 0 to one that is not below the greatest."""
+    """Return round numbers from 0 to at least the maximum."""
     greatest = max(greatest, 1e-6)
     rough = greatest / _STEPS
     power = 10.0 ** math.floor(math.log10(rough))

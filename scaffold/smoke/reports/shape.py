@@ -38,7 +38,7 @@ class Endpoint(TypedDict):
 
 
 class Topic(TypedDict):
-    """A topic as another process saw it."""
+    """A topic as observed by another process."""
 
     name: str
     type: str
@@ -67,7 +67,7 @@ class Named(TypedDict):
 
 
 class Transition(TypedDict):
-    """What came of a change of state of a managed node."""
+    """The result of a state transition of a managed node."""
 
     node: str
     name: Literal["configure", "activate", "deactivate", "cleanup", "shutdown"]

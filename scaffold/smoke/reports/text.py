@@ -27,9 +27,9 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
     """Write the result as text.
 
     Args:
-        result: What was found out.
+        result: The result of the run.
         out: The stream.
-        verbose: Whether figures, quality of service, parameters and logs are shown.
+        verbose: Whether measurements, quality of service, parameters and logs are shown.
     """
     paint = _painter(out)
     lines = _lines(without_escapes(result), paint, verbose=verbose)
@@ -40,7 +40,7 @@ def report(result: Smoke, out: TextIO, *, verbose: bool = False) -> None:
 
 
 def without_escapes(value: Value) -> Value:
-    """Return a result in which no text can command the terminal that shows it."""
+    """Return a result with control characters escaped."""
     cleaned: object = value
     if isinstance(value, str):
         cleaned = printable(value.expandtabs())
@@ -63,7 +63,7 @@ def _plain(text: str, color: str) -> str:  # noqa: ARG001  as if it had one
 
 
 def lines_of(executable: Executable, *, verbose: bool) -> list[str]:
-    """Return what was seen of an executable."""
+    """Return the lines about an executable."""
     return list(_details(executable, _plain, verbose=verbose))
 
 
@@ -195,7 +195,7 @@ def _indented(lines: Iterator[str] | tuple[str, ...], depth: int) -> Iterator[st
 
 
 def summary(result: Smoke, paint: Paint = _plain) -> str:
-    """Return one line: how much was run, and what is not ok."""
+    """Return one line with counts of runs and failures."""
     executables = [executable for package in result.packages for executable in package.executables]
     is_one = sum(bool(package.runs) for package in result.packages) == 1
     named = [

@@ -9,7 +9,7 @@ from typing import Any
 FILE = "smoke.yaml"
 
 TRANSITIONS = ("configure", "activate", "deactivate", "cleanup", "shutdown")
-"""Those that a managed node is led through, in this order."""
+"""The transitions that a managed node is taken through, in this order."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class TopicExpectation:
     type: str | None = None
     rate_hz: float | None = None
     any_rate: bool = False
-    """The rate in the source does not count."""
+    """Whether any rate is accepted."""
     tolerance: float | None = None
-    """Of the rate, as a fraction."""
+    """The tolerance of the rate, as a fraction."""
     fields: tuple[FieldExpectation, ...] = ()
 
 
@@ -50,7 +50,7 @@ class Call:
     type: str
     request: Mapping[str, Any] = field(default_factory=dict)
     answer: Mapping[str, Any] = field(default_factory=dict)
-    """Fields that the answer has; others are not looked at."""
+    """Expected fields of the response; others are ignored."""
 
 
 @dataclass(frozen=True)
@@ -76,11 +76,11 @@ class Scenario:
     exit_code: int | None = None
     skip: bool = False
     transitions: tuple[str, ...] = TRANSITIONS
-    """Of managed nodes."""
+    """The transitions of managed nodes."""
 
     @property
     def transitions_up(self) -> tuple[str, ...]:
-        """The transitions before the observation: up to the last that configures or activates."""
+        """The transitions before the observation: up to the last to configure or activate."""
         last = max(
             (i for i, name in enumerate(self.transitions) if name in {"configure", "activate"}),
             default=-1,
@@ -93,7 +93,7 @@ class Scenario:
         return self.transitions[len(self.transitions_up) :]
 
     def command(self) -> list[str]:
-        """Return the words after the executable."""
+        """Return the arguments of the executable."""
         from json import dumps
 
         words = [*self.arguments]

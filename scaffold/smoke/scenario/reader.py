@@ -37,10 +37,10 @@ def scenarios(package: Package, executables: Collection[str]) -> dict[str, Scena
 
     Args:
         package: The package.
-        executables: Those that it is known to have; empty where they are not known.
+        executables: The known executables; empty if unknown.
 
     Raises:
-        InputError: the file has a mistake.
+        InputError: the file is invalid.
     """
     if not package.has(FILE):
         return {}
@@ -238,7 +238,7 @@ class _Reader:
         return value
 
     def _parameters(self, node: YamlNode) -> Mapping[str, Any]:
-        """Return parameters; those of a namespace are joined to names with dots."""
+        """Return parameters; nested ones get names with dots."""
         result: dict[str, Any] = {}
         waiting = [("", self._fields(node))]
         while waiting:
@@ -253,7 +253,7 @@ class _Reader:
         return result
 
     def _value(self, node: YamlNode) -> Any:  # noqa: ANN401  what the file holds
-        """Return a value of YAML; aliases are not expanded, and no objects are built."""
+        """Return a YAML value; aliases are not expanded, and no objects are constructed."""
         if isinstance(node, Alias):
             self.refuse(node.location.line, f"the alias *{node.name}: write its value instead")
         if isinstance(node, Scalar):

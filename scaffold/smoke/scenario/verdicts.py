@@ -53,7 +53,7 @@ def _publication(derived: Publication, topic: TopicExpectation) -> Publication:
 
 
 def problems(scenario: Scenario, seen: Observation) -> Iterator[Problem]:
-    """Yield what is not as the author expects: values of fields, and answers."""
+    """Yield differences from the expectations of the author: values of fields, and responses."""
     for name, error in seen.refused:
         yield Problem(f"{FILE} publishes {name}, which fails: {error}")
     for topic in scenario.topics:
@@ -116,7 +116,7 @@ def _of_call(call: Call, answer: Answer | None) -> Iterator[Problem]:
 
 
 def _fits(expected: object, seen: object) -> bool:
-    """Tell whether a value is as expected; fields that are not named are not looked at."""
+    """Tell whether a value is as expected; other fields are ignored."""
     if isinstance(expected, Mapping):
         return isinstance(seen, Mapping) and all(
             name in seen and _fits(value, seen[name]) for name, value in expected.items()
