@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 
 class Choices:
-    """Resolves words of the configuration and the flags to rules.
+    """Resolves codes and names in the configuration and the flags to rules.
 
     Args:
         settings: The configuration.
-        rules: Those of content directories.
+        rules: The rules of content directories.
     """
 
     def __init__(self, settings: Config, rules: Sequence[type[Rule]]) -> None:
@@ -34,11 +34,11 @@ class Choices:
         """Return the selected codes.
 
         Args:
-            select: The values of the flag; they win over the configuration.
+            select: The values of the flag, which override the configuration.
             ignore: Likewise.
 
         Raises:
-            ConfigError: a word means no rule.
+            ConfigError: a word matches no rule.
         """
         from scaffold.check.selection import Selection, split
 
@@ -61,12 +61,12 @@ class Choices:
         """Return the other adjustments of findings by the configuration.
 
         Args:
-            is_release: Whether what no release is made of is an error, unless the configuration
+            is_release: Whether findings that block a release are errors, unless the configuration
                 says otherwise.
-            include_all: Whether also that is checked which is not the user's.
+            include_all: Whether foreign files are checked as well.
 
         Raises:
-            ConfigError: a word means no rule.
+            ConfigError: a word matches no rule.
         """
         from scaffold.check.adjustments import Adjustments
         from scaffold.configuration.exclusion import Exclusion
@@ -89,12 +89,12 @@ class Choices:
 
     @property
     def line_length(self) -> int | None:
-        """The characters of a line, where a package does not run flake8 itself."""
+        """The line length for packages that do not run flake8 themselves."""
         value: int = self._settings.value("check.line-length")
         return value if "check.line-length" in self._settings.values else None
 
     def policy(self) -> Policy:
-        """Return what rules have to know of the configuration."""
+        """Return the configuration of rules."""
         from scaffold.model.workspace.policy import Policy
 
         implicit = self._settings.strings("check.implicit-dependencies")
@@ -117,7 +117,7 @@ class Choices:
 
 
 def _names(rules: Sequence[type[Rule]]) -> dict[str, str]:
-    """Return the names of everything that is reported, by code."""
+    """Return the names of all codes that can be reported."""
     from scaffold.ament.codes import CODES
     from scaffold.check.session import all_rules
 

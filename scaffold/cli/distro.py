@@ -23,7 +23,7 @@ KEY = "check.distribution"
 VARIABLE = distributions.VARIABLE
 FLAG = "--distro"
 ANSWER = "distro"
-"""The question of `new` that the record in a package keeps the answer to."""
+"""The question of `new` whose answer is in the record of a package."""
 
 
 def add_argument(parser: argparse.ArgumentParser) -> None:
@@ -39,14 +39,14 @@ def add_argument(parser: argparse.ArgumentParser) -> None:
 
 
 def wanted(flag: Sequence[str] | None, settings: Config) -> list[Distribution] | None:
-    """Return the distributions that the user names, oldest first; ``None`` if that is none.
+    """Return the distributions given by the user, oldest first; ``None`` if there are none.
 
     Args:
         flag: The values of the flag, which may be repeated.
         settings: The configuration.
 
     Raises:
-        InputError: there is no distribution of a name.
+        InputError: a distribution is unknown.
     """
     if flag is not None:
         return distributions.several(",".join(flag), FLAG)
@@ -67,12 +67,12 @@ def recorded(
     """Return the distributions recorded in a package; ``None`` without a record.
 
     Args:
-        directory: Of the package.
+        directory: The directory of the package.
         disk: Records what was accessed.
-        is_needed: Whether nothing else says that a record is damaged.
+        is_needed: Whether a damaged record has to be reported here.
 
     Raises:
-        InputError: it names a distribution that is not known, or is supported no more, or it is
+        InputError: it names an unknown or no longer supported distribution, or it is
             damaged.
     """
     names = recorded_names(directory, disk)
@@ -96,11 +96,11 @@ def recorded(
 def recorded_names(directory: str, disk: Disk | None = None) -> list[str] | None:
     """Return the names in the record of a package, known or not; ``None`` without a record.
 
-    A record of a version that did not ask is of a package for the default, a damaged one is left to
+    A record of an early version means the default distribution; a damaged one is left to
     the verbs that need the rest of it.
 
     Args:
-        directory: Of the package.
+        directory: The directory of the package.
         disk: Records what was accessed.
     """
     disk = disk or Disk()
@@ -116,10 +116,10 @@ def recorded_names(directory: str, disk: Disk | None = None) -> list[str] | None
 
 
 def usual(settings: Config) -> dict[str, Given]:
-    """Return the answer for new packages: of the configuration, else of the shell, if there is one.
+    """Return the answer for new packages: from the configuration, or else from the shell.
 
     Raises:
-        InputError: there is no distribution of a name in the configuration.
+        InputError: a distribution in the configuration is unknown.
     """
     from scaffold.generate.questions.questions import Given
 
@@ -131,7 +131,7 @@ def usual(settings: Config) -> dict[str, Given]:
 
 
 def note(targets: Sequence[Distribution]) -> tuple[str, ...]:
-    """Return the line about a shell that is set up for another distribution, if it is."""
+    """Return a note if the shell is set up for another distribution."""
     name = os.environ.get(VARIABLE, "")
     if not name or name in [target.name for target in targets]:
         return ()
@@ -144,7 +144,7 @@ def note_of_new(given: Mapping[str, Given]) -> tuple[str, ...]:
     """Return a note on the distribution of a new package if only ROS_DISTRO names one.
 
     Args:
-        given: The answers, those of `usual` included.
+        given: The answers, including that of `usual`.
     """
     name = os.environ.get(VARIABLE, "")
     answer = given.get(ANSWER)
@@ -158,7 +158,7 @@ def note_of_new(given: Mapping[str, Given]) -> tuple[str, ...]:
 
 
 def note_of_smoke(observed: str) -> tuple[str, ...]:
-    """Return the line about a shell that is set up for another distribution than was observed."""
+    """Return a note if the shell is set up for another distribution than the observed one."""
     name = os.environ.get(VARIABLE, "")
     if name in {"", observed}:
         return ()

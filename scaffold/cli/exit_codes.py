@@ -6,16 +6,16 @@ CLEAN = 0
 """Done, and no findings."""
 
 FINDINGS = 1
-"""Done, and there is something the user should look at."""
+"""Done, with findings."""
 
 USAGE_ERROR = 2
-"""The user's input or environment is at fault; stderr says what, in one line."""
+"""An error in the user's input or environment; stderr has one line about it."""
 
 INTERNAL_ERROR = 3
 """A defect of this tool or of the content it comes with."""
 
 INTERRUPTED = 130
-"""Ctrl-C, as shells count it: 128 + SIGINT."""
+"""Ctrl-C, as in shells: 128 + SIGINT."""
 
 BROKEN_PIPE = 141
-"""The reader of the output went away, as shells count it: 128 + SIGPIPE."""
+"""The reader closed the output, as in shells: 128 + SIGPIPE."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def add_looking(parser: Parser) -> None:
-    """Define the flags of verbs that write, for users who want a preview."""
+    """Define the preview flags of verbs that write."""
     parser.add_argument(
         "--dry-run", action="store_true", help="show what would be written, and write nothing"
     )
@@ -22,7 +22,7 @@ def add_looking(parser: Parser) -> None:
 
 
 def content_in(parser: argparse.ArgumentParser) -> list[str]:
-    """Return the content that a command line names, before the flags of its templates are known."""
+    """Return the content directories on a command line, before their templates define flags."""
     from argparse import ArgumentParser
 
     first = ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
@@ -32,7 +32,7 @@ def content_in(parser: argparse.ArgumentParser) -> list[str]:
 
 
 def add_content(parser: Parser) -> None:
-    """Define the flag for templates of a team."""
+    """Define the flag for content directories."""
     action = parser.add_argument(
         "--content",
         action="append",
@@ -52,14 +52,14 @@ def add_answers(parser: Parser) -> None:
 
 
 def offer_directories(prefix: str, **_: object) -> list[str]:
-    """Offer directories to who presses tab."""
+    """Complete directories."""
     from argcomplete.completers import DirectoriesCompleter
 
     return [*DirectoriesCompleter()(prefix)]
 
 
 def offer_rules(prefix: str, **_: object) -> list[str]:
-    """Offer the codes and names of rules to who presses tab, also after a comma."""
+    """Complete codes and names of rules, also after a comma."""
     from scaffold.ament.codes import CODES
     from scaffold.check import selection
     from scaffold.check.rules import registry

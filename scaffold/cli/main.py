@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 COLLECT_FROM = 500_000
-"""Objects after which Python looks for garbage: what a short run makes, it needs until its end."""
+"""The threshold of garbage collection: a short run needs its objects until its end."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -81,9 +81,9 @@ def _run(given: list[str]) -> int:
 
 
 def _rules_ahead(verb: str, given: list[str]) -> AbstractContextManager[RuleProcess | None]:
-    """Have the rules loaded in a second process, if the verb will need them late.
+    """Load the rules in a second process, if the verb needs them late.
 
-    It is started before the flags of `new` are laid out, for which all templates are read.
+    It is started before the flags of `new` are defined, which needs all templates.
     """
     if verb != "new" or not {"-h", "--help"}.isdisjoint(given):
         return nullcontext()
@@ -116,7 +116,7 @@ def _failed(error: Exception | KeyboardInterrupt) -> int:
 
 
 def _refused(error: OSError | MemoryError) -> str:
-    """Return what the system refuses: space, permission, memory, the current directory."""
+    """Return a message about a system error: space, permission, memory, current directory."""
     if isinstance(error, MemoryError):
         return "out of memory"
     try:

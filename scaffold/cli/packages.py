@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def common_directory(paths: Sequence[str], disk: Disk) -> str:
-    """Return the common directory of all paths: the configuration is there or above."""
+    """Return the common directory of all paths, where the search for the configuration starts."""
     places = [os.path.abspath(path) for path in paths]
     return os.path.commonpath(
         [place if disk.is_directory(place) else os.path.dirname(place) for place in places]
@@ -24,7 +24,7 @@ def common_directory(paths: Sequence[str], disk: Disk) -> str:
 
 
 def find_targets(options: argparse.Namespace, session: Session, disk: Disk | None) -> list[Target]:
-    """Find the packages; note for the report what the configuration excludes."""
+    """Find the packages; add a note on excluded ones to the report."""
     from scaffold.model.discovery import targets as discovery
     from scaffold.reporters.summary import count
 
@@ -56,7 +56,7 @@ def find_targets(options: argparse.Namespace, session: Session, disk: Disk | Non
 
 
 def foreign_note(session: Session, results: Sequence[Result]) -> tuple[str, ...]:
-    """Return the note about skipped files that are not the user's, if there are any."""
+    """Return the note about skipped foreign files, if there are any."""
     from scaffold.model.discovery.foreign import ENVIRONMENTS, WHERE
     from scaffold.reporters.summary import count
 

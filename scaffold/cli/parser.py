@@ -15,15 +15,15 @@ from scaffold.cli.verbs import VERBS
 
 
 class _Parser(argparse.ArgumentParser):
-    """Reports errors in one line, as everywhere in this tool, with the closest word."""
+    """Reports errors in one line with a suggestion, as everywhere in this tool."""
 
     chosen: _Parser | None = None
-    """The parser of the verb that the words begin with."""
+    """The parser of the verb on the command line."""
 
     def parse_args(  # type: ignore[override]  # without a namespace of its own
         self, args: Sequence[str] | None = None, namespace: None = None
     ) -> argparse.Namespace:
-        """Parse all words; print the line and exit if one has no meaning."""
+        """Parse all words; print an error and exit if one is unknown."""
         words = [*(sys.argv[1:] if args is None else args)]
         if words and all(word.startswith("-") for word in words):  # no verb, which comes first
             unknown = [word for word in words if word.partition("=")[0] not in self.flags]
@@ -42,7 +42,7 @@ class _Parser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
     def _check_value(self, action: argparse.Action, value: object) -> None:
-        """Refuse a word that is not a choice, with the nearest one."""
+        """Reject a word that is not a choice, with the closest one."""
         choices = [*map(str, action.choices or ())]
         if choices and value not in choices:
             hint = nearest(str(value), choices) or f" (choose from {', '.join(choices)})"
@@ -55,13 +55,13 @@ class _Parser(argparse.ArgumentParser):
         sys.exit(USAGE_ERROR)
 
     def _print_message(self, message: str, file: object = None) -> None:
-        """Print the help or the version; argparse itself is silent about a full disk."""
+        """Print the help or the version; argparse itself ignores a full disk."""
         del file
         terminal.show(message.removesuffix("\n"))
 
 
 def nearest(word: str, words: Sequence[str]) -> str:
-    """Return the end of an error message: the closest word to a wrong one, or nothing."""
+    """Return the suggestion at the end of an error message, if any."""
     from difflib import get_close_matches
 
     closest = get_close_matches(word.partition("=")[0], words, n=1)
@@ -76,8 +76,8 @@ def build_parser(
     Args:
         verb: The only verb to define in full; the others are listed but not imported. ``None``
             defines all, as tab completion needs.
-        comes_first: No option that might request the list precedes the verb.
-        words: What the user wrote: the templates that it names have flags of their own.
+        comes_first: Whether no option that requests the list precedes the verb.
+        words: The command line; templates in it have their own flags.
     """
     parser = _Parser(
         prog="ros2-scaffold",

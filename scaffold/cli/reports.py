@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from scaffold.reporters import ReportOptions
 
 JOB_SUMMARY = "GITHUB_STEP_SUMMARY"
-"""The variable with the file to which the steps of a job of GitHub add Markdown."""
+"""The variable with the file for the Markdown summary of a GitHub job."""
 
 
 def validate(options: argparse.Namespace) -> None:
-    """Make sure that a report can be written, before the work is done.
+    """Make sure that a report can be written, before the work starts.
 
     Raises:
         InputError: it cannot.
@@ -54,15 +54,15 @@ def validate_path(path: str | None) -> None:
 def write(
     options: argparse.Namespace, results: Sequence[Result], shown: ReportOptions
 ) -> str | None:
-    """Report results in the format and to the place that the user asked for.
+    """Report results in the requested format, to the requested place.
 
     Args:
         options: The flags of `check`.
-        results: Of all packages, in the order to report them in.
-        shown: Which of them to show.
+        results: The results of all packages, in the order of the report.
+        shown: The results to show.
 
     Returns:
-        What standard output got; ``None`` where the same run would also write something else.
+        The standard output; ``None`` if the run also writes elsewhere.
 
     Raises:
         InputError: the file cannot be written.
@@ -101,14 +101,14 @@ def text(results: Sequence[Result], shown: ReportOptions) -> str:
 
 
 class _Copy(StringIO):
-    """Standard output that is recorded, so that it can be repeated."""
+    """Standard output that is recorded for the cache."""
 
     def __init__(self, *, is_terminal: bool) -> None:
         super().__init__()
         self._is_terminal = is_terminal
 
     def isatty(self) -> bool:
-        """Tell whether colors are seen."""
+        """Tell whether it is a terminal."""
         return self._is_terminal
 
 
@@ -125,15 +125,15 @@ def add_job_summary(text: str) -> None:
 
 
 def write_file(path: str, content: bytes, flag: str) -> None:
-    """Write to a temporary file and rename it: no partial report; but straight to a device.
+    """Write a file atomically; write directly to devices.
 
     Args:
         path: The file.
-        content: What is written.
-        flag: What names the file, for messages.
+        content: The content.
+        flag: The flag with the file, for messages.
 
     Raises:
-        InputError: the system refuses.
+        InputError: the system reports an error.
     """
     from scaffold.files import temporary
     from scaffold.writing import new_files

@@ -13,7 +13,7 @@ _OWN = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 def leave_out_current_directory() -> None:
-    """Import nothing more from the current directory, unless this tool itself is there."""
+    """Remove the current directory from the path, unless this tool itself is there."""
     try:
         current = os.getcwd()
     except OSError:  # it was removed

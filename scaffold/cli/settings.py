@@ -15,7 +15,7 @@ _ANSWERS = "new."
 
 
 def load(content: Sequence[str] = ()) -> Config:
-    """Read the configuration; say on standard error what was ignored.
+    """Read the configuration; warn on standard error of ignored parts.
 
     Args:
         content: Content directories given as flags.
@@ -35,7 +35,7 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
 
     Args:
         settings: The configuration.
-        of_user: Look at the user's own file, too, and not only at that of the project.
+        of_user: Whether to validate the user's own file as well.
     """
     from scaffold.configuration import config, content
     from scaffold.files.disk import Disk
@@ -57,7 +57,7 @@ def validate_answers(settings: Config, *, of_user: bool = True) -> None:
 
 
 def warn(warnings: Iterable[str]) -> None:
-    """Say on standard error what was ignored."""
+    """Warn on standard error of ignored parts."""
     if "_ARGCOMPLETE" not in os.environ:  # there it would be written between the user's words
         for warning in warnings:
             terminal.warn(warning)

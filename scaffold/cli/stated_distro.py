@@ -26,9 +26,9 @@ _PLACES = (
     (".devcontainer", ("DOCKERFILE", "DOCKER-COMPOSE")),
     (os.path.join(".github", "workflows"), ()),
 )
-"""Directories of a repository, and how the files are called that are read there."""
+"""Directories of a repository, and patterns of the files read there."""
 _MAX_BYTES = 200_000
-"""Of a file; what a repository is for is said at the top of a README."""
+"""The number of bytes read; a README names its distribution at the top."""
 _KNOWN = (*distributions.NAMES, *sorted(distributions.ENDED_ROS2))
 _NAMED = re.compile(
     r"(?<![a-z])ros[ _-]?2?[ _-]?(?:distro(?:s|butions?)?)?[\W_]{1,4}"
@@ -40,11 +40,11 @@ _NAMED = re.compile(
 
 
 def note(directory: str, targets: Sequence[Distribution], disk: Disk) -> tuple[str, ...]:
-    """Return the line about a repository that names other distributions than the targets, if any.
+    """Return a note if the repository names other distributions than the targets.
 
     Args:
-        directory: What is checked, or the common directory of it.
-        targets: What it is checked for.
+        directory: The checked directory, or the common one.
+        targets: The targets of the check.
         disk: Records what was accessed.
     """
     real = disk.real(directory)
@@ -78,7 +78,7 @@ def _files(disk: Disk, top: str) -> Iterator[str]:
 
 
 def _text(disk: Disk, path: str) -> str:
-    """Return the text of a file; nothing if it is no text, or too large."""
+    """Return the text of a file; empty if it is binary or too large."""
     try:
         return disk.read(path, _MAX_BYTES).decode(errors="replace")
     except OSError:

@@ -40,13 +40,13 @@ class StatusLine:
             self._clock.join()
 
     def show(self, text: str) -> None:
-        """Say what is going on now."""
+        """Set the current activity."""
         with self._lock:
             self._text = printable(text)
             self._draw()
 
     def announce(self, text: str) -> None:
-        """Write a line that stays."""
+        """Print a permanent line above the status line."""
         with self._lock:
             if self._is_shown:
                 terminal.write_error(_ERASE)
@@ -71,7 +71,7 @@ class StatusLine:
 
 
 def _clock(seconds: float) -> str:
-    """Return a time as a clock shows it."""
+    """Format a duration like a clock."""
     minutes, rest = divmod(int(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

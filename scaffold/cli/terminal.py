@@ -15,14 +15,14 @@ from scaffold.printable import json_text, printable, printable_lines, write_line
 OUTPUT = "standard output"
 
 _STREAMS = (0, 1, 2)
-"""Standard input, output and error, as the system counts them."""
+"""The file descriptors of standard input, output and error."""
 
 
 def prepare() -> None:
     """Make sure that there are standard streams.
 
-    One that is closed is opened on nothing: a file opened later would get its number, and what is
-    written for people would go into that file.
+    A closed one is opened on /dev/null: a file opened later would get its descriptor, and
+    messages would be written to that file.
 
     Raises:
         EnvironmentMissingError: standard output is closed.
@@ -77,7 +77,7 @@ def write_bytes(data: bytes) -> None:
 
 
 def write_report(text: str) -> None:
-    """Write what a reporter made, in which foreign text is neutralized already."""
+    """Write a report, whose foreign text is already escaped."""
     try:
         try:
             sys.stdout.write(text)
@@ -114,7 +114,7 @@ def say_lines(text: str) -> None:
 
 
 def write_error(text: str) -> None:
-    """Write to standard error what is neutralized already."""
+    """Write already escaped text to standard error."""
     try:
         sys.stderr.write(text)
         sys.stderr.flush()
@@ -131,7 +131,7 @@ def flush() -> None:
 
 
 def settle() -> None:
-    """Drop what standard output cannot take, so that the end of the process does not fail."""
+    """Discard output that cannot be written, so that the process exits cleanly."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -11,19 +11,19 @@ from scaffold.errors import ScaffoldError
 from scaffold.record import NamedTuple
 
 _OTHER_FILES = 256
-"""Open files besides the directories of packages."""
+"""The number of open files besides the directories of packages."""
 
 
 @contextmanager
 def held(directory: str, *, is_dry: bool) -> Iterator[None]:
-    """Hold a package from the first read to the last write; a dry run only looks.
+    """Lock a package from the first read to the last write; a dry run does not lock.
 
     Args:
         directory: The root of the package.
-        is_dry: Whether nothing is going to be written.
+        is_dry: Whether nothing will be written.
 
     Raises:
-        LockedError: another process holds the package for too long.
+        LockedError: another process has locked the package for too long.
     """
     from scaffold.writing import transaction
 
@@ -40,18 +40,18 @@ class Held(NamedTuple):
 
     roots: frozenset[str]
     has_waited: bool
-    """Whether something may have changed since before."""
+    """Whether files may have changed while waiting."""
     has_failed: bool
-    """Whether another process holds some of the packages for too long."""
+    """Whether another process has locked some of the packages for too long."""
 
 
 def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
-    """Lock packages until a stack is closed, as `held` does; report those that are locked already.
+    """Lock packages until a stack is closed, like `held`; report those that stay locked.
 
     Args:
-        stack: Lets them go.
+        stack: Releases the locks.
         roots: The directories of the packages.
-        is_dry: Whether nothing is going to be written.
+        is_dry: Whether nothing will be written.
     """
     from scaffold.writing import transaction
 
@@ -79,7 +79,7 @@ def hold_all(stack: ExitStack, roots: Sequence[str], *, is_dry: bool) -> Held:
 
 
 def _allow_open_files(count: int) -> None:
-    """Let this process have as many more files open, as far as the system allows."""
+    """Raise the limit of open files by a number, as far as the system allows."""
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -90,7 +90,7 @@ def _allow_open_files(count: int) -> None:
 
 
 def note_unfinished(directory: str) -> bool:
-    """Say so if a run was cut off while it changed a package; tell whether that is so."""
+    """Note if a run was interrupted while it changed a package; return whether that is so."""
     from scaffold.files import temporary
 
     try:

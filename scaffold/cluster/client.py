@@ -20,7 +20,7 @@ from scaffold.errors import EnvironmentMissingError
 from scaffold.programs import installation
 
 TIMEOUT = 10.0
-"""Seconds in which a scheduler has to answer, and to have a worker."""
+"""Seconds for a scheduler to respond and to have a worker."""
 
 _PERIOD = 0.05
 
@@ -29,7 +29,7 @@ Result = TypeVar("Result")
 
 
 Dask = Any
-"""What comes from Dask, which need not be installed."""
+"""Objects of Dask, which need not be installed."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,10 @@ class Done(Generic[Result]):
 
     name: str
     worker: str = ""
-    """Where it ran; empty if it did not get to its end."""
+    """The worker that ran it; empty if it did not finish."""
     result: Result | None = None
     error: str = ""
-    """Why there is no result."""
+    """The error, if there is no result."""
 
 
 class Cluster:
@@ -49,7 +49,7 @@ class Cluster:
 
     Args:
         client: Dask's.
-        tell: Called with what the user should know.
+        tell: Called with messages for the user.
     """
 
     def __init__(self, client: Dask, tell: Callable[[str], None]) -> None:
@@ -58,21 +58,21 @@ class Cluster:
 
     @property
     def threads(self) -> int:
-        """How many tasks its workers do at a time."""
+        """The number of tasks that its workers run at a time."""
         return sum(self._client.nthreads().values()) or 1
 
     def map(
         self, function: Callable[..., Result], tasks: Mapping[str, Task], *shared: object
     ) -> Iterator[Done[Result]]:
-        """Submit tasks; yield the outcome of each, once, in the order in which they end.
+        """Submit tasks; yield each outcome once, in the order of completion.
 
-        A task whose worker dies is run again on another one; Dask gives up when that happens to
-        it again and again.
+        A task whose worker dies is run again on another one; Dask gives up when that happens
+        repeatedly.
 
         Args:
             function: A function of this tool, which the workers have.
             tasks: Its first arguments, by name.
-            shared: Its other arguments, the same for all: they travel once to each worker, however
+            shared: Its other arguments, the same for all: sent once to each worker, however
                 large they are.
         """
         run = uuid.uuid4().hex
@@ -105,7 +105,7 @@ class Cluster:
                 self._client.cancel([*futures, *given], force=True)
 
     def _ended(self, futures: Sequence[Dask]) -> Iterator[Dask]:
-        """Yield what has ended; not the rest, once the scheduler does not answer any more."""
+        """Yield ended tasks, until the scheduler does not respond any more."""
         ended = _dask().as_completed(futures, loop=self._client.loop)
         silence = Silence(self._client, self._tell)
         while not ended.is_empty():
@@ -139,11 +139,11 @@ def _reason(error: BaseException) -> str:
 
 @contextmanager
 def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
-    """Connect to a scheduler for the length of the block.
+    """Connect to a scheduler for the duration of the block.
 
     Args:
-        address: Such as ``tcp://host:8786``; Dask's own configuration says how TLS is done.
-        tell: Called with what the user should know.
+        address: Such as ``tcp://host:8786``; TLS is set in the configuration of Dask.
+        tell: Called with messages for the user.
 
     Raises:
         EnvironmentMissingError: Dask is not installed, there is no scheduler, it has no workers,
@@ -169,7 +169,7 @@ def connected(address: str, tell: Callable[[str], None]) -> Iterator[Cluster]:
 
 
 def _silence() -> None:
-    """Keep Dask from logging: what goes wrong becomes a line of ours."""
+    """Keep Dask from logging, as this tool reports errors itself."""
     names = [*logging.root.manager.loggerDict, "distributed"]  # it sets levels of many
     for name in names:
         if name.partition(".")[0] in {"distributed", "tornado", "asyncio"}:
@@ -227,5 +227,5 @@ def _tool(version: object) -> str:
 
 
 def _release(program: str, version: str) -> str:
-    """Return as much of a version as has to be the same."""
+    """Return the part of a version that has to be equal."""
     return ".".join(version.split(".")[:2]) if program == "python" else version

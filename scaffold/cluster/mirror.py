@@ -19,7 +19,7 @@ _LOOKED_AT = frozenset(
 )
 _LICENSES = ("LICENSE", "LICENCE", "COPYING")
 _MARKER = "COLCON_IGNORE"
-"""The file in what colcon makes."""
+"""The marker file in build products of colcon."""
 
 
 @dataclass(frozen=True)
@@ -27,11 +27,11 @@ class Mirror:
     """Packed directories."""
 
     archive: bytes
-    """Files, links and directories by their paths without the leading slash."""
+    """A tar archive of files, symlinks and directories, by path without the leading slash."""
     sizes: Mapping[str, int]
-    """The files that are too large for anybody to read them: their content is left behind."""
+    """The sizes of files that are too large to be read, whose content is not sent."""
     indexes: Mapping[str, bytes]
-    """What git tracks in each checkout: its index, by the top of the checkout."""
+    """The git index of each checkout, by the top of the checkout."""
 
 
 class Packer:
@@ -47,12 +47,12 @@ class Packer:
         self._indexes: dict[str, bytes] = {}
 
     def mirror(self) -> Mirror:
-        """Return what is packed."""
+        """Return the packed directories."""
         self._archive.close()
         return Mirror(self._out.getvalue(), self._sizes, self._indexes)
 
     def add_tree(self, directory: str) -> None:
-        """Pack a directory, without what is in directories of version control and of builds.
+        """Pack a directory, without version control data and build products.
 
         Raises:
             OSError: it cannot be read.
@@ -78,7 +78,7 @@ class Packer:
         return False
 
     def add_above(self, path: str) -> None:
-        """Pack what `check` looks at in the directories above a path, if it is there.
+        """Pack the files in the directories above a path that `check` reads.
 
         Raises:
             OSError: it cannot be read.
@@ -90,7 +90,7 @@ class Packer:
                     self.add(os.path.join(directory, name))
 
     def add(self, path: str) -> None:
-        """Pack a file, a link or a directory without what is in it, and the links on its way.
+        """Pack a file, a symlink or an empty directory, and the symlinks in its path.
 
         Raises:
             OSError: it cannot be read.
@@ -108,7 +108,7 @@ class Packer:
             self._add_file(real)
 
     def _add_link(self, path: str) -> None:
-        """Pack a link, and where it leads: a file with its content, a directory without."""
+        """Pack a symlink and its target: a file with its content, a directory without."""
         target = os.path.join(os.path.dirname(path), os.readlink(path))
         way = os.path.relpath(target, os.path.dirname(path))
         if self._add(path, tarfile.SYMTYPE, link=way):
@@ -128,7 +128,7 @@ class Packer:
     def _add(
         self, path: str, kind: bytes, data: bytes = b"", *, link: str = "", mode: int | None = None
     ) -> bool:
-        """Pack something; return whether it was not packed before."""
+        """Pack an entry; return whether it was not packed before."""
         if path in self._packed or path == os.sep:
             return False
         self._packed.add(path)
@@ -154,7 +154,7 @@ class Packer:
 
 
 def unpack(mirror: Mirror, directory: str) -> None:
-    """Write what is packed to a directory that exists.
+    """Unpack into an existing directory.
 
     Raises:
         OSError: it cannot be written.
@@ -172,7 +172,7 @@ def unpack(mirror: Mirror, directory: str) -> None:
 
 
 def _write_checkout(place: str, index: bytes) -> None:
-    """Write as much of a checkout as git needs to name the files that it tracks."""
+    """Write the parts of a checkout that git needs to list tracked files."""
     for name in ("objects", "refs"):
         os.makedirs(os.path.join(place, name))
     for name, data in (("HEAD", b"ref: refs/heads/main\n"), ("index", index)):
@@ -182,7 +182,7 @@ def _write_checkout(place: str, index: bytes) -> None:
 
 
 def _above(path: str) -> Iterator[str]:
-    """Yield the directories above a path, from the top."""
+    """Yield the parent directories of a path, from the root."""
     parts = path.split(os.sep)
     for depth in range(2, len(parts)):
         yield os.sep.join(parts[:depth])

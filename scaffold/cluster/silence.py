@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 PERIOD = 5.0
-"""Seconds between two questions to the scheduler."""
+"""Seconds between two requests to the scheduler."""
 PATIENCE = 30.0
-"""Seconds of silence that mean something; workers and schedulers say something every second."""
+"""Seconds of silence before a report; workers and schedulers send a heartbeat every second."""
 
 
 class Silence:
@@ -18,7 +18,7 @@ class Silence:
 
     Args:
         client: Dask's.
-        tell: Called with what the user should know.
+        tell: Called with messages for the user.
     """
 
     def __init__(self, client: Any, tell: Callable[[str], None]) -> None:  # noqa: ANN401  Dask's
@@ -29,7 +29,7 @@ class Silence:
         self._told: set[str] = set()
 
     def has_come(self) -> bool:
-        """Tell whether the scheduler has not answered for long; it is asked now and then."""
+        """Tell whether the scheduler has been silent for long, polling it periodically."""
         if time.monotonic() < self._next:
             return False
         try:

@@ -12,7 +12,7 @@ from scaffold.model.package import Package
 _LEFT_BEHIND = frozenset(
     {".git", ".hg", ".svn", "__pycache__", "build", "install", "log", "COLCON_IGNORE", ".venv"}
 )
-"""What builds and version control leave in the directory of a package."""
+"""Directories of builds and version control in a package."""
 
 
 def pack(package: Package) -> bytes:

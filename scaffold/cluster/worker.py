@@ -19,17 +19,17 @@ def version() -> str:
 
 
 def same(item: Item) -> Item:
-    """Return what tasks share, to keep it on a worker."""
+    """Return its argument, to keep data shared by tasks on a worker."""
     return item
 
 
 def work(function: Callable[..., Result], expected: str, *arguments: object) -> tuple[str, Result]:
-    """Do a task; return the name of the worker and the result.
+    """Run a task; return the name of the worker and the result.
 
     Args:
         function: A function of this tool.
-        expected: The version of this tool where the task comes from.
-        arguments: Of the function.
+        expected: The version of this tool on the client.
+        arguments: The arguments of the function.
 
     Raises:
         RuntimeError: this worker, which may have joined later, has another version.

@@ -28,12 +28,12 @@ PYPROJECT_FILE = "pyproject.toml"
 TOOL = "ros2-scaffold"
 """The table of ``[tool]`` in ``pyproject.toml``."""
 MAX_BYTES = 100_000
-"""Of a configuration file, which has some lines."""
+"""The size limit of a configuration file."""
 MAX_BYTES_OF_PYPROJECT = 1_000_000
-"""It may also hold what other tools need."""
+"""The size limit of ``pyproject.toml``, which may have tables of other tools."""
 USER_FILE = "config.toml"
 FLAG = "--content"
-"""Where a directory comes from that the user typed."""
+"""The origin of directories given as flags."""
 
 
 class Value(NamedTuple):
@@ -50,7 +50,7 @@ class Config(NamedTuple):
     directories: tuple[Value, ...] = ()
     """Content directories, relative ones resolved against their file."""
     warnings: tuple[str, ...] = ()
-    """What the project's files say and was ignored, a line each."""
+    """Ignored parts of the project's files, one line each."""
 
     @property
     def content(self) -> tuple[str, ...]:
@@ -58,7 +58,7 @@ class Config(NamedTuple):
         return tuple(directory.value for directory in self.directories)
 
     def value(self, key: str) -> Any:  # noqa: ANN401  of any type in TOML
-        """Return a value of the type that `keys` gives it, by default its default."""
+        """Return a value of the type declared in `keys`, or its default."""
         set_value = self.values.get(key)
         if set_value is not None:
             return set_value.value
@@ -82,21 +82,21 @@ class _File(NamedTuple):
 
     @property
     def prefix(self) -> str:
-        """What is in front of the names of its tables."""
+        """The prefix of the names of its tables."""
         return f"tool.{TOOL}." if os.path.basename(self.path) == PYPROJECT_FILE else ""
 
 
 def load(directory: str = ".", content: tuple[str, ...] = (), disk: Disk | None = None) -> Config:
     """Read the user's and the project's file.
 
-    The project's content directories count only if its directory is trusted. A file above the
-    repository that belongs to another user is left alone; without a repository, one above the
+    The project's content directories are used only if its directory is trusted. A file above the
+    repository that belongs to another user is ignored; without a repository, one above the
     directory.
 
     Args:
         directory: Where the search for the project's file starts.
         content: Content directories given as flags; they come last.
-        disk: Notes which files were looked for and what they hold.
+        disk: Records the files that were searched and their content.
 
     Raises:
         ConfigError: a file cannot be read, is not TOML, or has an unknown key or a wrong value.
@@ -163,7 +163,7 @@ def _table_hint(table: str) -> str:
 
 
 def _misplaced_key(prefix: str, name: str) -> str:
-    """Return what is wrong with a key before all tables, and where it belongs."""
+    """Return the error about a key before all tables, and where it belongs."""
     from difflib import get_close_matches
 
     if name in keys.TABLES:
@@ -180,7 +180,7 @@ def _misplaced_key(prefix: str, name: str) -> str:
 
 
 def named_content(directory: str) -> list[str]:
-    """Return the content directories that the project's file in a directory names.
+    """Return the content directories in the project's file of a directory.
 
     Raises:
         ConfigError: the file cannot be used.
@@ -234,7 +234,7 @@ def file_in(disk: Disk, directory: str) -> _File | None:
 
 
 def _path_in(disk: Disk, directory: str) -> str | None:
-    """Return the path of what may be the project's file in a directory; it is not parsed."""
+    """Return the path of the possible project's file in a directory, without parsing it."""
     path = os.path.join(directory, PROJECT_FILE)
     if disk.is_file(path):
         return path
@@ -243,7 +243,7 @@ def _path_in(disk: Disk, directory: str) -> str | None:
 
 
 def _names_tool(disk: Disk, path: str) -> bool:
-    """Tell whether a ``pyproject.toml`` may have a table of ours; others need not be valid."""
+    """Tell whether a ``pyproject.toml`` may have our table; others need not be valid."""
     import re
 
     if not disk.is_file(path):
@@ -276,7 +276,7 @@ def _tool_table(disk: Disk, path: str) -> Mapping[str, Any] | None:
 def _top(disk: Disk, start: str) -> str:
     """Return the top of the repository around a directory; without one, the directory itself.
 
-    A repository in a directory where everybody may write is that of anybody.
+    A repository in a world-writable directory may belong to anybody.
     """
     for current in _upwards(start):
         if disk.exists(os.path.join(current, ".git")) and not disk.is_shared(current):
@@ -335,7 +335,7 @@ def _read(disk: Disk, path: str, most: int = MAX_BYTES) -> dict[str, Any]:
 
 
 def _refuse_large(value: object, path: str) -> None:
-    """Raise if there is an integer that TOML does not have: it ends at 64 bits."""
+    """Raise if an integer exceeds the 64 bits of TOML."""
     if isinstance(value, int) and value.bit_length() > _INTEGER_BITS:
         raise ConfigError(f"{path}: invalid TOML: a number is too large")
     if isinstance(value, dict | list):
@@ -344,7 +344,7 @@ def _refuse_large(value: object, path: str) -> None:
 
 
 _INTEGER_BITS = 63
-"""Of the integers of TOML, besides their sign."""
+"""The bits of TOML integers, without the sign."""
 
 
 def _content(disk: Disk, entries: object, path: str) -> list[str]:

@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 _KINDS = ("rules", "templates")
 _revisions: dict[str, Revision] = {}
-"""Those that this run uses, by their directories."""
+"""The revisions used by this run, by directory."""
 _HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def built_in() -> str:
-    """Return the directory that holds ``rules/`` and ``templates/`` of this installation."""
+    """Return the directory of ``rules/`` and ``templates/`` in this installation."""
     packaged = os.path.join(_HERE, "_content")
     return packaged if os.path.isdir(packaged) else os.path.dirname(_HERE)
 
 
 def is_url(text: str) -> bool:
-    """Tell whether content is in a git repository somewhere else: ``URL@REV``."""
+    """Tell whether content is in a remote git repository: ``URL@REV``."""
     host, colon, _ = text.partition(":")
     return "://" in text or bool(colon and "@" in host and "/" not in host)
 
@@ -41,7 +41,7 @@ def _directory(base: str) -> str:
 
 
 def revisions(roots: Sequence[str]) -> list[Revision]:
-    """Return the revisions of git repositories that directories of content are in."""
+    """Return the git revisions of content directories."""
     return [
         revision
         for directory, revision in _revisions.items()
@@ -60,7 +60,7 @@ def roots(kind: str, own: Sequence[str] = ()) -> list[str]:
             revisions of git repositories.
 
     Raises:
-        ConfigError: one of the user's is no directory, or holds nothing of any kind; a repository
+        ConfigError: a directory of the user does not exist or has no content; a repository
             is not trusted, cannot be fetched, or has no such revision.
     """
     own = [_directory(base) for base in own]

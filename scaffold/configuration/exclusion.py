@@ -18,14 +18,14 @@ class Exclusion(NamedTuple):
 
     patterns: tuple[str, ...] = ()
     origin: str = ""
-    """The file that they are in."""
+    """The file with the patterns."""
 
     def covers(self, disk: Disk, path: str) -> bool:
-        """Tell whether a path, or a directory above it, is left out.
+        """Tell whether a path, or a directory above it, is excluded.
 
         Args:
-            disk: Notes what was looked at.
-            path: As the user wrote it.
+            disk: Records accesses.
+            path: The path as given by the user.
         """
         relative = self.relative(disk, path)
         return relative is not None and self.covers_relative(relative)

@@ -21,11 +21,11 @@ from scaffold.programs import git, git_tree
 from scaffold.record import NamedTuple
 
 _URL = re.compile(r"(\w+://[^/]*/.+|[^@/\s]+@[^:/\s]+:.+)@([^@:]+)")
-"""What is left of the last '@'; further left there may be one in front of a host."""
+"""The URL up to the last '@'; an earlier one may precede a host."""
 _REVISION = re.compile(r"\w[\w./+-]*", re.ASCII)
 _COMMIT = re.compile(r"[0-9a-f]{7,64}")
 _MOST_NAMED = 8
-"""Tags and branches that an error names."""
+"""The maximum number of tags and branches in an error."""
 
 
 class Revision(NamedTuple):
@@ -33,17 +33,17 @@ class Revision(NamedTuple):
 
     url: str
     name: str
-    """What the user calls it: a tag, a branch or a commit."""
+    """The name given by the user: a tag, a branch or a commit."""
     commit: str
     directory: str
-    """Where its files are."""
+    """The directory of its files."""
 
 
 def split(text: str) -> tuple[str, str]:
     """Return the address and the name of the revision.
 
     Raises:
-        ConfigError: the revision is missing, or cannot be one.
+        ConfigError: the revision is missing or invalid.
     """
     match = _URL.fullmatch(text)
     if match is None:
@@ -56,7 +56,7 @@ def split(text: str) -> tuple[str, str]:
 
 @cache
 def resolve(text: str) -> Revision:
-    """Return a revision whose files are there, fetched if need be.
+    """Return a revision with its files, fetched if necessary.
 
     Raises:
         ConfigError: the address is not trusted or cannot be fetched, or has no such revision.
@@ -86,7 +86,7 @@ def resolve(text: str) -> Revision:
 
 
 def _fixed(mirror: str, name: str) -> str | None:
-    """Return the commit of a tag, or a commit itself; neither is another one later."""
+    """Return the commit of a tag or a commit, neither of which changes."""
     if not os.path.isdir(mirror):
         return None
     tagged = _commit(mirror, f"refs/tags/{name}")
@@ -100,7 +100,7 @@ def _commit(mirror: str, name: str) -> str | None:
 
 
 def _names(mirror: str) -> str:
-    """Return what revisions there are, the newest first, for an error."""
+    """Return the existing revisions, newest first, for an error."""
     words = ("for-each-ref", "--sort=-creatordate", "--format=%(refname:short)")
     done = git.run("--git-dir=.", *words, "refs/tags", "refs/heads", directory=mirror)
     names = done.stdout.decode(errors="replace").split()
@@ -108,7 +108,7 @@ def _names(mirror: str) -> str:
 
 
 def _fetch(url: str, mirror: str) -> None:
-    """Fetch all tags and branches; nothing else, such as the proposals of others."""
+    """Fetch all tags and branches, but nothing else, such as pull requests."""
     try:
         os.makedirs(mirror, mode=0o700, exist_ok=True)
         done = git.run("init", "--quiet", "--bare", ".", directory=mirror)
@@ -128,7 +128,7 @@ def _fetch(url: str, mirror: str) -> None:
 
 
 def _export(url: str, mirror: str, commit: str, directory: str) -> None:
-    """Write the files of a commit, and no links: they could lead anywhere."""
+    """Write the files of a commit, without symlinks, which could lead anywhere."""
     try:
         aside = tempfile.mkdtemp(dir=os.path.dirname(directory))
         try:

@@ -22,25 +22,25 @@ class Kind(NamedTuple):
     """The type of a value."""
 
     noun: str
-    """With its article."""
+    """The noun with its article."""
     refuse: Callable[[Any], str]
-    """Returns what is wrong with a value, after its key; empty if nothing is."""
+    """Returns the error about a value, to follow its key; empty if it is valid."""
     schema: dict[str, Any]
-    """The same as JSON schema."""
+    """The type as a JSON schema."""
 
 
 class Key(NamedTuple):
     """A key of the configuration."""
 
     table: str
-    """Empty for the top level."""
+    """The table; empty for the top level."""
     name: str
     kind: Kind
     default: Any
     summary: str
     """Markdown, for the documentation and the schema."""
     is_projects: bool = False
-    """Whether only the file of a project may have it: its paths are relative to that file."""
+    """Whether it is only allowed in a project's file, as its paths are relative to it."""
 
     @property
     def path(self) -> str:
@@ -266,7 +266,7 @@ TABLES = (*dict.fromkeys(key.table for key in KEYS if key.table), ANSWERS)
 
 
 def of_table(table: str) -> dict[str, Key]:
-    """Return the keys of a table by name; of the top level for an empty name."""
+    """Return the keys of a table by name; those of the top level for an empty name."""
     return {key.name: key for key in KEYS if key.table == table}
 
 

@@ -17,10 +17,10 @@ from scaffold.files import home
 from scaffold.files.disk import Disk
 
 FILE = "trusted"
-"""In the directory of the user's configuration."""
+"""The file in the user's configuration directory."""
 
 _OF_URLS = "git"
-"""Instead of an owner, in front of the address of a repository."""
+"""The prefix of repository addresses, instead of an owner."""
 _ABOUT = "# Trusted by `ros2-scaffold trust`: owner and path of directories; git and URL.\n"
 
 
@@ -28,7 +28,7 @@ def is_trusted(disk: Disk, directory: str) -> bool:
     """Tell whether the user trusts a directory.
 
     Args:
-        disk: Notes what the answer depends on.
+        disk: Records what the answer depends on.
         directory: Its real path.
     """
     owner = trusted(disk).get(directory)
@@ -51,10 +51,10 @@ def trusted_urls() -> list[str]:
 
 
 def add_url(url: str) -> None:
-    """Trust a repository, whatever is in it later, by its address.
+    """Trust a repository by its address, whatever it will contain.
 
     Raises:
-        InputError: it cannot be an address.
+        InputError: it is not a valid address.
         ConfigError: the list cannot be written.
     """
     if url.startswith("-") or url.split() != [url]:
@@ -84,7 +84,7 @@ def add(directory: str) -> str:
     """Trust a directory and return its real path.
 
     Raises:
-        InputError: there is none, or everybody may replace what is in it.
+        InputError: it does not exist, or is world-writable.
         ConfigError: the list cannot be written.
     """
     if not os.path.isdir(directory):
@@ -101,7 +101,7 @@ def add(directory: str) -> str:
 
 
 def remove(directory: str) -> str:
-    """Stop trusting a directory, which may be gone, or an address; return it as it is listed.
+    """Stop trusting a directory, which may no longer exist, or an address; return its entry.
 
     Raises:
         InputError: it is not trusted.
@@ -125,7 +125,7 @@ def _path() -> str | None:
 
 @contextlib.contextmanager
 def _locked() -> Iterator[str]:
-    """Yield the path of the list, which no other process changes meanwhile."""
+    """Lock the list and yield its path."""
     import fcntl
 
     path = _path()
@@ -144,7 +144,7 @@ def _locked() -> Iterator[str]:
 
 
 def _write(path: str, entries: dict[str, str]) -> None:
-    """Write the list aside and rename it; a link to it, as those of dotfiles, stays."""
+    """Write the list atomically; a symlink to it, as for dotfiles, is kept."""
     from tempfile import NamedTemporaryFile
 
     target = os.path.realpath(path)

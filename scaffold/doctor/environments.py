@@ -15,7 +15,7 @@ COLCON = "python3-colcon-common-extensions"
 
 
 class Missing(NamedTuple):
-    """Something that an environment lacks, and the command that installs it."""
+    """A missing part of an environment, and the command that installs it."""
 
     what: str
     command: str
@@ -27,11 +27,11 @@ class Environment(NamedTuple):
     kind: str
     """``sourced``, ``installed`` or ``wheels``."""
     prefix: str
-    """Where it is; empty if it is not there."""
+    """Its directory; empty if it does not exist."""
     distribution: str
     missing: list[Missing]
     reason: str
-    """Why it can be used, or not."""
+    """Why it is usable or not."""
     taken: bool = False
 
     @property
@@ -41,7 +41,7 @@ class Environment(NamedTuple):
 
 
 def environments(machine: Machine) -> list[Environment]:
-    """Return all of them; the first that can be used is the one that ``smoke`` takes."""
+    """Return all environments; ``smoke`` uses the first usable one."""
     every = [_sourced(machine), *_installed(machine), _wheels(machine)]
     taken = next((environment for environment in every if environment.is_usable), None)
     return [environment._replace(taken=environment is taken) for environment in every]
@@ -88,7 +88,7 @@ def _wheels(machine: Machine) -> Environment:
 
 
 def colcon_command(machine: Machine) -> str:
-    """Return the command after which colcon is there."""
+    """Return the command that makes colcon available."""
     for prefix in machine.prefixes:
         directory = os.path.join(prefix, "bin")
         if os.access(os.path.join(directory, "colcon"), os.X_OK):  # of Python wheels

@@ -12,4 +12,4 @@ class Finding(NamedTuple):
     severity: Severity
     message: str
     fix: str
-    """A command, with a comment where there is more to say."""
+    """A command, possibly with a comment."""

@@ -26,7 +26,7 @@ class Machine:
 
     variables: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
     installed: str = INSTALLED
-    """Where installations are, one directory for each distribution."""
+    """The directory of installations, with one directory per distribution."""
     own_prefix: str = sys.prefix
     """The Python environment of this tool, which may hold the wheels of ROS."""
     directory: str = field(default_factory=os.getcwd)
@@ -39,7 +39,7 @@ class Machine:
 
     @cached_property
     def prefixes(self) -> list[str]:
-        """The prefixes that are sourced, the first goes first."""
+        """The sourced prefixes, in order of precedence."""
         return self.paths("AMENT_PREFIX_PATH")
 
     @cached_property
@@ -49,7 +49,7 @@ class Machine:
         return sorted(names, key=lambda name: (name != DEFAULT, name))
 
     def distribution_of(self, path: str) -> str | None:
-        """Return the distribution in whose installation a path is."""
+        """Return the distribution of the installation that contains a path."""
         top = os.path.join(os.path.normpath(self.installed), "")
         return path[len(top) :].partition("/")[0] or None if path.startswith(top) else None
 
@@ -66,7 +66,7 @@ class Machine:
 
     @cached_property
     def python_version(self) -> str | None:
-        """The version of that, such as ``3.12``, as its file or its environment names it."""
+        """The version of ``python3``, such as ``3.12``, from its file name or environment."""
         if self.python is None:
             return None
         settings = Path(self.python).parent.parent / "pyvenv.cfg"
@@ -98,7 +98,7 @@ class Machine:
 
 
 def python_in(path: str) -> str | None:
-    """Return the version of Python that a directory is for, such as ``3.12``."""
+    """Return the Python version of a directory, such as ``3.12``."""
     match = _PYTHON.search(path)
     return match[1] if match else None
 

@@ -47,13 +47,13 @@ def as_data(environments: Sequence[Environment], findings: Findings) -> dict[str
 
 
 def is_ok(environments: Sequence[Environment], findings: Findings) -> bool:
-    """Tell whether there is a ROS 2 that works, and nothing worse than information."""
+    """Tell whether there is a usable environment, and no finding worse than info."""
     worst = {finding.severity for _, finding in findings}
     return any(item.taken for item in environments) and worst <= {Severity.INFO}
 
 
 def text(environments: Sequence[Environment], findings: Findings) -> Iterator[str]:
-    """Yield lines for people; what a terminal might obey is spelled out."""
+    """Yield the lines of the report, with control characters escaped."""
     yield from map(printable, _lines(environments, findings))
 
 

@@ -17,7 +17,7 @@ _CD = "/usr/share/colcon_cd/function/colcon_cd"
 
 
 def lines(machine: Machine, shell: str) -> Iterator[str]:
-    """Yield the lines; what is not there at the start of the shell is skipped by it."""
+    """Yield the lines; the shell skips files that do not exist."""
     yield f"# ros2-scaffold doctor --shell {shell} >> {START_FILES[shell]}"
     setup = f"{machine.installed}/{machine.distribution}/setup"
     workspace = machine.workspace

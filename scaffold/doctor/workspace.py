@@ -17,7 +17,7 @@ _NAME = re.compile(r"<name>\s*([^<>\s]+)\s*</name>")
 _CHAINED = re.compile(r"""^_?COLCON_CURRENT_PREFIX=["']?([^"'\n$]+)["']?\s*$""", re.MULTILINE)
 _MANIFEST_BYTES = 2**16
 _INSTALLED_ONCE = ("setup.py", "setup.cfg", "pyproject.toml", "CMakeLists.txt", MANIFEST)
-"""What takes effect when it is built, also with ``--symlink-install``."""
+"""Files that take effect only by a build, also with ``--symlink-install``."""
 _GENERATED = (".msg", ".srv", ".action", ".idl", ".c", ".cc", ".cpp", ".h", ".hpp")
 
 
@@ -33,7 +33,7 @@ class Workspace:
 
     @classmethod
     def around(cls, directory: str) -> Workspace | None:
-        """Return the workspace that a directory is in, or is."""
+        """Return the workspace of a directory."""
         path = os.path.realpath(directory)
         while True:
             if os.path.isdir(os.path.join(path, "src")) and (
@@ -48,7 +48,7 @@ class Workspace:
 
     @classmethod
     def of_prefix(cls, prefix: str) -> Workspace | None:
-        """Return the workspace whose ``install``, or a package in it, a prefix is."""
+        """Return the workspace of a prefix, which is its ``install`` or a package in it."""
         for install in (prefix, os.path.dirname(prefix)):
             top = os.path.dirname(install)
             is_made = os.path.isfile(os.path.join(install, _MARKER))
@@ -58,12 +58,12 @@ class Workspace:
 
     @property
     def install(self) -> str:
-        """Where it is installed."""
+        """The install space."""
         return os.path.join(self.top, "install")
 
     @cached_property
     def sources(self) -> dict[str, list[str]]:
-        """The directories of the packages in ``src``, by name; more than one is a mistake."""
+        """The directories of the packages in ``src``, by name; more than one is an error."""
         result: dict[str, list[str]] = {}
         for directory in package_directories(Disk(), os.path.join(self.top, "src")):
             result.setdefault(_name(directory), []).append(directory)
@@ -83,7 +83,7 @@ class Workspace:
         return result
 
     def built(self, name: str) -> float | None:
-        """Return when a package was built last; ``None`` if that is not known."""
+        """Return when a package was last built; ``None`` if unknown."""
         candidates = (
             os.path.join(self.top, "build", name, "colcon_build.rc"),
             os.path.join(self.installed.get(name, self.install), "share", name, "package.sh"),
@@ -93,7 +93,7 @@ class Workspace:
         return max(times, default=None)
 
     def changed_since(self, directory: str, name: str, moment: float) -> str | None:
-        """Return a file of a package that has changed since, if it takes effect by a build."""
+        """Return a file of a package that has changed since and needs a build."""
         is_linked = self._is_linked(name)
         for path in _files(directory):
             takes_effect = path.endswith((*_INSTALLED_ONCE, *_GENERATED)) or not is_linked
@@ -102,7 +102,7 @@ class Workspace:
         return None
 
     def chained(self) -> list[str]:
-        """Return the prefixes that its ``setup.sh`` sources first: those it was built on."""
+        """Return the underlays: the prefixes that its ``setup.sh`` sources first."""
         try:
             with open(os.path.join(self.install, "setup.sh"), encoding="utf-8") as file:
                 text = file.read(_MANIFEST_BYTES)
@@ -111,7 +111,7 @@ class Workspace:
         return [path for path in _CHAINED.findall(text) if path != self.install]
 
     def _is_linked(self, name: str) -> bool:
-        """Tell whether a package was installed with links to its sources."""
+        """Tell whether a package was installed with symlinks to its sources."""
         prefix = self.installed.get(name, self.install)
         roots = (os.path.join(prefix, "share", name), os.path.join(prefix, "lib", name))
         return any(

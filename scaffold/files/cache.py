@@ -15,23 +15,23 @@ from scaffold.files import home
 SWITCH = "SCAFFOLD_NO_CACHE"
 """The variable that switches the cache off."""
 MAX_BYTES = 100_000_000
-"""Of all files of a kind."""
+"""The size limit of all files of a kind."""
 KINDS = ("runs", "style", "rules", "words", "manifests", "templates_", "stubs", "types", "pages")
-"""What the names of the directories in the cache begin with; locks are not to be removed."""
+"""Prefixes of the names of directories in the cache; locks must not be removed."""
 TREES = ("content", "interfaces")
-"""Directories whose entries are directories, each complete or not there at all."""
+"""Directories whose entries are directories, each complete or missing."""
 _ABANDONED_AFTER = 3600
 """Seconds after which a temporary file is no longer being written."""
 
 _SEAL = 4
-"""Bytes of the checksum: it tells what is damaged, and takes a fifth of the time of a digest."""
+"""The size of the checksum, which detects damage and is five times as fast as a digest."""
 
 
 def directory(kind: str) -> str | None:
-    """Return where the user's cache keeps things of a kind, ``None`` if there is none.
+    """Return the cache directory of a kind, ``None`` if there is no cache.
 
-    It is switched off, there is no home, or it is in the repository that the tool works in: code is
-    kept in it, and a stranger could have committed some.
+    It is disabled, there is no home, or it is in the current repository: the cache contains
+    code, which a stranger could have committed.
     """
     if os.environ.get(SWITCH):
         return None
@@ -43,9 +43,9 @@ def directory(kind: str) -> str | None:
 
 
 def read_sealed(path: str, head: bytes) -> bytes | None:
-    """Return what was written under a head, ``None`` if it is not there, other or damaged.
+    """Return the data written with a header; ``None`` if missing, different or damaged.
 
-    What another user wrote is ignored.
+    Files of other users are ignored.
     """
     try:
         with open(path, "rb", buffering=0) as file:
@@ -74,7 +74,7 @@ def _is_in_repository(path: str) -> bool:
 
 
 def write_sealed(path: str, head: bytes, data: bytes) -> bool:
-    """Write aside and rename, so that no reader sees half of it; tell whether that went well."""
+    """Write a sealed file atomically; return whether that succeeded."""
     return _write(path, b"".join((head, _checksum(data), data)))
 
 
@@ -83,7 +83,7 @@ def _checksum(data: bytes) -> bytes:
 
 
 def write_plain(path: str, data: bytes) -> bool:
-    """Write what other programs read, unless it is there; tell whether it is there then."""
+    """Write a file for other programs, unless it exists; return whether it exists then."""
     try:
         with open(path, "rb", buffering=0) as file:
             if file.read(MAX_BYTES) == data:
@@ -114,13 +114,13 @@ def _write(path: str, data: bytes) -> bool:
 
 
 def trim(kept: str, most: int) -> None:
-    """Drop the files that were not renewed for longest when they are too many or too large.
+    """Delete the least recently written files if there are too many, or too large ones.
 
-    A quarter goes at once, so that the next runs need not trim again.
+    A quarter is deleted at once, so that the next runs need not trim again.
 
     Args:
         kept: The directory.
-        most: How many files it may hold.
+        most: The maximum number of files.
     """
     from time import time
 
@@ -149,7 +149,7 @@ def trim(kept: str, most: int) -> None:
 
 
 def size(top: str) -> tuple[int, int]:
-    """Return how many files the cache holds, and their bytes together."""
+    """Return the number of files in the cache, and their total size."""
     count = total = 0
     for path in _files(top):
         try:
@@ -161,7 +161,7 @@ def size(top: str) -> tuple[int, int]:
 
 
 def clean(top: str) -> None:
-    """Remove everything from the cache; what is not the cache's own stays.
+    """Remove all files of the cache, and no others.
 
     Raises:
         OSError: the system refuses.

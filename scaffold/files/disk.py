@@ -18,18 +18,18 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     Question = tuple[str, str]
-    """What is asked, and of which path."""
+    """A kind of access and its path."""
     Answer = bool | str | None
     Names = tuple[list[str], list[str], list[str]]
-    """Files, directories and broken links, each sorted."""
+    """Files, directories and broken symlinks, each sorted."""
 
 
 MAX_BYTES = 10_000_000
-"""Of a file of any kind; what reads text that it takes apart has a bound of its own below this."""
+"""The size limit of any file; parsers of text have lower limits of their own."""
 
 
 class LargeFileError(OSError):
-    """A file has more bytes than are read; it was not read at all."""
+    """A file is too large, and was not read."""
 
     def __init__(self, path: str, size: int, most: int) -> None:
         reason = f"it has {size // 1000} kB; the limit is {most // 1000} kB"
@@ -43,24 +43,24 @@ class Disk:
     def __init__(self) -> None:
         self.seen: dict[Question, Answer] = {}
         self.is_settled = True
-        """False when something was accessed that is not noted, or changed meanwhile."""
+        """False if an access was not recorded, or a file has changed meanwhile."""
 
     def note(self, seen: Mapping[Question, Answer], *, is_settled: bool = True) -> None:
-        """Add answers that another Disk was given."""
+        """Add recorded answers of another Disk."""
         self.is_settled &= is_settled
         for question, answer in seen.items():
             if self.seen.setdefault(question, answer) != answer:
                 self.is_settled = False
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a regular file.
+        """Return the content of a regular file.
 
         Args:
             path: The file.
-            most: The bytes that it may have, at most ``MAX_BYTES``.
+            most: The size limit, at most ``MAX_BYTES``.
 
         Raises:
-            LargeFileError: it has more; it counts by its stamp.
+            LargeFileError: it is larger; it is then identified by its stamp.
             OSError: it cannot be read. Reading a pipe would wait forever, and a device may have
                 no end.
         """
@@ -76,22 +76,22 @@ class Disk:
         return data
 
     def read_renewed(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file that its program never edits, but replaces.
+        """Return the content of a file that its program replaces, but never edits.
 
-        It counts by its stamp: hashing it in each run would take longer than all the rest.
+        It is identified by its stamp, as hashing it in each run would take too long.
 
         Args:
             path: The file.
-            most: The bytes that it may have.
+            most: The size limit.
 
         Raises:
-            OSError: it cannot be read, or has more bytes.
+            OSError: it cannot be read, or is too large.
         """
         self._ask("stamp", path)
         return read_file(path, most)
 
     def names(self, directory: str) -> Names:
-        """Return the entries of a directory; links to directories are skipped.
+        """Return the entries of a directory; symlinks to directories are skipped.
 
         A directory that cannot be listed is empty.
         """
@@ -104,34 +104,34 @@ class Disk:
 
         Args:
             directory: The directory.
-            starts: How the names start, in capitals, whatever their own case; all without it.
+            starts: The prefix of the names in upper case, matched without case; empty for all.
         """
         names = _entries(directory, starts)
         self.note({(" ".join(("entries", *starts)), directory): _digest_of(names)})
         return names
 
     def directories_with(self, directory: str, name: str, most: int) -> list[str]:
-        """Return the names of the directories in one that hold a file; what else there is is open.
+        """Return the names of subdirectories that contain a file; other entries do not matter.
 
         Args:
             directory: The directory; one that cannot be listed is empty.
             name: The name of the file, without spaces.
-            most: Directories to look into at most; one with more is taken to hold none.
+            most: The maximum number of subdirectories; with more, the result is empty.
         """
         directories = _directories_with(directory, name, most)
         self.note({(f"with {name} {most}", directory): _digest_of(directories)})
         return directories
 
     def exists(self, path: str) -> bool:
-        """Tell whether something is there."""
+        """Tell whether a path exists."""
         return bool(self._ask("exists", path))
 
     def is_file(self, path: str) -> bool:
-        """Tell whether a regular file is there, or a link to one."""
+        """Tell whether a path is a regular file or a symlink to one."""
         return bool(self._ask("is_file", path))
 
     def is_directory(self, path: str) -> bool:
-        """Tell whether a directory is there, or a link to one."""
+        """Tell whether a path is a directory or a symlink to one."""
         return bool(self._ask("is_directory", path))
 
     def is_executable(self, path: str) -> bool:
@@ -139,26 +139,26 @@ class Disk:
         return bool(self._ask("is_executable", path))
 
     def real(self, path: str) -> str:
-        """Return a path without links."""
+        """Return a path with symlinks resolved."""
         return str(self._ask("real", path))
 
     def is_own(self, path: str) -> bool:
-        """Tell whether a file, and a link to it, belong to the user who runs this.
+        """Tell whether a file, and a symlink to it, belong to the current user.
 
-        Under sudo, to the one who called it as well.
+        Under sudo, the calling user is accepted as well.
         """
         return bool(self._ask("is_own", path))
 
     def is_shared(self, path: str) -> bool:
-        """Tell whether a directory is world-writable, as ``/tmp`` is."""
+        """Tell whether a directory is world-writable, like ``/tmp``."""
         return bool(self._ask("is_shared", path))
 
     def owner(self, path: str) -> str:
-        """Return the number of the user that a file belongs to; empty for none."""
+        """Return the user id of the owner of a file; empty if there is no file."""
         return str(self._ask("owner", path))
 
     def stamp(self, path: str) -> str:
-        """Return what changes when a program is installed anew."""
+        """Return a value that changes when a program is reinstalled."""
         return str(self._ask("stamp", path))
 
     def _ask(self, kind: str, path: str) -> Answer:
@@ -168,17 +168,17 @@ class Disk:
 
 
 def holds(seen: Mapping[Question, Answer]) -> bool:
-    """Tell whether all questions still have the same answer."""
+    """Tell whether all recorded accesses still have the same result."""
     return all(_answer(kind, path) == answer for (kind, path), answer in seen.items())
 
 
 def changed(seen: Mapping[Question, Answer]) -> list[Question]:
-    """Return the questions that have another answer now."""
+    """Return the recorded accesses with a different result now."""
     return [asked for asked, answer in seen.items() if _answer(*asked) != answer]
 
 
 def digest(data: bytes) -> str:
-    """Return a digest that no other data has."""
+    """Return a collision-resistant digest."""
     try:
         # The import of hashlib takes longer than hashing a package.
         from _blake2 import blake2b
@@ -188,10 +188,10 @@ def digest(data: bytes) -> str:
 
 
 def read_file(path: str, most: int = MAX_BYTES) -> bytes:
-    """Return what is in a regular file; its size is asked for before anything is read.
+    """Return the content of a regular file; its size is checked before reading.
 
     Raises:
-        LargeFileError: it has more bytes than are read.
+        LargeFileError: it is too large.
         OSError: it cannot be read, or is not a regular file.
     """
     # Opening a device may do something; what takes the file's place meanwhile must not block.
@@ -217,7 +217,7 @@ def read_file(path: str, most: int = MAX_BYTES) -> bytes:
 
 
 def size(path: str) -> int:
-    """Return how many bytes a file has, to share out work by; no verdict may depend on it."""
+    """Return the size of a file, only to distribute work, as it is not recorded."""
     try:
         return os.stat(path).st_size
     except OSError:
@@ -274,7 +274,7 @@ def _digest_of_content(path: str) -> str | None:
 
 
 def stamp(path: str) -> str:
-    """Return what changes when a file is written or replaced; empty for none."""
+    """Return a value that changes when a file is written or replaced; empty without a file."""
     try:
         status = os.stat(path)
     except OSError:

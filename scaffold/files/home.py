@@ -1,6 +1,6 @@
 """The user's directories for configuration and caches, by the XDG specification.
 
-A relative directory does not count: it would be one of the checked repository.
+A relative directory is ignored, as it would be in the checked repository.
 """
 
 from __future__ import annotations

@@ -10,34 +10,34 @@ from scaffold.files.tree import (
 )
 
 MAX_BYTES = 500_000
-"""Of a file with code; among 800 public packages the largest has 270 kB."""
+"""The size limit of code files; the largest in 800 public packages has 270 kB."""
 MOST_BYTES_OF_DATA = 1_000_000
-"""Of YAML and documents; the largest YAML file of those packages has 270 kB."""
+"""The size limit of YAML and documents; the largest YAML file of those packages has 270 kB."""
 MOST_BYTES_OF_CMAKE = 250_000
-"""Of CMakeLists.txt; the largest of those packages has 60 kB."""
+"""The size limit of CMakeLists.txt; the largest of those packages has 60 kB."""
 MOST_BYTES_OF_DECLARATIONS = 100_000
-"""Of package.xml, setup.py and setup.cfg, which have a few kB."""
+"""The size limit of package.xml, setup.py and setup.cfg, which have a few kB."""
 MOST_BYTES_OF_LINE = 20_000
-"""Of a line of code; in the Python files of those packages the longest has 2 kB."""
+"""The length limit of a line of code; the longest Python line of those packages has 2 kB."""
 MAX_TOKENS = 100_000
-"""Of a file with code, signs and lines counted as well: the largest of them has 70 000."""
+"""The token limit of code files, operators and newlines included; the largest has 70 000."""
 MOST_WORDS_OF_CMAKE = 30_000
-"""Of CMakeLists.txt; the largest has 10 000."""
+"""The word limit of CMakeLists.txt; the largest has 10 000."""
 MOST_WORDS_OF_DECLARATIONS = 20_000
-"""Of package.xml, setup.py and setup.cfg, which have up to 1 000."""
+"""The word limit of package.xml, setup.py and setup.cfg, which have up to 1 000."""
 _CODE = (".py", ".cfg", "CMakeLists.txt")
 _DATA = (".yaml", ".yml", ".rst", ".md", ".txt")
 
 _SPACE = b" \t\r"
 _WORD = b"\\_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _KINDS = bytes(ord(" " if byte in _SPACE else "w" if byte in _WORD else ".") for byte in range(256))
-"""Of each byte: whether it is space, part of a word, or a sign of its own."""
+"""The kind of each byte: space, part of a word, or operator."""
 
 
 def why_unread(path: str, data: bytes) -> str:
-    """Return why a file is not read, empty if it is: the bounds are far above what people write.
+    """Return why a file is not read; empty if it is.
 
-    Some checks take a time that grows with the square of a line, so lines have a bound, too; and
+    The time of some checks is quadratic in the length of a line, so lines are limited as well; and
     a file of two bytes for each word takes ten times as long as text of the same size.
     """
     if len(data) > most_bytes(path):
@@ -56,7 +56,7 @@ def why_unread(path: str, data: bytes) -> str:
 
 
 def too_large(size: int, path: str) -> str:
-    """Return why a file of a size is not read."""
+    """Return why a file of this size is not read."""
     return f"{size // 1000} kB; the limit is {most_bytes(path) // 1000} kB: the file is not checked"
 
 
@@ -67,7 +67,7 @@ def _words(data: bytes) -> int:
 
 
 def most_bytes(path: str) -> int:
-    """Return the size up to which a file is read: by kind, far above what people write."""
+    """Return the size limit of a file by kind, far above what people write."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_BYTES_OF_DECLARATIONS
     if path.endswith(CMAKE_LISTS):
@@ -76,7 +76,7 @@ def most_bytes(path: str) -> int:
 
 
 def _most_words(path: str) -> int:
-    """Return the same in words and signs."""
+    """Return the word limit of a file by kind."""
     if path in {MANIFEST, SETUP_PY, SETUP_CFG}:
         return MOST_WORDS_OF_DECLARATIONS
     return MOST_WORDS_OF_CMAKE if path.endswith(CMAKE_LISTS) else MAX_TOKENS

@@ -15,7 +15,7 @@ def name() -> str:
 
 
 def is_temporary(name: str) -> bool:
-    """Tell whether ``name`` could have made this name."""
+    """Tell whether ``name`` could have created this name."""
     middle = name.removeprefix(_PREFIX).removesuffix(_SUFFIX)
     is_whole = name == f"{_PREFIX}{middle}{_SUFFIX}"
     return is_whole and len(middle) == _HEX_DIGITS and set(middle) <= {*"0123456789abcdef"}
@@ -25,7 +25,7 @@ def create(path: str) -> int:
     """Create a file that only its owner can read, and return its descriptor for writing.
 
     Raises:
-        OSError: the file cannot be created, or something has this name, a link included.
+        OSError: the file cannot be created, or the name exists, even as a symlink.
     """
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
     return os.open(path, flags, 0o600)

@@ -17,14 +17,14 @@ SETUP_CFG = "setup.cfg"
 BUILD_DIRECTORIES = frozenset({"build", "install", "log"})
 MANIFEST = "package.xml"
 ENVIRONMENT = "pyvenv.cfg"
-"""The file at the top of a virtual environment: what is in it is installed, not a source."""
+"""The file at the top of a virtual environment: its content is installed and not a source."""
 
 
 def within(most: int, path: str, data: bytes) -> bytes:
-    """Return what is in a file that is in memory, under the bound of those on disk.
+    """Return the content of a file in memory, with the size limit of those on disk.
 
     Raises:
-        LargeFileError: it has more bytes than are read.
+        LargeFileError: it is too large.
     """
     if len(data) > most:
         raise LargeFileError(path, len(data), most)
@@ -32,7 +32,7 @@ def within(most: int, path: str, data: bytes) -> bytes:
 
 
 class Tree(Protocol):
-    """Files by path relative to the root, with ``/`` between the parts, in sorted order."""
+    """Files by path relative to the root, with ``/`` as separator, in sorted order."""
 
     @property
     def files(self) -> Sequence[str]:
@@ -44,10 +44,10 @@ class Tree(Protocol):
 
     @property
     def nested(self) -> Sequence[str]:
-        """The directories that hold a package of their own; their files are skipped."""
+        """The directories of nested packages, whose files are skipped."""
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file of so many bytes at most; raises OSError."""
+        """Return the content of a file with a size limit; raises OSError."""
 
     def is_executable(self, path: str) -> bool:
         """Tell whether the file has an executable bit."""
@@ -99,17 +99,17 @@ class DiskTree:
 
     @property
     def nested(self) -> Sequence[str]:
-        """The directories that hold a package of their own."""
+        """The directories of nested packages."""
         return sorted(self._nested) if self._listing else ()
 
     @property
     def environments(self) -> Sequence[str]:
-        """The directories that hold a virtual environment; their files are skipped."""
+        """The directories of virtual environments, whose files are skipped."""
         return sorted(self._environments) if self._listing else ()
 
     @property
     def broken_links(self) -> Sequence[str]:
-        """The links to files that are not there; they are not among the files."""
+        """The dangling symlinks, which are not among the files."""
         return sorted(self._broken) if self._listing else ()
 
     def forget(self) -> None:
@@ -120,11 +120,11 @@ class DiskTree:
         self._broken.clear()
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file of so many bytes at most; raises OSError."""
+        """Return the content of a file with a size limit; raises OSError."""
         return self.disk.read(os.path.join(self.root, path), most)
 
     def digest_read(self, path: str) -> str | None:
-        """Return the digest of a file when it was first read; empty if it was not there then.
+        """Return the digest of a file when it was first read; empty if it did not exist.
 
         ``None`` if that is not determined yet.
         """
@@ -135,7 +135,7 @@ class DiskTree:
         return "" if is_listed and path not in self._listing[0] else None
 
     def _is_covered(self, path: str) -> bool:
-        """Tell whether a file would be in the listing if it was there."""
+        """Tell whether a file would be in the listing if it existed."""
         *above, _ = path.split("/")
         for depth, name in enumerate(above, 1):
             parent = "/".join(above[:depth])
@@ -160,7 +160,7 @@ class DiskTree:
 
 
 class MemoryTree:
-    """Files that are not on disk: of an example, or generated and not yet written.
+    """Files in memory: those of an example, or generated but not yet written.
 
     A path that ends in ``/`` is an empty directory.
     """
@@ -176,7 +176,7 @@ class MemoryTree:
 
     @cached_property
     def nested(self) -> Sequence[str]:
-        """The directories that hold a package of their own."""
+        """The directories of nested packages."""
         ending = "/" + MANIFEST
         return sorted(path[: -len(ending)] for path in self._files if path.endswith(ending))
 
@@ -196,7 +196,7 @@ class MemoryTree:
         return frozenset(directories)
 
     def read(self, path: str, most: int = MAX_BYTES) -> bytes:
-        """Return what is in a file of so many bytes at most; raises OSError."""
+        """Return the content of a file with a size limit; raises OSError."""
         try:
             return within(most, path, self._files[path])
         except KeyError:

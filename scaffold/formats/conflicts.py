@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 _MARKS = ("<<<<<<<", "=======", ">>>>>>>")
-"""In the order in which git writes them, each at the start of a line."""
+"""The markers in the order of git, each at the start of a line."""
 
 
 def first_conflict(lines: Iterable[str]) -> int:

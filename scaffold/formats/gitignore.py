@@ -11,7 +11,7 @@ from scaffold.record import NamedTuple
 
 class _Pattern(NamedTuple):
     regex: str
-    """Of paths relative to the directory of the file."""
+    """The regular expression for paths relative to the directory of the file."""
     is_taken_back: bool
     is_for_directories: bool
 
@@ -20,20 +20,20 @@ class IgnoreFile:
     """The patterns of one file.
 
     Args:
-        text: What is in it.
+        text: The content of the file.
     """
 
     def __init__(self, text: str) -> None:
         self._text = text
 
     def decides(self, path: str, *, is_directory: bool) -> bool | None:
-        """Tell whether a path is ignored, ``None`` if no pattern is about it.
+        """Tell whether a path is ignored, ``None`` if no pattern matches.
 
-        What is below an ignored directory is ignored; this is about the path itself.
+        Parent directories are not considered, although their content is ignored as well.
 
         Args:
-            path: Relative to the directory of the file.
-            is_directory: What the path is.
+            path: The path relative to the directory of the file.
+            is_directory: Whether the path is a directory.
         """
         _, for_directories, for_files = self._compiled
         matched = (for_directories if is_directory else for_files).fullmatch(path)

@@ -10,10 +10,10 @@ _IN_TEXT, _IN_BYTES = re.compile(_COMMENT), re.compile(_COMMENT.encode())
 
 
 def without_comments(text: AnyStr) -> AnyStr:
-    """Return a text without what looks like a comment, also where it is in a string.
+    """Return a text without comments, which are also recognized in strings.
 
     Args:
-        text: The text of a file, in which names are looked for.
+        text: The text of a file, in which names are searched.
     """
     if isinstance(text, bytes):
         return _IN_BYTES.sub(b"", text)

@@ -32,11 +32,11 @@ class IniOption(NamedTuple):
 
     section: str
     key: str
-    """As it is written: setuptools tells upper and lower case apart."""
+    """The key as written; setuptools is case-sensitive."""
     value: str
     """All lines, joined with newlines."""
     lines: tuple[IniLine, ...]
-    """The lines that are not empty."""
+    """The non-empty lines."""
     location: Location
     """The place of the value."""
     key_location: Location
@@ -57,12 +57,12 @@ class IniSection:
     ) -> None:
         self.name = name
         self.location = location
-        """The place of the header, brackets included."""
+        """The location of the header, including brackets."""
         self.name_location = name_location
         self.start = start
         """The offset of the header's line."""
         self.end = end
-        """The offset after the last line that is not empty or a comment."""
+        """The offset after the last line other than empty lines and comments."""
         self.options: dict[str, IniOption] = {}
 
 
@@ -78,12 +78,12 @@ class IniFile:
         """Read a file.
 
         Raises:
-            ParseError: setuptools would refuse it.
+            ParseError: setuptools would reject it.
         """
         return cls(source, _Reader(source).read())
 
     def option(self, section: str, *keys: str) -> IniOption | None:
-        """Return the first of some options that a section has, or the defaults have."""
+        """Return the first existing one of some options of a section or the defaults."""
         for name in (section, DEFAULT_SECTION):
             current = self.sections.get(name)
             if current is None and name == section:
@@ -94,7 +94,7 @@ class IniFile:
         return None
 
     def get(self, section: str, *keys: str) -> str | None:
-        """Return the value of the first of some options that a section has."""
+        """Return the value of the first existing one of some options."""
         option = self.option(section, *keys)
         return None if option is None else option.value
 
@@ -106,7 +106,7 @@ class IniFile:
     # -- edits
 
     def set(self, section: str, key: str, value: str) -> Edit:
-        """Return the edit that gives an option a value, adding what is missing for it."""
+        """Return the edit that sets the value of an option, which it adds if missing."""
         from scaffold.edits import Edit
 
         path, newline = self.source.path, self.source.newline
@@ -124,7 +124,7 @@ class IniFile:
         return Edit(path, at, at, f"{before}[{section}]{newline}{line}{after}")
 
     def rename(self, option: IniOption, key: str) -> Edit:
-        """Return the edit that gives an option another key."""
+        """Return the edit that renames the key of an option."""
         from scaffold.edits import Edit
 
         start = option.key_start
@@ -150,7 +150,7 @@ class _Reader:
         self.sections: dict[str, IniSection] = {}
         self.section: IniSection | None = None
         self.key: tuple[_Line, str, int] | None = None
-        """The line of the option that is being read, its key and where its value begins."""
+        """The line of the current option, its key and the start of its value."""
         self.values: list[_Line] = []
         self.raw: list[str] = []
 
@@ -170,7 +170,7 @@ class _Reader:
         return self.sections
 
     def _lines(self) -> Iterator[_Line | None]:
-        """Yield the lines that matter, ``None`` for an empty one; comments are skipped."""
+        """Yield the lines without comments, ``None`` for an empty one."""
         text = self.source.text
         at = 0
         while at < len(text):
@@ -220,7 +220,7 @@ class _Reader:
         self.section.end = line.end
 
     def _finish(self) -> None:
-        """Add the option that was being read to its section."""
+        """Add the current option to its section."""
         if self.key is None or self.section is None:
             return
         line, key, value = self.key

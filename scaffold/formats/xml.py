@@ -20,14 +20,14 @@ class Attribute(NamedTuple):
 
     name: str
     value: str
-    """With references such as ``&amp;`` replaced."""
+    """The value with references such as ``&amp;`` replaced."""
     location: Location
-    """The place of the value, without its quotes."""
+    """The location of the value, without quotes."""
     name_location: Location
 
 
 class Text(NamedTuple):
-    """A stretch of character data, at an offset of the file."""
+    """Character data at an offset of the file."""
 
     start: int
     text: str
@@ -53,7 +53,7 @@ class Instruction(NamedTuple):
 
     @property
     def pseudo_attributes(self) -> dict[str, str]:
-        """What is written like attributes: ``href``, ``schematypens``."""
+        """The pseudo-attributes: ``href``, ``schematypens``."""
         return {
             match[1]: match[2] if match[2] is not None else match[3]
             for match in _ATTRIBUTE.finditer(self.text)
@@ -208,7 +208,7 @@ class Element:
         return self._source.text[self.start : self.end]
 
     def close_at(self, offset: int) -> None:
-        """Note where the end tag is; for the reader."""
+        """Set the offset of the end tag; for the reader."""
         self._close = offset
 
     def _runs(self) -> Iterator[Text]:

@@ -19,13 +19,13 @@ Explanation = tuple[int, int, str]
 
 
 def explain(source: Source, code: int, at: int, inside: Element | None) -> ParseError:
-    """Return the error for what expat found.
+    """Return the message for an error of expat.
 
     Args:
         source: The file.
-        code: The number of expat's error.
+        code: The error code of expat.
         at: The offset where expat stopped.
-        inside: The innermost element that is open there.
+        inside: The innermost element open at this offset.
     """
     error = errors.messages[code]
     explained = _text_before_declaration(source.text)
@@ -155,7 +155,7 @@ def _unbound_prefix(text: str, at: int) -> Explanation:
 
 
 def _not_well_formed(text: str, at: int, inside: Element | None) -> Explanation | None:
-    """Explain an error that expat does not name, from the text around it."""
+    """Explain an unspecific error of expat from the surrounding text."""
     result = _bad_character(text, at) or _ampersand(text, at) or _in_comment(text, at)
     if result is not None:
         return result
@@ -234,7 +234,7 @@ def _reference(text: str, at: int) -> str:
 
 
 def _opening(text: str, at: int) -> int:
-    """Return where the tag begins that the place is in, or -1."""
+    """Return the start of the tag around an offset, or -1."""
     before = text.rfind("<", max(0, at - _NEAR), at)
     if text.startswith("<", at) and (before < 0 or ">" in _outside_quotes(text[before:at])):
         return at

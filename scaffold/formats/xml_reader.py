@@ -19,11 +19,11 @@ _CONTINUATION = bytes(range(0x80, 0xC0))
 
 
 def parse(source: Source, *, has_namespaces: bool = True) -> Document:
-    """Read an XML file; nothing outside of it is ever read.
+    """Parse an XML file, without reading anything outside of it.
 
     Args:
         source: The file.
-        has_namespaces: Whether its readers know namespaces, and refuse prefixes without.
+        has_namespaces: Whether its readers support namespaces, and reject undeclared prefixes.
 
     Raises:
         ParseError: the file is not well-formed, or has a document type declaration.
@@ -35,7 +35,7 @@ def decode(path: str, data: bytes) -> Source:
     """Decode an XML file in the encoding that it declares.
 
     Raises:
-        ParseError: the encoding is none for a manifest, or the bytes are not text of it.
+        ParseError: the encoding is not allowed in a manifest, or the bytes are invalid in it.
     """
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data[:4]:
         raise ParseError(Location.start_of(path), "the file is UTF-16 or UTF-32: save it as UTF-8")

@@ -1,7 +1,7 @@
 """YAML documents as trees with locations, built from parser events.
 
-Aliases stay aliases, so a file that multiplies itself costs no more than its length; nothing is
-built from tags.
+Aliases are not expanded, so that no file grows exponentially; nothing is
+constructed from tags.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     import yaml
 
 MAX_LENGTH = 2_000_000
-"""Characters; a longer file is data, and not read."""
+"""The length limit in characters; a longer file is data, and not read."""
 MAX_DEPTH = 60
 
 
 class _Mark(Protocol):
-    """A position, with the attributes that both parsers of PyYAML have."""
+    """A position, with the attributes common to both parsers of PyYAML."""
 
     @property
     def line(self) -> int:
@@ -36,7 +36,7 @@ class Scalar(NamedTuple):
 
     text: str
     is_plain: bool
-    """Without quotes, so what it looks like decides its type; blocks too, for rcl."""
+    """Whether it is unquoted, so that its form decides its type; also blocks, as in rcl."""
     tag: str | None
     location: Location
     start: int
@@ -72,7 +72,7 @@ def parse(source: Source) -> list[YamlNode]:
     """Read a file; return the root of every document.
 
     Raises:
-        ParseError: it is not YAML, or too large or nested too deeply to be read.
+        ParseError: it is not YAML, too large, or nested too deeply.
     """
     if len(source.text) > MAX_LENGTH:
         raise ParseError(Location.start_of(source.path), "too large to be read")

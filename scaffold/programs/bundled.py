@@ -9,7 +9,7 @@ from scaffold.programs import search
 
 
 def find(name: str) -> str | None:
-    """Return the program that belongs to the running Python, else the one on the PATH.
+    """Return the program of the running Python, else that on the PATH.
 
     Args:
         name: The program, which is also the name of its Python package.

@@ -18,10 +18,10 @@ _PROTECTION = (
     *("-c", "core.hooksPath=/dev/null"),
 )
 _NO_TRANSPORT = {"GIT_ALLOW_PROTOCOL": "none"}
-"""A clone without all objects would fetch them, by programs that its configuration names."""
+"""Disables lazy fetching in partial clones, which would run programs from their configuration."""
 _NETWORK = {"GIT_ALLOW_PROTOCOL": "https:ssh:file", "GIT_TERMINAL_PROMPT": "0"}
 SECONDS = 10
-"""After which git is given up; a file that the configuration includes may be a pipe."""
+"""The time limit of git; a file included by the configuration may be a pipe."""
 SECONDS_TO_FETCH = 120
 
 
@@ -30,12 +30,12 @@ def run(*words: str, directory: str, data: bytes = b"") -> subprocess.CompletedP
 
     Args:
         words: The command and its arguments.
-        directory: Where it runs.
-        data: What it reads.
+        directory: The working directory.
+        data: The standard input.
 
     Raises:
         OSError: git cannot be started.
-        subprocess.TimeoutExpired: it did not end.
+        subprocess.TimeoutExpired: it timed out.
     """
     return _run(words, directory, _NO_TRANSPORT, SECONDS, data)
 
@@ -44,12 +44,12 @@ def fetch(url: str, directory: str) -> subprocess.CompletedProcess[bytes]:
     """Fetch the tags and branches of a repository that the user trusts.
 
     Args:
-        url: Its address.
-        directory: A bare repository of our own, which follows it.
+        url: The address.
+        directory: Our own bare repository to fetch into.
 
     Raises:
         OSError: git cannot be started.
-        subprocess.TimeoutExpired: it did not end.
+        subprocess.TimeoutExpired: it timed out.
     """
     refs = [f"+refs/{kind}/*:refs/{kind}/*" for kind in ("heads", "tags")]
     words = ("--git-dir=.", "fetch", "--quiet", "--prune", "--no-tags", "--", url, *refs)

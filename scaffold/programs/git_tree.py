@@ -20,9 +20,9 @@ from scaffold.record import NamedTuple
 _LINK = "120000"
 _EXECUTABLE = "100755"
 _CHUNK = 50_000_000
-"""Bytes that are read at once."""
+"""The size of a chunk in bytes."""
 _WORDS = 3
-"""Name, kind and size, in front of each object."""
+"""The header of each object: name, kind and size."""
 
 
 class _Blob(NamedTuple):
@@ -32,7 +32,7 @@ class _Blob(NamedTuple):
 
 
 def _name(data: bytes, like: _Blob) -> str:
-    """Return the name that git gives to content, in the format of the repository."""
+    """Return the git hash of content, in the object format of the repository."""
     is_sha1 = len(like.name) == hashlib.sha1(usedforsecurity=False).digest_size * 2
     content = b"blob %d\0" % len(data) + data
     if is_sha1:
@@ -44,9 +44,9 @@ class Objects:
     """The files of a commit.
 
     Args:
-        directory: In or of the repository.
+        directory: A directory in the repository.
         name: The hash of the commit.
-        origin: Who names it, for messages.
+        origin: The origin of the name, for messages.
 
     Raises:
         InputError: there is no git, or it fails.
@@ -80,7 +80,7 @@ class Objects:
         return blobs
 
     def read(self, blobs: Mapping[str, _Blob]) -> Iterator[tuple[str, bytes]]:
-        """Yield paths and contents; of what is too large to be checked, nothing but zeros."""
+        """Yield paths and contents; only zeros for files too large to be checked."""
         chunk: list[str] = []
         size = 0
         for path, blob in blobs.items():
@@ -111,7 +111,7 @@ class Objects:
             start = stop + 1
 
     def export(self, directory: str, *, with_links: bool = True) -> None:
-        """Write the files of the commit, links among them if wanted, into an empty directory."""
+        """Write the files of the commit, with symlinks if wanted, into an empty directory."""
         blobs = self.files()
         links: list[tuple[str, bytes]] = []
         for path, data in self.read(blobs):
@@ -136,7 +136,7 @@ class Commit(Objects):
 
     Args:
         directory: A directory in the work tree.
-        revision: What the user calls the commit.
+        revision: The commit as given by the user.
 
     Raises:
         InputError: there is no git, no repository, or no such commit.
@@ -158,12 +158,12 @@ class Commit(Objects):
 
     @cached_property
     def listed(self) -> frozenset[str]:
-        """The paths of the files in the work tree that git does not ignore, and of removed ones."""
+        """The paths of all files in the work tree that are not ignored, and of removed ones."""
         listed = self._run("ls-files", "-z", "--cached", "--others", "--exclude-standard") or b""
         return frozenset(os.fsdecode(path) for path in listed.split(b"\0") if path)
 
     def changed(self) -> frozenset[str]:
-        """Return the paths, relative to the top, of files that are not as in the commit.
+        """Return the paths, relative to the top, of files that differ from the commit.
 
         Files that git ignores are skipped; new and removed ones are not.
         """

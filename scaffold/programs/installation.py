@@ -36,7 +36,7 @@ def command(extra: str = "") -> str:
 
 
 def source(extra: str = "") -> str:
-    """Return what the tool came from, for pip: a directory, a repository, or a hint at a clone.
+    """Return the source of the tool for pip: a directory, a repository, or a placeholder.
 
     Args:
         extra: An optional extra to install with it.
@@ -52,13 +52,13 @@ def source(extra: str = "") -> str:
 
 
 def apart(extra: str) -> str:
-    """Return the command that installs the tool with an extra in an environment of its own."""
+    """Return the command that installs the tool with an extra in a separate environment."""
     place = f"{extra}-environment"
     return f"python3 -m venv {place} && {place}/bin/pip install {quote(source(extra))}"
 
 
 def _installer() -> str:
-    """Return what made the environment that this runs in, with what makes it install again."""
+    """Return the command of the installer of the current environment."""
     parts = os.path.abspath(sys.prefix).split(os.sep)
     if "pipx" in parts:
         return "pipx install --force"
@@ -68,7 +68,7 @@ def _installer() -> str:
 
 
 def _origin() -> Mapping[str, object]:
-    """Return what the installer noted of the source (PEP 610); nothing for one from an index."""
+    """Return the recorded origin of the installation (PEP 610); empty for one from an index."""
     import json
     from importlib.metadata import PackageNotFoundError, distribution
 

@@ -8,7 +8,7 @@ import os
 def find(name: str) -> str | None:
     """Return the path of a program, ``None`` if there is none.
 
-    An empty or relative entry of the PATH is skipped. A colon too many makes an empty one.
+    An empty or relative entry of the PATH is skipped. A surplus colon creates an empty entry.
     """
     for directory in os.environ.get("PATH", os.defpath).split(os.pathsep):
         candidate = os.path.join(directory, name)

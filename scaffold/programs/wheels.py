@@ -28,7 +28,7 @@ def command(distribution: Distribution) -> str:
 
 
 def command_apart(distribution: Distribution) -> str:
-    """Return the same command for an environment of its own; empty if there are no wheels."""
+    """Return the same command for a separate environment; empty if there are no wheels."""
     extra = str(distribution.fact("wheels.extra"))
     return installation.apart(extra) if extra else ""
 
@@ -37,8 +37,8 @@ def container(distribution: Distribution, paths: list[str]) -> str:
     """Return the command that runs ``smoke`` in a container with a distribution.
 
     Args:
-        distribution: What the image holds.
-        paths: What ``smoke`` is given: below the current directory.
+        distribution: The distribution of the image.
+        paths: The arguments of ``smoke``, below the current directory.
     """
     from shlex import join, quote
 

@@ -19,23 +19,23 @@ class ReportOptions(NamedTuple):
     """Display options; none of them changes machine-readable output."""
 
     unsafe: bool = False
-    """Whether unsafe fixes are counted with the others: the user asked for them."""
+    """Whether unsafe fixes are counted as well, as requested by the user."""
     severity: Severity = Severity.INFO
-    """The least severity that people are shown."""
+    """The lowest severity shown in text."""
     everything: bool = False
-    """Whether a terminal shows what does not fit on a screen."""
+    """Whether a terminal shows more than one screen."""
     style: bool = False
     """Whether a terminal shows style findings that it would fold into one line."""
     source: bool | None = None
-    """Whether source lines are shown; ``None`` for on a terminal only."""
+    """Whether source lines are shown; ``None``: only on a terminal."""
     statistics: bool = False
     """Whether counts are shown instead of findings."""
     quiet: bool = False
     """Whether the summary is skipped."""
     notes: tuple[str, ...] = ()
-    """Lines above the summary: what is not in the report, and why."""
+    """Lines above the summary: what is missing from the report, and why."""
     distributions: tuple[Distribution, ...] = (distributions.JAZZY,)
-    """Those that were checked for."""
+    """The distributions that were checked for."""
 
 
 class Reporter(Protocol):
@@ -47,7 +47,7 @@ class Reporter(Protocol):
         Args:
             results: Of all packages, in the order to report them in.
             out: The stream.
-            options: What the user wants to see.
+            options: The display options.
         """
 
 

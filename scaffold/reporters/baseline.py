@@ -41,7 +41,7 @@ class Filtered(NamedTuple):
 
 
 def text(results: Sequence[Result]) -> str:
-    """Return the baseline of what a run found."""
+    """Return the baseline of the findings of a run."""
     lines = [json.dumps(entry._asdict(), ensure_ascii=False) for entry in sorted(_entries(results))]
     body = ",\n".join(lines)
     return f'{{"version": {VERSION}, "findings": [\n{body}\n]}}\n'
@@ -62,7 +62,7 @@ def read(path: str, disk: Disk) -> list[Entry]:
 
     Args:
         path: The file.
-        disk: Notes what it holds, so that no remembered result outlives a change of it.
+        disk: Records its content, so that cached results depend on it.
 
     Raises:
         InputError: there is no such file, or it is not a baseline.
@@ -103,9 +103,9 @@ def hide(
     Args:
         entries: The baseline.
         results: The findings.
-        targets: What was checked, in the same order.
-        session: What checked it: entries of codes that it does not report are not missed.
-        name: The baseline, for people.
+        targets: The checked packages, in the same order.
+        session: The session: entries with codes that it does not report are not counted as missing.
+        name: The name of the baseline, for messages.
     """
     accepted = {entry.fingerprint for entry in entries}
     seen: set[str] = set()

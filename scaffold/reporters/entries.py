@@ -27,10 +27,10 @@ _SET_ASIDE = re.compile(
 _TESTS = re.compile(r"(?:^|/)(?:tests?/|test_[^/]*$|[^/]*_test\.py$)")
 """Matches the paths of tests, which no robot runs."""
 DEPENDENCY = "dependency "
-"""Begins the cause of what only happens on a machine that lacks a package."""
+"""The prefix of causes that only matter on machines without a package."""
 _UNDEFINED = "F821"
 _SEVERAL = 3
-"""Undefined names, from which on it is the imports that a file lacks."""
+"""The number of undefined names from which missing imports are assumed."""
 
 
 class Place(NamedTuple):
@@ -61,15 +61,15 @@ class Entry(NamedTuple):
 
     @property
     def severity(self) -> Severity:
-        """That of the worst of them."""
+        """The highest severity of its findings."""
         return self.first.severity
 
 
 def by_cause(result: Result, *, everything: bool = False) -> list[Entry]:
     """Return the findings of a package as entries.
 
-    Findings have one cause if their rules say so, or if they read the same. A manifest without
-    dependencies and a file without imports are one cause as well, unless everything is shown.
+    Findings have one cause if their rules say so, or if their messages are equal. A manifest
+    without dependencies and a file without imports are one cause as well, unless everything is shown.
     """
     bare: set[str] = set() if everything else _without_imports(result.diagnostics)
     causes: dict[tuple[str, ...], list[Place]] = {}
@@ -98,9 +98,9 @@ def _without_imports(diagnostics: Sequence[Diagnostic]) -> set[str]:
 
 
 def merged(entries: Sequence[Entry]) -> list[Entry]:
-    """Return entries with one for all packages in which the same is wrong, at the first of them.
+    """Merge equal entries of several packages, at the first of them.
 
-    Whoever copies a package copies its mistakes; two entries are the same if they say the same.
+    Copied packages have copied mistakes; two entries are equal if their messages are.
     """
     same: dict[frozenset[tuple[str, str, Severity]], list[Place]] = {}
     for entry in entries:
@@ -111,18 +111,18 @@ def merged(entries: Sequence[Entry]) -> list[Entry]:
 
 
 def in_order(entries: Sequence[Entry]) -> list[Entry]:
-    """Return entries by severity; of one severity, what is not read or built comes first.
+    """Return entries by severity; within one, files that cannot be read or built come first.
 
-    Then come crashes, what has no effect, what is built wrong, and declarations.
+    Then come crashes, code without effect, wrong builds, and declarations.
 
-    What is in a directory such as ``archive`` or ``old`` comes after all others.
+    Directories such as ``archive`` or ``old`` come last.
     """
     rules = registry.loaded()
     return sorted(entries, key=lambda entry: _rank(entry, rules))
 
 
 def is_style(diagnostic: Diagnostic) -> bool:
-    """Tell whether a finding is one of ament_flake8 or ament_pep257 that breaks nothing."""
+    """Tell whether a finding is a harmless one of ament_flake8 or ament_pep257."""
     return diagnostic.code in STYLE and diagnostic.severity is not Severity.ERROR
 
 
@@ -140,7 +140,7 @@ def _rank(entry: Entry, rules: Mapping[str, type[Rule]]) -> tuple[int, bool, boo
 
 
 def _effect(first: Diagnostic, rules: Mapping[str, type[Rule]]) -> Effect:
-    """Return what a finding does, as its rule declares it."""
+    """Return the effect of a finding, as declared by its rule."""
     code = first.code
     if code in STYLE:  # errors among them: the class E9 of pycodestyle is of what no parser reads
         return Effect.STOPS_BUILD if code.startswith("E9") else Effect.STOPS_PROGRAM

@@ -7,11 +7,11 @@ from scaffold.printable import printable
 from scaffold.source import Location, ViewError
 
 MAX_COLUMNS = 160
-"""Of a line that is shown; generated code has lines of thousands."""
+"""The width of a shown line; generated code may have very long lines."""
 
 
 def excerpt(package: Package, at: Location) -> tuple[str, ...]:
-    """Return the line and the mark below it; nothing where the whole file is the place."""
+    """Return the line and the mark below it; nothing if the location is a whole file."""
     if (at.line, at.column, at.end_line, at.end_column) == (at.line, 1, at.line, 1):
         return ()
     try:

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from scaffold.model.package import Package
 
 _BLOCK = 100
-"""Characters that a line's hash covers, without spaces and tabs, from the start of the line."""
+"""The number of characters in the hash of a line, without spaces and tabs."""
 _FACTOR = 37
 _END_OF_FILE = "\uffff"
 _STYLE_OF_FILES = frozenset({"D100", "D104"})
-"""Codes about a whole file, which any line may begin; other style codes may be about line 1."""
+"""Style codes about a whole file, reported at line 1 whatever its text."""
 _NUMBERS = re.compile(r"\d+")
 
 
@@ -57,7 +57,7 @@ class Fingerprints:
 
 
 def line_hash(package: Package, path: str, line: int) -> str:
-    """Return the hash of a line as code scanning of GitHub computes it, so that both agree.
+    """Return the hash of a line, computed like GitHub code scanning.
 
     A polynomial over the characters from the start of the line, and how many earlier lines begin
     with the same characters.

@@ -8,11 +8,11 @@ from scaffold.record import NamedTuple
 from scaffold.source import Location, Source, ViewError
 
 MOST_REPEATED_EDITS = 50
-"""A fix of a whole file may belong to thousands of findings; a larger one is written once."""
+"""The size of a fix from which it is written only once, as thousands of findings may share it."""
 
 
 class Replacement(NamedTuple):
-    """A stretch of a file, and the text that takes its place."""
+    """A range of a file, and its replacement."""
 
     place: Location
     text: str
@@ -28,10 +28,10 @@ class PlacedFix(NamedTuple):
 
 
 def placed(package: Package, fix: Fix) -> PlacedFix | None:
-    """Return what a fix changes; ``None`` where a file can no longer be read.
+    """Return the changes of a fix; ``None`` if a file can no longer be read.
 
     Args:
-        package: What the fix was made for.
+        package: The package of the fix.
         fix: The fix.
     """
     try:
@@ -66,7 +66,7 @@ class Repetitions:
 
 
 def _source(package: Package, path: str) -> Source:
-    """Return the text that edits count in; a file in ASCII need not be parsed for it."""
+    """Return the text that the offsets of edits refer to; an ASCII file need not be parsed."""
 
     def read() -> Source:
         try:

@@ -17,13 +17,13 @@ from scaffold.reporters.summary import summary
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 _MOST_LISTED = 100
-"""Findings in a summary: it may have 1 MiB, and people read the first."""
+"""The maximum number of findings in a summary, which may have 1 MiB."""
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:  # noqa: ARG001  same shape as the others
     """Write one workflow command per finding, errors first: GitHub shows the first ten of a step.
 
-    The place is in the message as well: the log of the step shows nothing else.
+    The location is in the message as well, as the log of the step shows nothing else.
     """
     for package, diagnostic in _worst_first(results):
         at = diagnostic.location
@@ -43,7 +43,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 
 
 def command(level: str, properties: Mapping[str, object], message: str) -> str:
-    """Return the line that makes an annotation of a workflow.
+    """Return the workflow command for an annotation.
 
     Args:
         level: ``error``, ``warning`` or ``notice``.
@@ -55,7 +55,7 @@ def command(level: str, properties: Mapping[str, object], message: str) -> str:
 
 
 def job_summary(results: Sequence[Result], options: ReportOptions) -> str:
-    """Return the summary of a job as Markdown: errors first, then how often each code is found."""
+    """Return the job summary as Markdown: errors first, then counts by code."""
     findings = _worst_first(results)
     lines = ["### ros2-scaffold check", "", summary(results, options._replace(unsafe=False)), ""]
     if findings:
@@ -98,13 +98,13 @@ def _counts(diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
 
 
 def cell(text: str) -> str:
-    """Return text for a cell of a table: nothing in it is Markdown or HTML."""
+    """Return text for a cell of a table, with Markdown and HTML escaped."""
     escaped = "".join(f"\\{item}" if item in "\\`*_[]|~" else item for item in printable(text))
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
 def code(text: str) -> str:
-    """Return text in the font of code for a cell of a table."""
+    """Return text in code font for a cell of a table."""
     return f"`{printable(text)}`" if not {*"`|"} & {*text} else cell(text)
 
 

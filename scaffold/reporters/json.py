@@ -16,7 +16,7 @@ from scaffold.reporters.paths import shown
 from scaffold.source import Location
 
 SCHEMA_VERSION = 1
-"""Counts up when a field changes its meaning or goes; a new field does not count."""
+"""Incremented when a field changes its meaning or is removed, but not for new fields."""
 
 
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:

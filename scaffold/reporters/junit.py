@@ -23,7 +23,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 
 
 def write(suites: Sequence[ET.Element], out: TextIO) -> None:
-    """Write suites as a file of JUnit."""
+    """Write suites as a JUnit file."""
     root = ET.Element("testsuites", name=_TOOL)
     root.extend(suites)
     for name in ("tests", "failures", "errors"):

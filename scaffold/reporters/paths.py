@@ -19,7 +19,7 @@ def shown(package: Package, path: str) -> str:
 
 
 def printable_path(package: Package, path: str) -> str:
-    """Return the path of a file of a package as a terminal may get it."""
+    """Return the path of a file of a package with control characters escaped."""
     return printable(shown(package, path))
 
 
@@ -28,13 +28,13 @@ def place(
     diagnostic: Diagnostic,
     name: Callable[[Package, str], str] = printable_path,
 ) -> str:
-    """Return ``path:line:column``, as terminals and editors follow it."""
+    """Return ``path:line:column``, a form that terminals and editors link."""
     at = diagnostic.location
     return f"{name(package, at.path)}:{at.line}:{at.column}"
 
 
 def in_repository(package: Package, path: str) -> str:
-    """Return the path of a file of a package relative to the top of its repository, links resolved.
+    """Return the real path of a file of a package relative to the top of its repository.
 
     The repository is the one around the current directory if the file is in it, else the one around
     the file. A file in no repository is relative to the current directory, like `shown`.

@@ -14,7 +14,7 @@ from scaffold.record import NamedTuple
 DISTRIBUTION = "ros2-scaffold"
 """The name under which the tool is installed."""
 _LABELS = ("repository", "source", "sourcecode", "github", "homepage")
-"""What the address of the repository may be called in the metadata, as indexes read labels."""
+"""Labels of the repository address in the metadata, normalized as by package indexes."""
 
 
 class RulePage(NamedTuple):
@@ -26,7 +26,7 @@ class RulePage(NamedTuple):
     summary: str
     """What it reports, without Markdown."""
     markdown: str
-    """The summary again, **Why.**, **Fix.** and **Source.**."""
+    """The full text with summary, **Why.**, **Fix.** and **Source.**."""
     linters: tuple[str, ...]
     """The linters of ament that report the code."""
     url: str | None
@@ -34,7 +34,7 @@ class RulePage(NamedTuple):
 
 
 def of(codes: Iterable[str]) -> dict[str, RulePage]:
-    """Return the pages of codes that rules of this process report, by code in alphabetic order.
+    """Return the pages of codes reported by the loaded rules, in alphabetical order.
 
     A rule has a URL if it comes with this tool and the metadata of the tool name a repository.
     """
@@ -66,9 +66,9 @@ def of(codes: Iterable[str]) -> dict[str, RulePage]:
 
 
 def links(codes: Iterable[str]) -> dict[str, str]:
-    """Return what a terminal can link codes to.
+    """Return the link targets of codes for a terminal.
 
-    The address of the page, or a page in the user's cache where the project has no address; a code
+    The address of the page, or a page in the user's cache if the project has no address; a code
     without either is left out.
     """
     from scaffold.files import cache

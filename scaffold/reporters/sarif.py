@@ -27,7 +27,7 @@ SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _PROBLEMS = {**_LEVELS, Severity.INFO: "recommendation"}
 _MOST_CHARACTERS = 1024
-"""Of a description; code scanning refuses longer ones."""
+"""The maximum length of a description; code scanning rejects longer ones."""
 
 Data = dict[str, Any]
 
@@ -110,7 +110,7 @@ def _result(package: Package, diagnostic: Diagnostic, number: int) -> Data:
 
 
 def _fix(package: Package, fix: Fix) -> Data | None:
-    """Return a fix; ``None`` for one that does more than to edit files, which SARIF cannot say."""
+    """Return a fix; ``None`` for one that does more than edit files, which SARIF lacks."""
     changes = placed(package, fix)
     if changes is None or len(changes.replacements) < len(fix.changes):
         return None

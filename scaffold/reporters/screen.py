@@ -33,20 +33,20 @@ from scaffold.reporters.summary import by_severity, count, fixable, summary
 
 _COLORS = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold cyan"}
 _MAX_PLACES = 3
-"""Further places of an entry that are named; the others are counted."""
+"""The maximum number of further places of an entry; the others are counted."""
 MAX_MESSAGE = 300
-"""Characters of a message; what it lists at its end can be longer than the screen."""
+"""The maximum length of a message, as it may end in a long list."""
 _MAX_NAMED = 4
-"""Packages or codes that are named where things are counted."""
+"""The maximum number of packages or codes listed with counts."""
 _MIN_LINES = 12
-"""For findings, on the smallest of terminals."""
+"""The minimum number of lines for findings on small terminals."""
 
 
 class _Folded(NamedTuple):
     """Style findings that are counted instead of shown, by the directory of their package."""
 
     results: Sequence[Result]
-    """Of the packages that have any, with these findings only."""
+    """The results of packages with style findings, restricted to these."""
 
     @property
     def all(self) -> list[Diagnostic]:
@@ -123,12 +123,12 @@ def _blocks(
     options: ReportOptions,
     links: Mapping[str, str] = MappingProxyType({}),
 ) -> list[Text]:
-    """Return what is written for each entry: some lines, the name of the package above them.
+    """Return the lines of each entry, with the name of the package above them.
 
     Args:
-        entries: In the order to write them in.
-        options: What the user wants to see.
-        links: The pages of codes; terminals that know no links ignore them.
+        entries: The entries in order.
+        options: The display options.
+        links: The pages of codes; terminals without links ignore them.
     """
     blocks: list[Text] = []
     package = None
@@ -169,7 +169,7 @@ def _lines(entry: Entry, options: ReportOptions, link: str | None) -> list[Text]
 
 
 def _further(entry: Entry) -> list[Text]:
-    """Return the other places; in one line if the same message goes for all of them."""
+    """Return the other places, in one line if all have the same message."""
     first = entry.first
     others = _new_first(entry)
     shown = others[:_MAX_PLACES]
@@ -187,7 +187,7 @@ def _further(entry: Entry) -> list[Text]:
 
 
 def _new_first(entry: Entry) -> list[Place]:
-    """Return the further places of an entry, those with a message that others have last."""
+    """Return the further places of an entry, those with repeated messages last."""
     messages = {entry.first.text}
     new: list[Place] = []
     repeated: list[Place] = []
@@ -198,7 +198,7 @@ def _new_first(entry: Entry) -> list[Place]:
 
 
 def _room(blocks: Sequence[Text], height: int, width: int) -> int:
-    """Return how many blocks fit on the screen; at least one."""
+    """Return the number of blocks that fit on the screen, at least one."""
     used = 0
     for at, block in enumerate(blocks):
         used += sum(max(1, -(-len(item) // width)) for item in block.plain.split("\n"))
@@ -208,7 +208,7 @@ def _room(blocks: Sequence[Text], height: int, width: int) -> int:
 
 
 def _hidden_lines(entries: Sequence[Entry]) -> list[Text]:
-    """Return what does not fit on the screen, by code and by package, and how to see it."""
+    """Return lines about hidden findings by code and package, and how to show them."""
     result = [item for entry in entries for item in entry.places]
     codes = Counter(item.finding.code for item in result)
     names = Counter(printable(item.package.name) for item in result)
@@ -255,6 +255,6 @@ def _style_line(result: Result, *, unsafe: bool) -> Text:
 
 
 def _hints(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
-    """Return what can be done about style findings, and what shows them."""
+    """Return hints on fixing and showing style findings."""
     fixes = fixable(diagnostics, unsafe=unsafe)
     return f", {fixes}; --style shows them" if fixes else "; --style shows them"

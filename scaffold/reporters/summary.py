@@ -1,4 +1,4 @@
-"""The summary line of a report: how many findings there are, and how many are fixable."""
+"""The summary line of a report: counts of findings and fixable ones."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 
 def summary(results: Sequence[Result], options: ReportOptions) -> str:
-    """Return one line: what was checked, the findings, and how many are fixable.
+    """Return one line with the checked packages, the findings, and the fixable ones.
 
     Args:
         results: Of all packages.
-        options: Which distributions were checked for, and which fixes are counted.
+        options: Has the checked distributions, and which fixes are counted.
     """
     total = Summary.of(results)
     target = titles(options.distributions)
@@ -45,7 +45,7 @@ def count(number: int, noun: str) -> str:
 
 
 def fixable(diagnostics: Iterable[Diagnostic], *, unsafe: bool) -> str:
-    """Return how many fixes there are, and which flags apply them; empty if there are none."""
+    """Return the number of fixes with the flags that apply them; empty if there are none."""
     fixes = [item.fix for item in diagnostics if item.fix is not None]
     careful = 0 if unsafe else sum(fix.safety is Safety.SAFE for fix in fixes)
     others = len(fixes) - careful

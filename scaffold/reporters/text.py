@@ -21,8 +21,8 @@ from scaffold.reporters.summary import summary
 def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> None:
     """Write the findings and a summary; see `Reporter`.
 
-    A terminal gets what fits on it. Everything else gets all findings, a line for each, in a form
-    that editors and ``grep`` know: nothing is folded.
+    A terminal gets one screen. Other outputs get all findings, one line each, in a form
+    for editors and ``grep``, with nothing folded.
     """
     if options.statistics:
         _statistics(results, out)
@@ -45,7 +45,7 @@ def report(results: Sequence[Result], out: TextIO, options: ReportOptions) -> No
 def worst_first(
     results: Sequence[Result], options: ReportOptions
 ) -> Iterator[tuple[Package, Diagnostic]]:
-    """Yield the findings that are to be shown: errors, then warnings, then advice."""
+    """Yield the findings to show: errors, then warnings, then advice."""
     for severity in SEVERITIES[: SEVERITIES.index(options.severity) + 1]:
         for result in results:
             for diagnostic in result.diagnostics:
@@ -67,7 +67,7 @@ def _by_number(item: tuple[tuple[str, str, Severity], int]) -> tuple[int, str]:
 
 
 def _statistics(results: Sequence[Result], out: TextIO) -> None:
-    """Write how often each code is reported, the most frequent first."""
+    """Write the count of each code, the most frequent first."""
     diagnostics = [diagnostic for result in results for diagnostic in result.diagnostics]
     numbers = Counter((item.code, item.name, item.severity) for item in diagnostics)
     fixable = {item.code for item in diagnostics if item.fix is not None}

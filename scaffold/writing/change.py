@@ -10,14 +10,14 @@ from scaffold.files.disk import digest
 from scaffold.record import NamedTuple
 
 _OTHER = "other"
-"""The state of what is not a regular file or cannot be read."""
+"""The state of irregular and unreadable files."""
 
 
 class Change(NamedTuple):
-    """What happens to one file; states are as ``state`` returns them."""
+    """The change of one file; states are as returned by ``state``."""
 
     path: str
-    """Relative to the root, without links; it may lead out of the root with ``..``."""
+    """The path relative to the root, without symlinks; it may lead out of the root with ``..``."""
     before: str | None
     after: str | None
 
@@ -38,18 +38,18 @@ class Replacement(NamedTuple):
     """The new content of a file."""
 
     path: str
-    """Relative to the root, without links; it may lead out of the root with ``..``."""
+    """The path relative to the root, without symlinks; it may lead out of the root with ``..``."""
     before: str | None
-    """Its state when it was read."""
+    """The state when it was read."""
     content: bytes | None
-    """``None`` if the file is to go."""
+    """The content; ``None`` to remove the file."""
     executable: bool
 
 
 def state(path: str) -> str | None:
-    """Return what tells the state of a file: its content and whether it is executable.
+    """Return the state of a file: its content and whether it is executable.
 
-    ``None`` if there is no file. Anything irregular or unreadable is not a file of ours.
+    ``None`` if there is no file. Anything irregular or unreadable has the state ``_OTHER``.
     """
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
@@ -70,17 +70,17 @@ def state_of(content: bytes, mode: int) -> str:
 
 
 def join(root: str, path: str) -> str:
-    """Return a path below a root, or around it; the root need not be there, as a new package."""
+    """Join a path to a root, which need not exist; the path may lead out of it."""
     return os.path.normpath(os.path.join(root, *path.split("/")))
 
 
 def leads_out(path: str) -> bool:
-    """Tell whether a path leads out of the root that it is relative to."""
+    """Tell whether a relative path leads out of its root."""
     return os.path.isabs(path) or ".." in path.split("/")
 
 
 def shown(root: str, path: str) -> str:
-    """Return how a message names a file: relative to the root, unless it is outside."""
+    """Return the name of a file for messages: relative to the root, unless outside."""
     return join(root, path) if leads_out(path) else path
 
 

@@ -106,14 +106,14 @@ class Transaction:
         return state(self.target(change))
 
     def _slot(self, change: Change) -> str:
-        """Return the place in the stage that a change exchanges its file with."""
+        """Return the path in the stage that a change exchanges with its file."""
         slot = self.stage.file(str(self._numbers[change.path]))
         # Without an exchange the kernel needs two steps, and the old file another name.
         spare = f"{slot}{SPARE}"
         return spare if os.path.lexists(spare) and not os.path.lexists(slot) else slot
 
     def _is_done(self, change: Change) -> bool:
-        """Tell whether the stage holds what was before."""
+        """Tell whether the stage contains the old content."""
         slot = self._slot(change)
         if change.before is None and os.path.lexists(slot):
             target = self.target(change)
@@ -127,7 +127,7 @@ class Transaction:
     # -- forward and back
 
     def refuse_changed(self) -> None:
-        """Raise ConflictError if a file is not what it was when it was read."""
+        """Raise ConflictError if a file has changed since it was read."""
         changed = [
             change.path for change in self.changes if state(self.target(change)) != change.before
         ]
@@ -138,7 +138,7 @@ class Transaction:
         """Do all changes; if one fails, undo those that are done.
 
         Raises:
-            ConflictError: somebody else has changed a file.
+            ConflictError: another process has changed a file.
             OSError: the system refuses.
         """
         try:
@@ -155,7 +155,7 @@ class Transaction:
         self.close()
 
     def _compare_again(self) -> None:
-        """Raise ChangedError if an old file was changed after the exchange, by who had it open."""
+        """Raise ChangedError if a replaced file was changed through an open descriptor."""
         for change in self.changes:
             if change.before is not None and state(self._slot(change)) != change.before:
                 raise ChangedError(change.path)
@@ -163,8 +163,8 @@ class Transaction:
     def heal(self) -> str:
         """Complete or undo the changes of another process; return the outcome for a message.
 
-        It is undone, unless all of it is done, or the user went on working with what came of it,
-        or it is what is left of a new package.
+        It is undone, unless all of it is done, the user has edited the results,
+        or it is the rest of a new package.
         """
         edited = [change for change in self.changes if self._is_edited(change)]
         pending = [change for change in self.changes if not self._is_done(change)]
@@ -177,7 +177,7 @@ class Transaction:
         return f"{outcome}; edited since, not restored: {names}" if left else outcome
 
     def complete(self) -> list[str]:
-        """Do what is not done; return the files that were left because they were edited."""
+        """Do the remaining changes; return the files that were skipped because they were edited."""
         for directory in self.directories:
             if not os.path.lexists(join(self.root, directory)):
                 new_files.make_directory(join(self.root, directory))
@@ -187,10 +187,10 @@ class Transaction:
         return left
 
     def undo(self, *, touch: bool = False) -> list[str]:
-        """Undo what is done; return the files that were left because they were edited.
+        """Undo the done changes; return the files that were skipped because they were edited.
 
         Args:
-            touch: Give the files a new time: somebody may have built with the others.
+            touch: Whether to set a new modification time, as the new files may have been built.
         """
         done = [change for change in reversed(self.changes) if self._is_done(change)]
         done = [change for change in done if self._now(change) != change.before]
@@ -206,7 +206,7 @@ class Transaction:
         return left
 
     def close(self) -> None:
-        """Make it final: without a journal there is nothing to complete or undo."""
+        """Commit by removing the journal."""
         os.unlink(self.stage.file(JOURNAL))
 
     def _swap_each(self, changes: Sequence[Change]) -> list[str]:
@@ -222,7 +222,7 @@ class Transaction:
         """Exchange a file and its slot in the stage.
 
         Raises:
-            ChangedError: the file is not what it should be; it was left as it is.
+            ChangedError: the file has changed, and is kept.
         """
         slot, target = self._slot(change), self.target(change)
         try:

@@ -18,7 +18,7 @@ from scaffold.errors import InputError, LockedError
 from scaffold.files.disk import digest
 
 PATIENCE = 30.0
-"""Seconds to wait for one holder; another one that is faster gets as many."""
+"""Seconds to wait for each holder of the lock."""
 _PAUSE = 0.03
 """Seconds between two attempts."""
 
@@ -31,11 +31,11 @@ def locked(directory: str, notify: Callable[[str], None]) -> Iterator[None]:
 
     Args:
         directory: The directory, which exists.
-        notify: Gets a line when there is somebody to wait for.
+        notify: Called with a line if there is a holder to wait for.
 
     Raises:
-        LockedError: another process has held the lock for too long.
-        InputError: the directory is not there.
+        LockedError: another process has kept the lock for too long.
+        InputError: the directory does not exist.
     """
     descriptor = _acquire(directory, notify)
     try:
@@ -45,7 +45,7 @@ def locked(directory: str, notify: Callable[[str], None]) -> Iterator[None]:
 
 
 def try_lock(directory: str) -> int | None:
-    """Return a descriptor that holds the lock of a directory, ``None`` if it is locked already.
+    """Return a descriptor with the lock of a directory, ``None`` if it is locked already.
 
     Raises:
         OSError: there is no such directory, or it cannot be locked.
@@ -76,7 +76,7 @@ def _acquire(directory: str, notify: Callable[[str], None]) -> int:
 
 
 def _open(directory: str) -> tuple[int, str]:
-    """Return a descriptor that can be locked, and the path that it is of."""
+    """Return a descriptor that can be locked, and its path."""
     try:
         descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     except PermissionError:
@@ -128,7 +128,7 @@ def _wait(descriptor: int, directory: str, notify: Callable[[str], None]) -> Non
 
 
 def _is_ours(descriptor: int) -> bool:
-    """Take the lock; tell whether that went well."""
+    """Try to take the lock; return whether that succeeded."""
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -137,7 +137,7 @@ def _is_ours(descriptor: int) -> bool:
 
 
 def _is_current(descriptor: int, path: str) -> bool:
-    """Tell whether a path still leads to what was opened there."""
+    """Tell whether a path still refers to the opened file."""
     try:
         return os.path.samestat(os.fstat(descriptor), os.stat(path))
     except FileNotFoundError:
@@ -145,7 +145,7 @@ def _is_current(descriptor: int, path: str) -> bool:
 
 
 def _holder(descriptor: int) -> str:
-    """Return which process holds a lock, as far as the kernel shows it."""
+    """Return the process that holds a lock, if the kernel shows it."""
     inode = str(os.fstat(descriptor).st_ino)
     with suppress(OSError), open("/proc/locks", encoding="ascii", errors="replace") as locks:
         for line in locks:

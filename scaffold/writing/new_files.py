@@ -20,11 +20,11 @@ def write(path: str, content: bytes, *, executable: bool, like: str, is_durable:
     """Create a file.
 
     Args:
-        path: Where it is written; nothing is there.
-        content: What it holds.
-        executable: Whether it gets executable bits.
-        like: The file that it is going to replace; without one it is as usual in its directory.
-        is_durable: Wait until it survives a loss of power.
+        path: The path, which does not exist.
+        content: The content.
+        executable: Whether to set executable bits.
+        like: The file that it will replace, if any, to copy the attributes from.
+        is_durable: Whether to wait until it is on disk.
 
     Raises:
         OSError: the system refuses.
@@ -59,7 +59,7 @@ def make_directory(path: str) -> None:
 
 
 def adopt(new: str | int, directory: str) -> None:
-    """Give what root has created to the owner of the directory that it is for."""
+    """Change the owner of a path created by root to the owner of its destination."""
     while not os.path.isdir(directory):
         directory = os.path.dirname(directory)
     owner = os.stat(directory)
@@ -71,7 +71,7 @@ def adopt(new: str | int, directory: str) -> None:
 
 
 def _take_owner(descriptor: int, old: os.stat_result) -> int:
-    """Give a file the owner of another one, as far as allowed; return the mode that fits."""
+    """Copy the owner of another file, as far as allowed; return the mode to set."""
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
         try:

@@ -11,10 +11,10 @@ from scaffold.writing.planned_file import PlannedFile
 
 _ESCAPES = {7: "a", 8: "b", 9: "t", 10: "n", 11: "v", 12: "f", 13: "r", 34: '"', 92: "\\"}
 _LENGTHS = string.ascii_uppercase + string.ascii_lowercase
-"""The letters that say how many bytes a line of a binary patch holds, from one byte on."""
+"""The letters for the length of a line of a binary patch, from one byte on."""
 _PRINTABLE = range(0x20, 0x7F)
 _LOOKED_AT = 8000
-"""Bytes at the start of a file in which git looks for a NUL."""
+"""The number of bytes that git searches for a NUL to detect binary files."""
 
 
 def base(roots: Sequence[str]) -> str:
@@ -22,7 +22,7 @@ def base(roots: Sequence[str]) -> str:
 
     It is the top of the git repository around the current directory, where ``git apply`` looks for
     them, and the current directory itself outside of any repository. When a root is elsewhere, it
-    is the repository around all roots, or the deepest directory that holds them all.
+    is the repository around all roots, or their common parent directory.
     """
     current = os.getcwd()
     top = _repository(current) or current
@@ -71,7 +71,7 @@ def _is_in(path: str, directory: str) -> bool:
 
 
 def _quoted(path: str) -> str:
-    """Return a path as git writes it: in quotes if it has unusual characters."""
+    """Quote a path like git, if it has unusual characters."""
     data = os.fsencode(path)
     if all(byte in _PRINTABLE and byte not in _ESCAPES for byte in data):
         return path
@@ -85,7 +85,7 @@ def _escaped(byte: int) -> str:
 
 
 def _ended(path: str) -> str:
-    """Return a path as git writes it after ``---``: a tab ends a path with spaces."""
+    """Return a path as in a ``---`` line of git, where a tab ends a path with spaces."""
     return f"{path}\t" if " " in path and not path.startswith('"') else path
 
 
@@ -114,7 +114,7 @@ def _hunks(before: bytes, after: bytes) -> Iterator[str]:
 
 
 def _lines(data: bytes) -> list[str]:
-    """Return the lines with their endings; nothing but a newline ends one."""
+    """Return the lines with their endings, split only at newlines."""
     lines = [line + "\n" for line in data.decode(errors="surrogateescape").split("\n")]
     last = lines.pop()[:-1]
     return [*lines, last] if last else lines

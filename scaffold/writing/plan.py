@@ -32,7 +32,7 @@ class WritePlan:
         self.root = root
         self.files = files
         self.is_new = is_new
-        """Whether the root is not there yet."""
+        """Whether the root does not exist yet."""
 
     @classmethod
     def of(
@@ -49,10 +49,10 @@ class WritePlan:
         Args:
             root: The directory; it need not exist.
             files: Content by path relative to the root.
-            executable: Paths that get executable bits; one that is not in ``files`` keeps its
+            executable: Paths to make executable; one that is not in ``files`` keeps its
                 content.
             remove: Paths of files to remove.
-            tree: What the content was made from; a file that is not as it was there is refused.
+            tree: The tree that the content was computed from; files changed since are rejected.
 
         Raises:
             InputError: a path leads out of the root, or something cannot be read.
@@ -83,7 +83,7 @@ class WritePlan:
 
     @property
     def changes(self) -> list[PlannedFile]:
-        """The files that writing would touch."""
+        """The files that writing would change."""
         return [file for file in self.files if file.state is not State.SAME]
 
     @property
@@ -92,10 +92,10 @@ class WritePlan:
         return [file.path for file in self.files if file.state in {State.DIFFERING, State.REMOVED}]
 
     def diff(self, *, hidden: Collection[str] = (), relative_to: str | None = None) -> str:
-        """Return the changes as a patch that ``git apply`` takes; see `patch.of`.
+        """Return the changes as a patch for ``git apply``; see `patch.of`.
 
         Args:
-            hidden: Paths of files that are not read.
+            hidden: Paths of files to omit.
             relative_to: The directory to which the paths in the patch are relative; by default
                 that of `patch.base`.
         """
@@ -103,7 +103,7 @@ class WritePlan:
         return "".join(patch.of(file, base) for file in self.changes if file.path not in hidden)
 
     def write(self, *, force: bool = False, around: WritePlan | None = None) -> None:
-        """Write what differs.
+        """Write the changed files.
 
         Args:
             force: Overwrite and remove files that exist.
@@ -111,9 +111,9 @@ class WritePlan:
                 all: files at the top of the repository.
 
         Raises:
-            ConflictError: files would be overwritten and ``force`` was not given, or somebody
-                else has changed one meanwhile; nothing is written.
-            InputError: the system refuses; what was there is as it was.
+            ConflictError: files would be overwritten without ``force``, or another process
+                has changed one meanwhile; nothing is written.
+            InputError: the system reports an error; existing files are unchanged.
             LockedError: another process is changing the directory.
         """
         plans = [self] if around is None else [self, around]
@@ -132,7 +132,7 @@ class WritePlan:
             raise InputError(message) from error
 
     def _write_whole(self, around: Sequence[Replacement]) -> None:
-        """Write a directory next to its place and rename it."""
+        """Write a directory next to its destination and rename it."""
         parent = os.path.dirname(self.root)
         while not os.path.lexists(parent):
             parent = os.path.dirname(parent)
@@ -148,7 +148,7 @@ class WritePlan:
 
 
 def _replacements(plans: Sequence[WritePlan], root: str) -> list[Replacement]:
-    """Return the changes by real file: two paths may be links to the same one."""
+    """Return the changes by real path, as two paths may be symlinks to one file."""
     result: dict[str, Replacement] = {}
     for plan in plans:
         for file in plan.changes:
@@ -164,7 +164,7 @@ def _replacements(plans: Sequence[WritePlan], root: str) -> list[Replacement]:
 
 
 def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:
-    """Return which file or directory the system refuses to write, and why."""
+    """Return the message about a file or directory that cannot be written."""
     name = error.filename2 or error.filename
     for file in around.changes if around is not None else ():
         is_there = f"{file.target}{os.sep}".startswith(f"{name}{os.sep}")
@@ -176,14 +176,14 @@ def _refusal(error: OSError, root: str, around: WritePlan | None) -> str:
 
 
 def target_outside(root: str, path: str) -> str | None:
-    """Return where a path really leads if that is not below the root, as it is with some links."""
+    """Return the real path of a file if it is not below the root, due to symlinks."""
     base = os.path.realpath(root)
     target = os.path.realpath(os.path.join(base, *path.split("/")))
     return None if os.path.commonpath([base, target]) == base != target else target
 
 
 def _resolve(base: str, path: str) -> str:
-    """Return where a path relative to ``base`` really leads."""
+    """Return the real path of a path relative to ``base``."""
     parts = path.split("/")
     if any(part in {"", ".", ".."} or "\0" in part or "\\" in part for part in parts):
         raise InputError(f"{path!r} is not a path below {base}")
@@ -194,7 +194,7 @@ def _resolve(base: str, path: str) -> str:
 
 
 def _read(target: str, path: str) -> tuple[bytes | None, int]:
-    """Return the content and the mode of a file; no content if it is not there."""
+    """Return the content and the mode of a file; no content if it does not exist."""
     if os.path.isdir(target):
         raise ConflictError(f"{path} should be a file, but is a directory")
     try:
@@ -212,7 +212,7 @@ def _read(target: str, path: str) -> tuple[bytes | None, int]:
 
 
 def _refuse_changed(tree: DiskTree, path: str, before: bytes | None) -> None:
-    """Raise if a file is not as it was when the new content was made from it."""
+    """Raise if a file has changed since its new content was computed."""
     seen = tree.digest_read(path)
     if seen is not None and seen != (digest(before) if before is not None else ""):
         raise ConflictError(

@@ -13,30 +13,30 @@ class State(Enum):
     NEW = "new"
     """There is no such file."""
     DIFFERING = "differing"
-    """There is one with other content, or without its executable bits."""
+    """The file has other content, or lacks its executable bits."""
     SAME = "same"
     """The file exists with the same content."""
     REMOVED = "removed"
-    """The file is to go."""
+    """The file will be removed."""
 
 
 class PlannedFile(NamedTuple):
     """One file of a plan."""
 
     path: str
-    """Relative to the root, with ``/`` between the parts."""
+    """The path relative to the root, with ``/`` as separator."""
     target: str
-    """Where its content really is: links are followed, as long as they stay inside the root."""
+    """The real path: symlinks are followed within the root."""
     content: bytes
     executable: bool
-    """Whether it gets executable bits; the bits that a file has are kept."""
+    """Whether to set executable bits; existing bits are kept."""
     state: State
     before: bytes | None
-    """What it holds when the plan is made; ``None`` for a new file."""
+    """The content at planning time; ``None`` for a new file."""
     seen: str | None
-    """The same with its executable bit, to be compared before the file is replaced."""
+    """The state at planning time, to be compared before the file is replaced."""
 
     @property
     def is_removed(self) -> bool:
-        """Whether the file is to go."""
+        """Whether the file will be removed."""
         return self.state is State.REMOVED

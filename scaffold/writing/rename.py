@@ -16,11 +16,11 @@ _EXCHANGE = 2
 _CURRENT_DIRECTORY = -100
 
 _UNSUPPORTED = {errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP, errno.EPERM}
-"""EPERM is what some containers say of a call that they do not know; the other way will tell."""
+"""Errors of unsupported calls; some containers return EPERM for them."""
 
 
 def move(source: str, target: str) -> None:
-    """Rename a file to a name that is free.
+    """Rename a file to a free name.
 
     Raises:
         FileExistsError: the name is taken.
@@ -53,8 +53,8 @@ def exchange(first: str, second: str, spare: str) -> None:
 
     Args:
         first: A file.
-        second: Another one, which is there at every moment.
-        spare: A name that is free, for file systems that need it. If the process is killed there,
+        second: Another one, which exists at every moment.
+        spare: A free name, for file systems that need it. If the process is killed there,
             the old ``second`` has it when ``first`` is missing.
 
     Raises:
@@ -76,7 +76,7 @@ def exchange(first: str, second: str, spare: str) -> None:
 
 
 def try_rename(source: str, target: str, flags: int) -> bool:
-    """Rename with the call of Linux; tell whether there is one for these files."""
+    """Rename with the Linux system call; return whether it is supported."""
     import ctypes  # only for those who write into an existing directory
 
     call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)

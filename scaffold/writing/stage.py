@@ -11,14 +11,14 @@ from scaffold.files import temporary
 from scaffold.writing.lock import try_lock
 
 TREE = "tree"
-"""What a stage calls the directory that is to appear whole."""
+"""The name in a stage of a directory to be created atomically."""
 JOURNAL = "journal"
 NEW_JOURNAL = "journal.new"
 """The journal while it is being written."""
 MARK = "mark"
-"""A file that a journal names by what cannot be copied."""
+"""A file that the journal identifies by its inode, which cannot be copied."""
 SPARE = ".old"
-"""The suffix of a replaced file where the kernel cannot exchange two."""
+"""The suffix of a replaced file where files cannot be exchanged atomically."""
 
 
 class Stage:
@@ -31,7 +31,7 @@ class Stage:
     @classmethod
     @contextmanager
     def made(cls, parent: str) -> Iterator[Stage]:
-        """Make a stage in a directory, and remove it when the block ends."""
+        """Create a stage in a directory, and remove it at the end of the block."""
         stage = cls(parent, os.path.join(parent, temporary.name()))
         os.mkdir(stage.path, 0o700)
         try:
@@ -56,11 +56,11 @@ class Stage:
         return os.path.join(self.path, name)
 
     def follow(self, parent: str) -> None:
-        """Note that the directory which it is in has another name now."""
+        """Update the path after its directory was renamed."""
         self.parent, self.path = parent, os.path.join(parent, os.path.basename(self.path))
 
     def remove(self) -> bool:
-        """Remove it with what this module has put into it; tell whether that was all."""
+        """Remove it with the files of this module; return whether it is gone."""
         with suppress(OSError):
             names = os.listdir(self.path)
             if not all(_is_of_stage(name) for name in names):
@@ -76,7 +76,7 @@ class Stage:
 
 
 def sweep(parent: str) -> None:
-    """Remove the stages of dead processes that made directories in ``parent``."""
+    """Remove the stages of dead processes that were creating directories in ``parent``."""
     for name in temporary_names(parent):
         path = os.path.join(parent, name)
         if has_journal(parent, name):
@@ -89,7 +89,7 @@ def sweep(parent: str) -> None:
 
 
 def temporary_names(directory: str) -> list[str]:
-    """Return the names in a directory that stages may have."""
+    """Return the names in a directory that may be stages."""
     try:
         names = sorted(filter(temporary.is_temporary, os.listdir(directory)))
     except OSError:
@@ -103,7 +103,7 @@ def has_journal(directory: str, name: str) -> bool:
 
 
 def _is_of_stage(name: str) -> bool:
-    """Tell whether this module gives this name to what it puts into a stage."""
+    """Tell whether a name is one that this module uses in a stage."""
     number = name
     while number.endswith(SPARE):
         number = number.removesuffix(SPARE)

@@ -24,9 +24,9 @@ from scaffold.writing.lock import locked, try_lock
 from scaffold.writing.stage import Stage, has_journal, sweep, temporary_names
 
 RECORD = ".ros2-scaffold.json"
-"""The file that says how a package was made: it changes last, so that it never claims too much."""
+"""The record of a package, written last, so that it never claims too much."""
 BASES = ".ros2-scaffold.bases"
-"""The sidecar of the record; it changes just before it."""
+"""The sidecar of the record, written just before it."""
 
 _held: set[str] = set()
 """The directories that this process has locked."""
@@ -42,8 +42,8 @@ def exclusive(directory: str, notify: Callable[[str], None] = _ignore) -> Iterat
 
     Args:
         directory: The root of the package.
-        notify: Gets a line when another process has to be waited for, and one for each run that
-            was cut off.
+        notify: Called with a line if another process has to be waited for, and for each run that
+            was interrupted.
 
     Raises:
         LockedError: another process holds the package for too long.
@@ -75,16 +75,16 @@ def is_unfinished(directory: str) -> bool:
 
 
 def replace_all(root: str, replacements: Sequence[Replacement]) -> None:
-    """Change files below a directory whose lock is held.
+    """Change files below a locked directory.
 
     Args:
         root: The directory, without links.
-        replacements: Each is of another file.
+        replacements: The replacements, one per file.
 
     Raises:
-        ConflictError: a file is not what it was when it was read, or has changed meanwhile; what
-            was done has been undone.
-        OSError: the system refuses; what was done has been undone.
+        ConflictError: a file has changed since it was read, or meanwhile; changes that
+            were done are undone.
+        OSError: the system refuses; what were done are undone.
     """
     with Stage.made(root) as stage:
         transaction = _staged(root, stage, replacements)
@@ -94,18 +94,18 @@ def replace_all(root: str, replacements: Sequence[Replacement]) -> None:
 
 
 def appear(tree: str, root: str, around: Sequence[Replacement]) -> None:
-    """Rename a new directory to its place and change files around it: both or nothing.
+    """Rename a new directory to its destination and change files around it, atomically.
 
     If the process is killed between the two, the next writer in the directory completes it.
 
     Args:
-        tree: The directory where it was made.
-        root: Its place.
-        around: Changes of files outside; their paths are relative to the place.
+        tree: The directory to rename.
+        root: The destination.
+        around: Changes of files outside, with paths relative to the destination.
 
     Raises:
-        ConflictError: the place is taken, or a file has changed since it was read.
-        OSError: the system refuses; what was done has been undone.
+        ConflictError: the destination exists, or a file has changed since it was read.
+        OSError: the system refuses; what were done are undone.
     """
     if not around:
         _rename_to_free_place(tree, root)
@@ -147,7 +147,7 @@ def _hidden(tree: str) -> Iterator[None]:
 def _staged(
     root: str, stage: Stage, replacements: Sequence[Replacement], *, is_forward: bool = False
 ) -> Transaction:
-    """Write new content into a stage; return what is to be done."""
+    """Write new content to a stage; return the changes to do."""
     last = (BASES, RECORD)
     changes: list[Change] = []
     ordered = sorted(replacements, key=lambda file: (file.path in last, file.path))
@@ -168,7 +168,7 @@ def _staged(
 
 
 def _recover(root: str, directory: str, notify: Callable[[str], None]) -> None:
-    """Recover interrupted runs in a directory whose lock is held."""
+    """Recover interrupted runs in a locked directory."""
     for name in temporary_names(root):
         stage = Stage(root, os.path.join(root, name))
         if not has_journal(root, name):

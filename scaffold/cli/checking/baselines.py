@@ -34,11 +34,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def validate(options: argparse.Namespace, disk: Disk) -> None:
-    """Refuse flags that do not go together, and read the baseline before the work is done.
+    """Reject conflicting flags, and read the baseline before the check.
 
     Args:
-        options: The flags of `check`; get the entries.
-        disk: Notes what the baseline holds.
+        options: The flags of `check`; the entries are stored here.
+        disk: Records the content of the baseline.
 
     Raises:
         InputError: flags contradict each other, or there is no such baseline.

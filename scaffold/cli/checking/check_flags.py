@@ -11,7 +11,7 @@ OF_REPORT = (
     *("all", "exit_zero", "format", "output_file", "quiet", "severity", "show_source"),
     *("statistics", "style", "unsafe_fixes"),
 )
-"""The flags that say how findings are shown, and not what is found."""
+"""The flags that only affect how findings are shown."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from scaffold.writing.plan import WritePlan
 
 _NAMED = 10
-"""How many files a note names."""
+"""The number of files listed in a note."""
 
 
 def write(
@@ -36,10 +36,10 @@ def write(
         options: The flags of `check`.
         session: The rules to fix with.
         targets: The packages.
-        find_again: Finds them once more, if they may have changed since.
+        find_again: Finds the packages again, if they may have changed.
 
     Returns:
-        The packages that were written or shown, and whether any was refused.
+        The packages that were written or shown, and whether any was rejected.
     """
     from contextlib import ExitStack
 
@@ -65,11 +65,11 @@ def put(
     """Write fixed packages, or show the patch.
 
     Args:
-        options: The flags: whether it is only shown.
-        packages: What the fixes make of each, and what is on disk, if that is at hand.
+        options: The flags, which say whether to only show the patch.
+        packages: The fixed packages, with those on disk if available.
 
     Returns:
-        The packages that were written or shown, and whether any was refused.
+        The packages that were written or shown, and whether any was rejected.
     """
     from scaffold.errors import ScaffoldError
 
@@ -101,7 +101,7 @@ def note_unexamined(diagnostics: Sequence[tuple[Package, Diagnostic]]) -> bool:
     """Note the files that could not be examined and are missing from the patch.
 
     Args:
-        diagnostics: What is left, with the packages.
+        diagnostics: The remaining findings, with the packages.
 
     Returns:
         Whether there are any.
@@ -130,7 +130,7 @@ def _roots(targets: Sequence[Target]) -> list[str]:
 
 
 def _note_links(fixed: Fixed) -> None:
-    """Note the files that are not fixed because they are links out of the package."""
+    """Note the files that are not fixed because they are symlinks out of the package."""
     from scaffold.writing.plan import target_outside
 
     root = fixed.package.directory

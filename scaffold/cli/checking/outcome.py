@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def report_options(options: argparse.Namespace) -> ReportOptions:
-    """Return what a report needs to know of the flags."""
+    """Return the report options given by the flags."""
     from scaffold.diagnostic import Severity
     from scaffold.reporters import ReportOptions
 
@@ -41,7 +41,7 @@ def report_options(options: argparse.Namespace) -> ReportOptions:
 def run_entry(
     options: argparse.Namespace, targets: Sequence[Target], distribution: Distribution
 ) -> RunEntry | None:
-    """Return where the findings for a distribution are remembered, if they are."""
+    """Return the cache entry for the findings for a distribution, if any."""
     entry: ReportEntry | None = options.entry
     if entry is None:
         return None
@@ -60,13 +60,13 @@ def save_report(
     output: str | None,
     settings: Config,
 ) -> None:
-    """Remember a report, unless it was written to a file or is for other files at each commit."""
+    """Cache a report, unless it was written to a file or depends on the commit."""
     if output is not None and not options.whole_packages:
         options.entry.save(runs, code, output, settings.warnings)
 
 
 def note_unchecked(session: Session) -> None:
-    """Say what was not checked, and why: types, or packages."""
+    """Note what was not checked, and why: types, or packages."""
     from scaffold.reporters.summary import count
 
     for reason, packages in session.unchecked.items():
@@ -91,7 +91,7 @@ def _exit_code(results: list[Result], *, is_zero: bool = False) -> int:
 
     Args:
         results: Of all packages.
-        is_zero: Whether findings do not count.
+        is_zero: Whether findings are ignored for the exit code.
     """
     from scaffold.check.rules.engine_rules import RuleCrashed
     from scaffold.cli.exit_codes import CLEAN, FINDINGS, INTERNAL_ERROR

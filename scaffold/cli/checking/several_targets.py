@@ -40,8 +40,8 @@ class SeveralTargets:
         options: The flags of `check`.
         session: The rules.
         settings: The configuration.
-        disk: Notes what is accessed outside of the packages.
-        by_record: What packages are for, by directory; all, if they are not named.
+        disk: Records accesses outside of the packages.
+        by_record: The targets of packages by directory; all targets for others.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class SeveralTargets:
         return self._report(self._checked(), is_saved=True)
 
     def _run_unsaved(self) -> int:
-        """Check or fix standard input; a fixed text is all that standard output gets."""
+        """Check or fix standard input; with fixes, standard output gets only the fixed text."""
         from scaffold.check.several import agreed, merged
         from scaffold.cli import reports
         from scaffold.cli.checking import standard_input
@@ -127,7 +127,7 @@ class SeveralTargets:
         return by_distribution
 
     def _fix(self) -> int:
-        """Fix what is right for all of them, and report what is left for each."""
+        """Apply fixes valid for all of them, and report the remaining findings for each."""
         from scaffold.check.several import agreed
         from scaffold.cli.exit_codes import CLEAN, FINDINGS, USAGE_ERROR
 
@@ -153,7 +153,7 @@ class SeveralTargets:
         return USAGE_ERROR if has_failed else code
 
     def _checked(self) -> ByDistribution:
-        """Check for each; what an earlier run found is taken from it."""
+        """Check for each distribution, using cached results."""
         from scaffold.check.cache.results import ResultCache
         from scaffold.cli.interactive import progress
 
@@ -208,7 +208,7 @@ class SeveralTargets:
         return code
 
     def _entry(self, distribution: Distribution) -> RunEntry | None:
-        """Return where the findings for one distribution are remembered, if they are."""
+        """Return the cache entry for the findings for one distribution, if any."""
         options = self._options
         is_unfinished = note_unfinished(self._targets)
         if self._settings.content or is_unfinished or options.write_baseline or self._is_mixed:
@@ -219,7 +219,7 @@ class SeveralTargets:
 
 
 def _since_notes(by_distribution: Mapping[Distribution, str]) -> tuple[str, ...]:
-    """Return what to say of the change, once if it is the same for all."""
+    """Return the notes on the change, merged if they are the same for all."""
     if len({*by_distribution.values()}) < len(by_distribution):
         return (*dict.fromkeys(by_distribution.values()),)
     return tuple(f"{distribution.title}: {note}" for distribution, note in by_distribution.items())

@@ -1,4 +1,4 @@
-"""``check --since REV``: findings in changed files, and what the change breaks elsewhere."""
+"""``check --since REV``: findings in changed files, and those that the change causes elsewhere."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 def validate(options: argparse.Namespace) -> None:
-    """Refuse flags that do not go together.
+    """Reject conflicting flags.
 
     Raises:
-        InputError: they do not.
+        InputError: they conflict.
     """
     for flag in ("fix", "diff", "reference", "stdin_filename", "write_baseline"):
         if options.since is not None and getattr(options, flag):
@@ -35,7 +35,7 @@ class Since:
 
     Args:
         directory: Where the checked packages are.
-        revision: What the user calls the commit.
+        revision: The commit as given by the user.
         targets: The packages.
 
     Raises:
@@ -69,11 +69,11 @@ class Since:
         return [target for target in self._all if target in touched]
 
     def limit(self, results: Sequence[Result], session: Session) -> tuple[list[Result], str]:
-        """Return what the change touches or breaks, and a line about the rest.
+        """Return the findings touched or caused by the change, and a line about the rest.
 
         Args:
-            results: Of `targets`.
-            session: What checked them; it checks the commit if that is necessary.
+            results: The results of `targets`.
+            session: The session that checked them; it also checks the commit if necessary.
         """
         from scaffold.check.result import Result
         from scaffold.reporters.fingerprints import Fingerprints
@@ -121,7 +121,7 @@ class Since:
         return is_there and path not in self._commit.listed
 
     def _old_names(self) -> set[str]:
-        """Return the names that changed, moved and removed packages had."""
+        """Return the old names of changed, moved and removed packages."""
         from scaffold.files.tree import MANIFEST
         from scaffold.model.package import Package
 
@@ -134,7 +134,7 @@ class Since:
         return {Package.of({MANIFEST: data}).name for _, data in self._commit.read(manifests)}
 
     def _old_fingerprints(self, session: Session, results: Sequence[Result]) -> frozenset[str]:
-        """Return what is found in the same packages of the commit; nothing of them is run."""
+        """Return the findings in the same packages of the commit, whose code is not run."""
         from tempfile import TemporaryDirectory
 
         from scaffold.model.discovery import targets as discovery

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from scaffold.model.workspace.policy import Policy
 
 WORD = "-"
-"""Means standard input where a path is expected."""
+"""The path that means standard input."""
 
 
 def validate(options: argparse.Namespace) -> bool:
     """Tell whether standard input is to be checked.
 
     Raises:
-        InputError: the other flags do not go with that.
+        InputError: other flags conflict with it.
     """
     name = options.stdin_filename
     if name is None:
@@ -45,14 +45,14 @@ def validate(options: argparse.Namespace) -> bool:
 
 
 def read(path: str, disk: Disk) -> bytes:
-    """Return what standard input holds.
+    """Return the text of standard input.
 
     Args:
-        path: The file that it is of; it need not be there.
+        path: The file that it replaces, which need not exist.
         disk: Records what was accessed outside of the package.
 
     Raises:
-        InputError: the path is a directory, or there is too much.
+        InputError: the path is a directory, or the text is too large.
     """
     from scaffold.files.disk import MAX_BYTES
 
@@ -65,16 +65,16 @@ def read(path: str, disk: Disk) -> bytes:
 
 
 def target_of(data: bytes, path: str, disk: Disk, policy: Policy) -> Target:
-    """Return the file of a package with a text in its place.
+    """Return a target in which a text replaces the content of a file.
 
     Args:
         data: The text.
-        path: The file; it need not be there.
+        path: The file, which need not exist.
         disk: Records what was accessed outside of the package.
-        policy: What the configuration says that rules have to know.
+        policy: The configuration of rules.
 
     Raises:
-        InputError: the path is in no package and not one of a Python file.
+        InputError: the path is in no package and not that of a Python file.
     """
     from scaffold.check.fixes.overlay import Overlay
     from scaffold.model.discovery import targets as discovery
@@ -87,7 +87,7 @@ def target_of(data: bytes, path: str, disk: Disk, policy: Policy) -> Target:
 
 
 def fix(session: Session, target: Target, *, unsafe: bool) -> tuple[bytes, Result]:
-    """Write the text with what can be fixed in it to standard output; return it and what remains.
+    """Write the fixed text to standard output; return it and the remaining findings.
 
     Other files are not changed, so fixes that change one are skipped.
     """

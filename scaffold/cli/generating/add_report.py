@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def report_defects(package: Package, diagnostics: list[Diagnostic]) -> None:
-    """Report errors in a package that what was added would cause."""
+    """Report errors that the addition would cause in a package."""
     for diagnostic in diagnostics:
         terminal.say(line(package, diagnostic))
     terminal.say(
@@ -28,14 +28,14 @@ def report_defects(package: Package, diagnostics: list[Diagnostic]) -> None:
 
 
 def line(package: Package, diagnostic: Diagnostic) -> str:
-    """Return a diagnostic as it is printed."""
+    """Format a diagnostic."""
     at = diagnostic.location
     path = os.path.normpath(os.path.join(package.directory, at.path))
     return f"{path}:{at.line}:{at.column}: {diagnostic.code} {diagnostic.message}"
 
 
 def diff(plan: WritePlan, above: WritePlan | None) -> str:
-    """Return the differences of the files of a package, and of those above it."""
+    """Return the diff of the files of a package, and of those above it."""
     from scaffold.generate.update.provenance import HIDDEN
 
     return plan.diff(hidden=HIDDEN) + (above.diff() if above is not None else "")
@@ -48,7 +48,7 @@ def summary(
     plan: WritePlan,
     above: WritePlan | None,
 ) -> str:
-    """Return what is written and edited, and the next commands."""
+    """Return the written and edited files, and the next commands."""
     from scaffold.generate import repository
     from scaffold.generate.update.provenance import HIDDEN
     from scaffold.writing.planned_file import State

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def report_defects(defects: Sequence[Diagnostic], made: Draft) -> int:
-    """Report what is wrong with a package, whose templates are to blame; return the exit code."""
+    """Report defects of a package, which are those of its templates; return the exit code."""
     from scaffold.cli.exit_codes import INTERNAL_ERROR, USAGE_ERROR
     from scaffold.generate.templates import render
 
@@ -44,14 +44,14 @@ def report_defects(defects: Sequence[Diagnostic], made: Draft) -> int:
 
 
 def diff(plan: WritePlan, above: WritePlan | None) -> str:
-    """Return the differences of the files of a package, and of those above it."""
+    """Return the diff of the files of a package, and of those above it."""
     return plan.diff() + (above.diff() if above is not None else "")
 
 
 def summary(
     options: argparse.Namespace, files: str, made: Draft, plan: WritePlan, above: WritePlan | None
 ) -> str:
-    """Return the files, the differences of those that exist, the next commands."""
+    """Return the files, the diff of existing ones, and the next commands."""
     lines = [files]
     if not plan.is_new:
         differences = diff(plan, above)
@@ -62,7 +62,7 @@ def summary(
 
 
 def files(made: Draft, plan: WritePlan, above: WritePlan | None) -> str:
-    """Return the tree of a package with notes, and what is written above it."""
+    """Return the tree of a package with notes, and the files above it."""
     from scaffold.generate.repository import MARK
 
     rows = [

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def conflict(paths: Sequence[str], where: str, hint: str) -> ConflictError:
-    """Return the error about files that are there and differ."""
+    """Return the error about existing files that differ."""
     from scaffold.errors import ConflictError
 
     state = "exist and differ" if len(paths) > 1 else "exists and differs"
@@ -21,7 +21,7 @@ def conflict(paths: Sequence[str], where: str, hint: str) -> ConflictError:
 
 
 def by_hand(directory: str, edits: Sequence[ByHand]) -> list[str]:
-    """Return the lines that the user has to add to a package, where and why."""
+    """Return the lines that the user has to add, with place and reason."""
     lines = ["Add by hand:"] if edits else []
     for edit in edits:
         path = os.path.normpath(os.path.join(directory, edit.path))
@@ -34,8 +34,8 @@ def next_commands(directory: str, name: str, top: str) -> list[str]:
 
     Args:
         directory: The package.
-        name: What it is called.
-        top: Where colcon is started; empty for here.
+        name: Its name.
+        top: The directory in which colcon is started; empty for the current one.
     """
     from shlex import quote
 
@@ -51,5 +51,5 @@ def next_commands(directory: str, name: str, top: str) -> list[str]:
 
 
 def shortest(path: str) -> str:
-    """Return a path relative to here, or the absolute one if that is shorter."""
+    """Return a path relative to the current directory, or the absolute one if that is shorter."""
     return min(os.path.relpath(path), os.path.realpath(path), key=len)

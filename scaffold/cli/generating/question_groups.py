@@ -19,7 +19,7 @@ _OF_NODES: Mapping[str, str] = {
     ),
     "frame": "nodes: frames",
 }
-"""Groups of the questions of nodes by the types of their answers."""
+"""The groups of node questions by answer type."""
 _GROUPS = (
     *("the package", "nodes", "nodes: topics", "nodes: services and actions", "nodes: frames"),
     *("interfaces", "C++ programs", "extras"),
@@ -45,8 +45,8 @@ def add(
     """Define the flags of the templates' questions.
 
     Args:
-        parser: Of the verb.
-        templates: The base comes first.
+        parser: The parser of the verb.
+        templates: The templates, the base first.
         kinds: The kinds of parts and their questions, for tab completion.
         only: The names of the questions to define; all by default.
         package: The group of flags about the package, if there is one already.

@@ -11,11 +11,11 @@ from scaffold.generate.questions import questions
 from scaffold.generate.templates.template import Question, Template
 
 _TOGETHER = {"fields": ";", "dependencies": " "}
-"""What separates several values in one line, by the type of the answer."""
+"""The separator of several values in one line, by answer type."""
 
 
 def shown(question: Question, default: object) -> str:
-    """Return the default as text to edit; one that is derived from other answers is not shown."""
+    """Return the default as text to edit; empty if it is derived from other answers."""
     if isinstance(default, bool):
         return "yes" if default else "no"
     if isinstance(default, list | tuple):
@@ -30,7 +30,7 @@ def is_default(question: Question, value: object) -> bool:
 
 
 def split(question: Question, answer: str) -> Any:  # noqa: ANN401  a text or several
-    """Return the value, or the values, that were typed on one line."""
+    """Parse the value or values typed on one line."""
     separator = _TOGETHER.get(question.type)
     if separator is None:
         return answer
@@ -41,7 +41,7 @@ def split(question: Question, answer: str) -> Any:  # noqa: ANN401  a text or se
 def command(
     answers: Mapping[str, Any], base: Mapping[str, Question], templates: Mapping[str, Template]
 ) -> list[str]:
-    """Return the command with what differs from the defaults."""
+    """Return the command with all answers that differ from the defaults."""
     words = ["ros2-scaffold", "new", str(answers["package"])]
     for name, value in answers.items():
         if name == parts.ADD:
@@ -62,7 +62,7 @@ def _flag(name: str, value: object) -> list[str]:
 
 
 def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str:
-    """Return a part as ``--add`` takes it."""
+    """Return a part as an argument of ``--add``."""
     kind = str(entry[parts.KIND])
     asked = templates[kind].name_question
     words = [f"{kind}:{entry[asked]}"]
@@ -73,16 +73,16 @@ def _written(entry: Mapping[str, Any], templates: Mapping[str, Template]) -> str
 
 
 def _quoted_inside(word: str) -> str:
-    """Return a word for `shlex.split`, in quotes that need no others around it if possible."""
+    """Quote a word for `shlex.split`, preferably such that no outer quotes are needed."""
     if not re.search(r"[\s'\"\\]", word):
         return word
     return quoted(word) if re.search(r'["\\]', word) else f'"{word}"'
 
 
 def quoted(word: str) -> str:
-    """Return a word as bash, zsh and fish read it.
+    """Quote a word for bash, zsh and fish.
 
-    In single quotes all is as it is written, but for the backslash in fish and the quote itself.
+    In single quotes all characters are literal, except the backslash in fish and the quote itself.
     """
     if re.fullmatch(r"[\w@+=:,./-]+", word, re.ASCII) and word[0] != "=":
         return word

@@ -16,9 +16,9 @@ from scaffold.cli.interactive.history import BACK, BackError
 from scaffold.cli.interactive.screen import STYLE, columns, ended
 
 NAME_WIDTH = 22
-"""Columns for the names of choices, so that their summaries line up."""
+"""The width of the name column."""
 _MOST_FOOT = 3
-"""Lines for the summary of a choice that is cut off in the list."""
+"""The maximum number of lines for the full summary of the current choice."""
 
 
 class Choice(NamedTuple):
@@ -51,7 +51,7 @@ class ChoiceList:
         self._chosen = {*(default or ())} if takes_several else set[str]()
 
     def run(self) -> list[str]:
-        """Return the names that were chosen, in the order of the list."""
+        """Return the chosen names, in the order of the list."""
         head = Window(FormattedTextControl(self._head), wrap_lines=True, dont_extend_height=True)
         rows = FormattedTextControl(self._rows, focusable=True, show_cursor=False)
         foot = FormattedTextControl(self._foot)
@@ -70,14 +70,14 @@ class ChoiceList:
         return application.run()
 
     def _height(self) -> int:
-        """Return how many rows there is room for."""
+        """Return the number of rows that fit."""
         lines = get_app_session().output.get_size().rows
         around = len(self._lines_of_head()) + len(self._foot_lines()) + 1
         rows = len(self._matches()) + len(self._headings())
         return max(2, min(rows or 1, lines - around))
 
     def _headings(self) -> dict[int, str]:
-        """Return the headings by the position of the first choice below; a search shows none."""
+        """Return the headings by the position of their first choice; none during a search."""
         if self._typed.strip():
             return {}
         groups = [choice.group for choice in self._choices]
@@ -86,7 +86,7 @@ class ChoiceList:
         return {at: group for at, (group, last) in enumerate(pairs) if group != last}
 
     def _matches(self) -> list[Choice]:
-        """Return the choices that match: the named one first, then names, then summaries."""
+        """Return the matching choices: the exact match first, then names, then summaries."""
         word = self._typed.strip().lower()
         if not word:
             return list(self._choices)
@@ -133,7 +133,7 @@ class ChoiceList:
         return FormattedText(tokens[:-1])
 
     def _foot_lines(self) -> list[str]:
-        """Return the whole summary of the choice that is pointed at, where the row is cut."""
+        """Return the full summary of the current choice if its row is cut."""
         if all(len(self._row(choice)) <= columns() - 3 for choice in self._choices):
             return []
         matches = self._matches()

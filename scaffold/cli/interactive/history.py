@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 BACK = "<"
-"""What is typed to go back: no answer ends with it."""
+"""The key to go back; no answer ends with it."""
 
 Answer = TypeVar("Answer")
 
@@ -18,9 +18,9 @@ class BackError(Exception):
 class History:
     """The answers given so far.
 
-    To go back the interview starts over: `ask` returns what was answered before without asking, up
-    to the question that the user wants again. So its questions may depend on each other as they
-    like.
+    To go back, the interview starts over: `ask` returns earlier answers without asking, up
+    to the question to be asked again. So questions may depend on each other in
+    any way.
     """
 
     def __init__(self) -> None:
@@ -35,17 +35,17 @@ class History:
 
     @property
     def position(self) -> int:
-        """The number of questions that are answered."""
+        """The number of answered questions."""
         return self._next
 
     def ask(self, prompt: Callable[[Any], Answer]) -> Answer:
         """Return an answer.
 
         Args:
-            prompt: Asks the user; it gets the answer that was taken back, or ``None``.
+            prompt: Asks the user, given the answer that was taken back, or ``None``.
 
         Raises:
-            BackError: the user wants the question before.
+            BackError: the user wants to go back.
         """
         if not self.is_repeated:
             taken_back, self._taken_back = self._taken_back, None
@@ -60,6 +60,6 @@ class History:
         self._next = 0
 
     def forget(self, position: int) -> None:
-        """Take back what was answered since a position."""
+        """Take back all answers since a position."""
         del self._answers[position:]
         self._next = position

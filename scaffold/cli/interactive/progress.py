@@ -13,7 +13,7 @@ Item = TypeVar("Item")
 
 _PARTS = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}"
 WORTH_IT = 40
-"""Items from which on people would wonder whether anything happens."""
+"""The number of items from which a bar is shown."""
 
 
 def shown(items: Iterable[Item], total: int, unit: str) -> Iterator[Item]:
@@ -28,7 +28,7 @@ def shown(items: Iterable[Item], total: int, unit: str) -> Iterator[Item]:
 
 @final
 class Bar:
-    """A bar for work in several parts, the length of which is not known before.
+    """A bar for work in several parts of unknown length.
 
     It is a context manager: the bar is removed at its end.
     """

@@ -22,7 +22,7 @@ from scaffold.cli.interactive.screen import STYLE, columns, ended, is_dumb, say
 from scaffold.printable import printable
 
 _LEAST_INPUT = 24
-"""Columns that a line of text gets next to its question; else it starts a line of its own."""
+"""The minimum width of the input next to its question; otherwise it is on its own line."""
 
 
 def line(
@@ -33,19 +33,19 @@ def line(
     hint: str = "",
     completions: Sequence[str] = (),
 ) -> str:
-    """Ask for a line until it is acceptable.
+    """Ask for a line until it is valid.
 
     Args:
-        question: What is wanted.
-        default: What is there to be edited or taken.
-        judge: Says what is wrong with an answer.
-        hint: What happens without an answer.
-        completions: Words that are offered while somebody types.
+        question: The text of the question.
+        default: The initial text.
+        judge: Returns the error in an answer.
+        hint: The effect of an empty answer.
+        completions: Suggestions while typing.
 
     Raises:
-        KeyboardInterrupt: the user wants no more questions.
+        KeyboardInterrupt: the user interrupts.
         EOFError: the input ended without an answer.
-        BackError: the user wants the question before.
+        BackError: the user wants to go back.
     """
     start = default
     while True:
@@ -78,7 +78,7 @@ def several(question: str, choices: Sequence[Choice], default: Sequence[str] = (
 
 
 def _read(question: str, default: str, completions: Sequence[str]) -> str:
-    """Read a line that starts as the default; around it spaces do not count."""
+    """Read a line, initially the default; surrounding spaces are ignored."""
     lines = textwrap.wrap(f"? {ended(question)}", max(columns() - 1, 2))
     if len(lines) > 1 or len(lines[0]) + _LEAST_INPUT > columns():
         lines.append(">")
@@ -108,8 +108,8 @@ def _read_plainly(text: str) -> str:
 def _on_one_line(default: str) -> KeyBindings:
     """Return bindings that join pasted lines: an answer is one line.
 
-    Escape does nothing; it would take the next letter with it. `BACK` needs no enter while nothing
-    else has been typed.
+    Escape does nothing; it would swallow the next letter. `BACK` needs no enter if nothing
+    else was typed.
     """
     bindings = KeyBindings()
     bindings.add("escape", eager=True)(lambda _: None)

@@ -20,30 +20,30 @@ class Usual(NamedTuple):
     """The suggested answers."""
 
     default: object = None
-    """Instead of that of the question."""
+    """Overrides the default of the question."""
     hint: str = ""
-    """What happens without an answer, if the question does not say so."""
+    """The effect of an empty answer, if the question does not mention it."""
     summaries: Mapping[str, str] = MappingProxyType({})
-    """Of its choices."""
+    """The summaries of its choices."""
     completions: Sequence[str] = ()
     """Suggestions while the user types."""
     refused: Collection[str] = ()
-    """What other parts of the package are called."""
+    """Names of other parts of the package."""
     before: Any = None
-    """The answer that the user has taken back."""
+    """The answer taken back by the user."""
 
 
 def ask(question: Question, usual: Usual, judge: Callable[[object], str | None]) -> Any:  # noqa: ANN401  as the question wants
-    """Ask until the answer is acceptable; an empty one takes the default.
+    """Ask until the answer is valid; an empty one means the default.
 
     Args:
-        question: What is asked.
-        usual: What is offered.
-        judge: Says what is wrong with a value.
+        question: The question.
+        usual: The suggested answers.
+        judge: Returns the error in a value.
 
     Raises:
-        BackError: the user wants the question before.
-        KeyboardInterrupt: the user wants no more questions.
+        BackError: the user wants to go back.
+        KeyboardInterrupt: the user interrupts.
         EOFError: the input ended without an answer.
     """
     text, _, made = question.help.partition(" (")

@@ -25,10 +25,10 @@ STYLE = Style.from_dict(
 
 @contextmanager
 def terminal() -> Iterator[None]:
-    """Ask on the terminal of this process while the context lasts.
+    """Use the terminal of this process for questions within the context.
 
-    The terminal is not asked where its cursor is: not all answer, and some answer late. What its
-    encoding cannot show is spelled out, now and afterwards.
+    The terminal is not asked for its cursor position: not all answer, and some do so late.
+    Characters that its encoding lacks are escaped, now and afterwards.
     """
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")

@@ -25,13 +25,13 @@ ORIGIN = "your answer"
 _DONE = "nothing more"
 _WRITE, _CHANGE, _STOP = "write", "change", "stop"
 _NEVER_WITH = {Role.NODE: Role.INTERFACE, Role.INTERFACE: Role.NODE}
-"""What no package holds together: interfaces have a package of their own."""
+"""Roles that cannot be in one package: interfaces have their own."""
 _ANYBODY = {
     "package": Given("package_to_be", ORIGIN),
     "maintainer_name": Given("Ada", ORIGIN),
     "maintainer_email": Given("ada@example.com", ORIGIN),
 }
-"""Answers to try others with, before they are asked."""
+"""Placeholder answers to validate others with."""
 
 
 class Asked(NamedTuple):
@@ -39,18 +39,18 @@ class Asked(NamedTuple):
 
     given: dict[str, Given]
     command: str
-    """The command that does the same without questions."""
+    """The equivalent command without questions."""
 
 
 class Trial(NamedTuple):
     """Validates answers; raises a `ScaffoldError` if they cannot be used."""
 
     name: Callable[[str], None]
-    """For the name of the package alone."""
+    """Validates the name of the package."""
     package: Callable[[Mapping[str, Given]], Mapping[str, Any]]
-    """For the answers that there are; returns all, those that follow from others included."""
+    """Validates the answers so far; returns all, including derived ones."""
     preview: Callable[[Mapping[str, Given]], str]
-    """For all answers; returns the tree of what would be written."""
+    """Validates all answers; returns the tree of files to be written."""
 
 
 def ask(
@@ -60,17 +60,17 @@ def ask(
     trial: Trial,
     options: list[str],
 ) -> Asked:
-    """Ask what is not given yet.
+    """Ask the questions without a given answer.
 
     Args:
         templates: All templates.
-        given: What flags, an answers file and the configuration say.
-        user: Knows the maintainer, and where the package is to be.
-        trial: Judges answers together.
-        options: What the command line says besides answers.
+        given: The answers in flags, an answers file and the configuration.
+        user: Supplies the maintainer and the directory of the package.
+        trial: Validates answers together.
+        options: The other options on the command line.
 
     Raises:
-        KeyboardInterrupt: the user wants no more questions.
+        KeyboardInterrupt: the user interrupts.
     """
     try:
         with terminal():
@@ -106,7 +106,7 @@ class _Interview:
         self._history = History()
 
     def answers(self) -> dict[str, Any]:
-        """Ask what is not given; return the answers that are not defaults."""
+        """Ask the questions without a given answer; return the answers other than defaults."""
         while True:
             self._answers = {}
             try:
@@ -143,7 +143,7 @@ class _Interview:
                 self._answers[name] = value
 
     def _confirm(self) -> None:
-        """Show what would be written, and ask whether that is wanted."""
+        """Show a preview, and ask for confirmation."""
         if not self._history.is_repeated:
             try:
                 show(self._trial.preview(self._together()))
@@ -162,12 +162,12 @@ class _Interview:
             raise KeyboardInterrupt
 
     def _say(self, text: str) -> None:
-        """Say something once, and not again when the interview starts over."""
+        """Print a text once, and not again when the interview starts over."""
         if not self._history.is_repeated:
             say(text)
 
     def _description(self) -> str:
-        """Return what happens without a description."""
+        """Return the hint for an empty description."""
         if self._history.is_repeated:
             return ""
         try:
@@ -177,7 +177,7 @@ class _Interview:
         return f"default: {usual}"
 
     def _wrong(self, name: str, default: Given) -> bool:
-        """Tell whether git's name and email of the user are unusable in a package."""
+        """Tell whether the name or email of the user in git is invalid in a package."""
         return name in self._base and self._fault(self._base[name], default.value) is not None
 
     @property
@@ -185,7 +185,7 @@ class _Interview:
         return str(self._answers.get("build_type") or self._given["build_type"].value)
 
     def _ask_parts(self) -> None:
-        """Ask for one part after the other, until they are all."""
+        """Ask for one part after the other until the user stops."""
         entries: list[dict[str, Any]] = []
         definitions = _definitions(self._user.directory)
         while True:
@@ -203,7 +203,7 @@ class _Interview:
         self._answers[parts.ADD] = entries
 
     def _kind(self, taken: Sequence[str]) -> str:
-        """Ask for the kind of the next part; what cannot be with the others is not offered."""
+        """Ask for the kind of the next part, among those compatible with the others."""
         refused = {_NEVER_WITH.get(self._templates[kind].role) for kind in taken}
         choices = [
             Choice(template.name, template.summary, group=section)
@@ -231,7 +231,7 @@ class _Interview:
         return None
 
     def _together(self) -> dict[str, Given]:
-        """Return all answers that there are so far, and some for questions that come later."""
+        """Return all answers so far, with placeholders for later questions."""
         answered = {name: Given(value, ORIGIN) for name, value in self._answers.items()}
         return {**_ANYBODY, **self._given, **answered}
 
@@ -285,7 +285,7 @@ class _Interview:
         )
 
     def _fault(self, question: Question, value: object) -> str | None:
-        """Return what is wrong with an answer."""
+        """Return the error in an answer."""
         try:
             questions.parse(question, Given(value, ""), self._user.directory)
             if question.name == "package":
@@ -296,7 +296,7 @@ class _Interview:
 
 
 def _full_name(question: Question, entry: Mapping[str, Any], template: Template) -> str:
-    """Return the topic or service that a part uses; empty if that follows from its type."""
+    """Return the topic or service of a part; empty if it follows from its type."""
     given = str(entry.get(question.name, question.default))
     return (
         ""
@@ -319,7 +319,7 @@ def _definitions(directory: str) -> Definitions:
 
 
 def _types(definitions: Definitions, question: Question) -> Sequence[str]:
-    """Return the types that a question may be answered with, to complete one."""
+    """Return the possible types for completion."""
     if question.type not in INTERFACES:
         return ()
     middle = f"/{INTERFACES[question.type]}/"

@@ -20,12 +20,12 @@ COUNTED = ("break", "change silently", "deprecated")
 def lines(
     consequences: Sequence[Consequences], found: Origins, target: Distribution, *, is_unsafe: bool
 ) -> Iterator[str]:
-    """Yield the report: packages with what happens to them, then the counts.
+    """Yield the report: packages with their consequences, then the counts.
 
     Args:
-        consequences: What is left in the packages.
-        found: Where they come from.
-        target: Where they move to.
+        consequences: The remaining consequences.
+        found: The origins of the packages.
+        target: The target.
         is_unsafe: Whether unsafe fixes are wanted.
     """
     from scaffold.cli.migrating.origins import sentence, shares
@@ -68,7 +68,7 @@ def _unexamined_files(item: Consequences) -> int:
 
 
 def _folded(package: Package, diagnostics: Sequence[Diagnostic]) -> Iterator[str]:
-    """Yield each message once, and for each file the other lines that it is about."""
+    """Yield each message once, with its other lines by file."""
     from scaffold.printable import printable
     from scaffold.reporters import text
     from scaffold.reporters.paths import shown

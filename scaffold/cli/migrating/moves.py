@@ -1,4 +1,4 @@
-"""Migrates packages in memory: findings, fixes, and what is left."""
+"""Migrates packages in memory: findings, fixes, and remaining consequences."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ class Moved(NamedTuple):
     """The result of a migration, in memory."""
 
     consequences: Sequence[Consequences]
-    """Of what is left."""
+    """The remaining consequences."""
     fixed: Mapping[str, Fixed]
-    """What fixes change, by directory; nothing where they are not wanted."""
+    """The fixed packages by directory; empty without fixes."""
     types_failure: str
 
     @property
     def arrived(self) -> list[str]:
-        """The directories of packages where nothing is left."""
+        """The directories of packages without remaining consequences."""
         if self.types_failure:
             return []
         return [item.result.package.directory for item in self.consequences if item.is_done]
@@ -60,7 +60,7 @@ class Mover:
         self._fixed: dict[str, Fixed] = {}
 
     def move(self, move: Move) -> Moved:
-        """Find out what a move changes, and what fixes make of it if they are wanted."""
+        """Compute the consequences of a move, after fixes if requested."""
         from scaffold.check.migration import Consequences, identities
 
         has_fixes = self._options.fix or self._options.diff
@@ -83,10 +83,10 @@ class Mover:
         return Moved(consequences, self._fixed, session.types_failure)
 
     def session(self, *, is_back: bool) -> MigratingSession:
-        """Return what checks packages.
+        """Return the session for packages.
 
         Args:
-            is_back: Whether they move to an older distribution.
+            is_back: Whether packages move to an older distribution.
         """
         from scaffold.check.migration import CODES, MigratingSession, deprecations
 
@@ -100,7 +100,7 @@ class Mover:
     def _with_kept(
         self, move: Move, session: MigratingSession, results: Sequence[Result]
     ) -> list[Result]:
-        """Add to the results for the target what is found for the distributions that are kept."""
+        """Add the findings for kept distributions to the results for the target."""
         from scaffold.check.migration import identities
         from scaffold.check.several import merged
 
@@ -127,10 +127,10 @@ class Mover:
         )
 
     def _ordering(self, move: Move) -> OrderSession:
-        """Return what sorts imports that the fixes leave unsorted, by their new names.
+        """Return the fixes that sort imports left unsorted by other fixes.
 
-        It works for where the packages come from, as nothing but the fixes has changed there; files
-        whose imports are no worse than before are left alone.
+        They are those for the origin, where only the fixes have changed something; files
+        whose imports are no worse than before are not changed.
         """
         from scaffold.check.migration import ORDER, OrderSession, unordered
 
@@ -152,7 +152,7 @@ class Mover:
             self._fixed[item.package.directory] = item if before is None else before.then(item)
 
     def _targets(self, session: Session, move: Move) -> list[Target]:
-        """Return the packages, with what has been fixed in them."""
+        """Return the packages with their fixes."""
         from scaffold.check.fixes.overlay import Overlay
         from scaffold.cli.packages import find_targets
 

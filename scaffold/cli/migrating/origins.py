@@ -21,15 +21,15 @@ class Origins(NamedTuple):
     """The distributions that packages are migrated from."""
 
     directories: Mapping[Distribution, Sequence[str]]
-    """The directories of the packages that move, by where they come from, oldest first."""
+    """The directories of the packages that move, by origin, oldest first."""
     arrived: Mapping[str, Distribution]
-    """What the other packages are for, by directory: the target, or the same under another name."""
+    """The distributions of the other packages by directory: the target or an alias."""
     assumed: Sequence[str]
     """Those of the other packages whose distribution is unknown."""
     guessed: Sequence[str]
     """Those of the migrated packages whose distribution is unknown."""
     ended: Mapping[str, Distribution]
-    """The names in records that are supported no more, with what the packages move from instead."""
+    """Unsupported distributions in records, with the assumed origin instead."""
 
 
 def find(
@@ -39,17 +39,17 @@ def find(
     kept: Sequence[Distribution],
     directories: Iterable[str],
 ) -> Origins:
-    """Find out where packages come from: the oldest that they are for, and that is not the target.
+    """Find the origins of packages: their oldest distribution other than the target.
 
     Args:
-        flag: What the user says.
-        settings: What the configuration says, without a flag; then the records count.
-        target: Where they move to.
-        kept: What they are to run on besides; a package for the target alone comes from there.
-        directories: Of the packages.
+        flag: The flag.
+        settings: The configuration, used without the flag; then records are used.
+        target: The target.
+        kept: The distributions to keep; a package only for the target comes from there.
+        directories: The directories of the packages.
 
     Raises:
-        InputError: there is no distribution of a name, or the packages are for the target only as
+        InputError: a distribution is unknown, or the packages are for the target only as
             far as is known.
     """
     named = [distributions.named(flag, "--from")] if flag else distro.wanted(None, settings)
@@ -93,7 +93,7 @@ def find(
 
 
 def _ended(directory: str) -> list[str]:
-    """Return the names in the record of a package that are supported no more."""
+    """Return the names in the record of a package that are no longer supported."""
     names = distro.recorded_names(directory) or ()
     return [name for name in names if name in distributions.ENDED_ROS2]
 
@@ -107,7 +107,7 @@ def _recorded(directory: str, ended: Sequence[str]) -> list[Distribution] | None
 
 
 def notes(origins: Origins, target: Distribution) -> Iterator[str]:
-    """Yield what users may not expect of where packages come from, a line each."""
+    """Yield notes on unexpected origins of packages, one line each."""
     for name, origin in origins.ended.items():
         yield _succession(name, origin)
     if origins.assumed:
@@ -134,7 +134,7 @@ def _assumption(origins: Origins, target: Distribution) -> str:
 
 
 def _succession(name: str, origin: Distribution) -> str:
-    """Return the sentence about records of a distribution that is supported no more."""
+    """Return the sentence about records of a distribution that is no longer supported."""
     title = name.capitalize()
     return (
         f"packages recorded for {title}, which {distributions.ending(name)}, move from "

@@ -23,7 +23,7 @@ class Recorded(NamedTuple):
     """The records that were updated, and those that were not."""
 
     before: Mapping[str, Sequence[str]]
-    """What the packages were for whose records are changed, by directory."""
+    """The old distributions of packages with changed records, by directory."""
     has_others: bool
     """Whether there are packages without a record."""
 
@@ -33,11 +33,11 @@ _ANSWER = re.compile(rf'^    "{distro.ANSWER}": [^\n]*,\n', re.MULTILINE)
 
 
 def plan(directory: str, targets: Sequence[Distribution]) -> tuple[bytes, bytes] | None:
-    """Return a record as it is and as it is to be; ``None`` if there is nothing to change.
+    """Return the old and the new record; ``None`` if there is nothing to change.
 
     Args:
-        directory: Of the package.
-        targets: The distributions that the package is for now.
+        directory: The directory of the package.
+        targets: The new distributions of the package.
     """
     names = [target.name for target in targets]
     if distro.recorded_names(directory) in (None, names):
@@ -48,11 +48,11 @@ def plan(directory: str, targets: Sequence[Distribution]) -> tuple[bytes, bytes]
 
 
 def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config) -> Iterator[str]:
-    """Yield what is not recorded any more, and what wins over the records, a line each.
+    """Yield notes on distributions no longer recorded, and on overridden records, one line each.
 
     Args:
-        recorded: What became of the records.
-        targets: What the packages are for now.
+        recorded: The updated records.
+        targets: The new distributions of the packages.
         settings: The configuration.
     """
     titles = distributions.titles(targets)
@@ -85,18 +85,18 @@ def notes(recorded: Recorded, targets: Sequence[Distribution], settings: Config)
 
 
 def _is_among(name: str, targets: Sequence[Distribution]) -> bool:
-    """Return whether a distribution is one of some, maybe under another name."""
+    """Return whether a distribution is among others, possibly under an alias."""
     places = {item.place for item in targets}
     return name in distributions.NAMES and distributions.named(name).place in places
 
 
 def held(directories: Iterable[str], targets: Sequence[Distribution], *, has_unread: bool) -> str:
-    """Return what to say of packages that are not recorded yet; nothing if none has a record.
+    """Return the note on packages that are not recorded yet; empty if none has a record.
 
     Args:
-        directories: Of the packages that are not ready.
-        targets: What they are to be for.
-        has_unread: Whether files of them could not be read.
+        directories: The directories of the packages that are not ready.
+        targets: The new distributions.
+        has_unread: Whether some of their files could not be read.
     """
     names = [target.name for target in targets]
     waiting = [path for path in directories if distro.recorded_names(path) not in (None, names)]
@@ -119,7 +119,7 @@ _SHOWN = 3
 
 
 def with_answer(text: str, names: Sequence[str]) -> str:
-    """Return a record with another answer; every other line stays as it is."""
+    """Return a record with another answer and all other lines unchanged."""
     line = f"    {json.dumps(distro.ANSWER)}: {json.dumps([*names])},\n"
     old = _ANSWER.search(text)
     if old is None:  # of a version that did not ask

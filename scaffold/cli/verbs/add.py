@@ -85,10 +85,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _targets(options: argparse.Namespace, directory: str, settings: Config) -> list[Distribution]:
-    """Return what a package is for.
+    """Return the distributions of a package.
 
     Raises:
-        InputError: its record says otherwise than the flag.
+        InputError: its record differs from the flag.
     """
     from scaffold import distributions
     from scaffold.cli import distro
@@ -187,7 +187,7 @@ def _order(
 
 
 def _asked(templates: Mapping[str, Template]) -> list[Question]:
-    """Return the questions that may be answered; the name is an argument of its own."""
+    """Return the questions for flags; the name is a separate argument."""
     from scaffold.generate import parts
     from scaffold.generate.add.regenerate import OF_PACKAGES
     from scaffold.generate.questions import questions
@@ -203,7 +203,7 @@ def _asked(templates: Mapping[str, Template]) -> list[Question]:
 def _given(
     options: argparse.Namespace, templates: Mapping[str, Template], settings: Config
 ) -> dict[str, Given]:
-    """Return the user's answers, without settings that an existing package determines itself."""
+    """Return the user's answers, without those that an existing package implies."""
     from scaffold.generate.add.regenerate import OF_PACKAGES
     from scaffold.generate.questions import defaults, questions
 
@@ -262,7 +262,7 @@ def _findings(session: Session, before: list[Diagnostic], added: Added) -> list[
 def _refuse_elsewhere(
     session: Session, package: Package, added: Added, others: Sequence[Distribution]
 ) -> None:
-    """Raise InputError if what was added has errors on other distributions of the package."""
+    """Raise InputError if the addition has errors on other distributions of the package."""
     from scaffold import distributions
     from scaffold.diagnostic import Severity
     from scaffold.errors import InputError
@@ -282,7 +282,7 @@ def _refuse_elsewhere(
 
 
 def _plan(package: Package, added: Added, *, is_named: bool, force: bool) -> WritePlan:
-    """Compare with the existing files; shared files are edited, files of the part are not."""
+    """Plan the writes; shared files are edited, files of the part must be new."""
     from scaffold.files.tree import DiskTree
     from scaffold.writing.plan import WritePlan
 
@@ -306,7 +306,7 @@ def _refuse_differing(
     *,
     force: bool,
 ) -> None:
-    """Raise if a file that is to be new exists and differs."""
+    """Raise if a new file exists already and differs."""
     differing = [
         file.path
         for file in plan.files
@@ -319,8 +319,8 @@ def _refuse_differing(
 def _is_defect(session: Session, diagnostics: list[Diagnostic], added: Added) -> bool:
     """Tell whether an edit or a template caused an error.
 
-    Findings in other files do not count: some are checked only now that there is a program. Nor do
-    findings about the package's own lines that are there without any edit.
+    Findings in other files are ignored: some are checked only now that there is a program. So are
+    findings about existing lines.
     """
     from scaffold.diagnostic import Severity
 
@@ -344,7 +344,7 @@ def _show(
     plan: WritePlan,
     above: WritePlan | None,
 ) -> None:
-    """Print the diff or the summary, and what is left to the user."""
+    """Print the diff or the summary, and the edits left to the user."""
     if options.diff:
         terminal.show_patch(add_report.diff(plan, above))
     else:

@@ -90,13 +90,13 @@ def run(options: argparse.Namespace) -> int:
 def _recorded(
     options: argparse.Namespace, session: Session, disk: Disk
 ) -> tuple[dict[str, Sequence[Distribution]], list[Target] | None]:
-    """Return what each package is for, by directory; nothing if that is the default for all.
+    """Return the distributions of packages by directory; empty if all have the default.
 
-    Then the packages come with it: they have been looked for with the default in mind. Those whose
-    record names what is not known, or is supported no more, are named and left out.
+    The packages are returned as well, since they were searched for the default. Those whose
+    record names an unknown or no longer supported distribution are noted and skipped.
 
     Raises:
-        InputError: that are all of them.
+        InputError: these are all packages.
     """
     from scaffold.errors import InputError
     from scaffold.model.discovery import colcon
@@ -219,7 +219,7 @@ def _validate_cluster(options: argparse.Namespace) -> None:
 def _give_settings(
     session: Session, options: argparse.Namespace, choices: Choices, config: Config
 ) -> None:
-    """Tell a session what the workers of the cluster make theirs of."""
+    """Give a session the settings for the sessions of cluster workers."""
     from scaffold.check.cluster.batch import Settings
     from scaffold.check.cluster.on_cluster import ClusterSession
     from scaffold.errors import InputError
@@ -245,7 +245,7 @@ def _give_settings(
 
 
 def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) -> int:
-    """Check or fix standard input; a fixed text is all that standard output gets."""
+    """Check or fix standard input; with fixes, standard output gets only the fixed text."""
     from scaffold.cli import reports
     from scaffold.cli.checking import standard_input
 
@@ -264,7 +264,7 @@ def _check_unsaved(options: argparse.Namespace, session: Session, disk: Disk) ->
 
 
 def _fix(options: argparse.Namespace, session: Session, targets: Sequence[Target]) -> int:
-    """Fix, or show what would be fixed; report what remains."""
+    """Fix, or show the patch; report the remaining findings."""
     from scaffold.check.result import Result
     from scaffold.cli.checking import fixing
     from scaffold.cli.exit_codes import USAGE_ERROR
@@ -311,7 +311,7 @@ def _report_fixes(
 
 
 def _reference(targets: Sequence[Target]) -> int:
-    """Compare the docstring rules with pydocstyle; each difference is a defect of ours."""
+    """Compare the docstring rules with pydocstyle; each difference is a defect of this tool."""
     from scaffold.ament.pep257 import reference
     from scaffold.cli.exit_codes import CLEAN, INTERNAL_ERROR
     from scaffold.reporters.paths import shown

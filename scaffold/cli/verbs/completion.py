@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print the code that the shell has to read."""
+    """Print the code for the shell."""
     from argcomplete.shell_integration import shellcode
 
     code = shellcode(["ros2-scaffold"], shell=options.shell)
@@ -30,7 +30,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def words_before(variables: Mapping[str, str]) -> list[str]:
-    """Return the words before the one that is completed, without the name of the program."""
+    """Return the words before the one to complete, without the program."""
     from argcomplete.lexers import split_line
 
     line = variables.get("COMP_LINE", "").encode()

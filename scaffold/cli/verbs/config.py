@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from scaffold.configuration.config import Config
 
 DEFAULT = "default"
-"""Shown where a value comes from no file."""
+"""The origin of values that no file sets."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -88,7 +88,7 @@ _ANSWERS = "new."
 
 
 def _toml(value: object) -> str:
-    """Return a value as TOML writes it."""
+    """Format a value as TOML."""
     import json
 
     if isinstance(value, dict):

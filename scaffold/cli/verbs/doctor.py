@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Look at the machine, or print the lines; return the exit code."""
+    """Diagnose the machine, or print the shell lines; return the exit code."""
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.doctor import checks, report, shell
     from scaffold.doctor.environments import environments

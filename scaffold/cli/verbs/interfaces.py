@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """List interfaces, or show some; unknown and ambiguous types are the user's fault."""
+    """List interfaces, or show some; unknown and ambiguous types are user errors."""
     definitions = _definitions(options.workspace)
     listed: list[str] = []
     shown: list[Interface] = []

@@ -117,9 +117,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _held(stack: ExitStack, options: argparse.Namespace, mover: Mover) -> tuple[list[str], bool]:
-    """Return the directories of the packages, which are held if they are written to.
+    """Return the directories of the packages, locked if they are written to.
 
-    A package that another process is changing is left out; then the second value is true.
+    A package that another process is changing is skipped; then the second value is true.
 
     Raises:
         InputError: there is none.
@@ -152,18 +152,18 @@ def _put(
     targets: Sequence[Distribution],
     settings: Config,
 ) -> tuple[bool, bool]:
-    """Write what has been fixed, with the records of packages, or show the patch.
+    """Write the fixes and the records of packages, or show the patch.
 
-    The record of a package where something is left stays, so that the next run reports it again.
+    The record of a package with remaining consequences is kept, so that the next run reports them.
 
     Args:
         options: The flags.
-        moves: What becomes of the packages.
-        targets: What they are for then.
-        settings: The configuration, which wins over the records.
+        moves: The moved packages.
+        targets: The new distributions.
+        settings: The configuration, which overrides the records.
 
     Returns:
-        Whether a package was refused, and whether anything changes.
+        Whether a package was rejected, and whether anything changes.
     """
     from scaffold.cli.checking import fixing
     from scaffold.cli.migrating import records
@@ -196,7 +196,7 @@ def _put(
 def _with_records(
     fixed: Mapping[str, Fixed], arrived: Sequence[str], targets: Sequence[Distribution]
 ) -> dict[str, Fixed]:
-    """Return what is written to packages whose records are changed as well, by directory."""
+    """Return the packages to write, including changed records, by directory."""
     from scaffold.cli.migrating import records
     from scaffold.writing.transaction import RECORD
 
@@ -238,7 +238,7 @@ def _note_held(
 
 
 def _complete(options: argparse.Namespace, choices: Choices) -> None:
-    """Set what the functions of `check` ask for besides the flags of this verb."""
+    """Set the flags of `check` that this verb lacks."""
     options.whole_packages = True
     options.policy = choices.policy()
     options.notes = ()

@@ -76,7 +76,7 @@ def _run(
     templates: dict[str, Template],
     given: dict[str, Given],
 ) -> int:
-    """Write a package for the target, asking on a terminal what is not given."""
+    """Write a package for the target, asking on a terminal for missing answers."""
     from scaffold.cli import distro
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.errors import ScaffoldError
@@ -137,7 +137,7 @@ def _ask(
     templates: dict[str, Template],
     given: dict[str, Given],
 ) -> Asked:
-    """Ask on a terminal what a command line would say.
+    """Ask questions on a terminal.
 
     Raises:
         InputError: there is no terminal.
@@ -196,7 +196,7 @@ def _dependencies(
 
 
 def _besides_answers(options: argparse.Namespace) -> list[str]:
-    """Return the options of this verb that answer no question, as on a command line."""
+    """Return the options of this verb other than answers, as on a command line."""
     words: list[str] = []
     if options.destination_directory != ".":
         words += ["--destination-directory", options.destination_directory]
@@ -230,7 +230,7 @@ def _given(
 def _left_to_owners(
     options: argparse.Namespace, made: Draft, around: Place
 ) -> dict[str, ByHand | None]:
-    """Return the files that are there and may hold what others need."""
+    """Return the existing files that may have entries of others."""
     from scaffold.generate import repository
 
     directory = os.path.join(options.destination_directory, made.name)
@@ -244,7 +244,7 @@ def _left_to_owners(
 
 
 def _plan(options: argparse.Namespace, made: Draft, left: Collection[str]) -> WritePlan:
-    """Compare with the existing files; an existing package is left alone without ``--force``."""
+    """Plan the writes; an existing package is not changed without ``--force``."""
     from scaffold.generate import repository
     from scaffold.generate.update import provenance
     from scaffold.writing.plan import WritePlan
@@ -281,7 +281,7 @@ def _write(
 def _plan_above(
     made: Draft, around: Place, left: Collection[str], *, force: bool
 ) -> WritePlan | None:
-    """Compare with what is at the top of the repository around the new package."""
+    """Plan the writes at the top of the repository around the new package."""
     from scaffold.generate import repository
 
     files = {path: text for path, text in made.rendered.files.items() if path not in left}
@@ -293,7 +293,7 @@ def _plan_above(
 
 
 def _refuse_existing(options: argparse.Namespace, name: str) -> str:
-    """Return the directory of a package; raise if it is there and may not be overwritten."""
+    """Return the directory of a package; raise if it exists and may not be overwritten."""
     from scaffold.cli import writing
     from scaffold.errors import ConflictError
     from scaffold.writing.stage import sweep

@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _explained(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> str:
-    """Return what is known about the rules that a word means."""
+    """Return the documentation of the rules that match a word."""
     from scaffold.ament.codes import STYLE
     from scaffold.check.rules import docs
 
@@ -79,7 +79,7 @@ def _explained(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> 
 
 
 def _codes(word: str, rules: list[type[Rule]], areas: Mapping[str, str]) -> list[str]:
-    """Return the codes that a word means, as ``check --select`` takes it."""
+    """Return the codes that match a word, as for ``check --select``."""
     from scaffold.ament.codes import STYLE
     from scaffold.check import selection
     from scaffold.errors import ConfigError, InputError

@@ -237,10 +237,10 @@ def _run(options: argparse.Namespace, interruption: Interruption) -> int:
 
 
 def _wanted(options: argparse.Namespace, packages: Sequence[Package]) -> Sequence[Distribution]:
-    """Return the distributions that the packages can be observed on; any, if none is named.
+    """Return the distributions on which the packages can be run; any if they name none.
 
     Raises:
-        InputError: none of them serves all packages.
+        InputError: there is no common distribution.
     """
     import os
 
@@ -299,7 +299,7 @@ def _selected(
 
 
 def _validate(options: argparse.Namespace) -> None:
-    """Make sure that reports can be written, before the work is done.
+    """Make sure that reports can be written, before the work starts.
 
     Raises:
         InputError: they cannot.
@@ -322,7 +322,7 @@ def _validate(options: argparse.Namespace) -> None:
 
 
 def _report(options: argparse.Namespace, result: Smoke) -> None:
-    """Write the report, the page, and the summary of a job, each as far as it can be.
+    """Write the report, the page, and the job summary, even if one of them fails.
 
     Raises:
         InputError: one of them could not be written.

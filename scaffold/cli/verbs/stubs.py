@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from scaffold.model.workspace.workspace import Workspace
 
 TYPINGS = "typings"
-"""Where Pylance and pyright look for stubs."""
+"""The directory in which Pylance and pyright look for stubs."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _advice(output: str) -> str:
-    """Return what is left to configure."""
+    """Return the remaining configuration steps."""
     default = os.path.normpath(output) == TYPINGS
     pyright = (
         "Pylance and pyright read it without configuration"

@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _offer(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """Offer the templates to copy, and directories, to who presses tab."""
+    """Complete the templates to copy, and directories."""
     from scaffold.configuration import content
     from scaffold.generate.templates import loading
 
@@ -136,7 +136,7 @@ def _test(
     templates: Mapping[str, Template],
     names: Sequence[str],
 ) -> int:
-    """Print the outcome of each example; return 1 if one fails or there is none."""
+    """Print the result of each example; return 1 if one fails or there is none."""
     from scaffold.check.rules import registry
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
@@ -165,7 +165,7 @@ def _test(
 
 
 def _build(tried: Sequence[Tried]) -> int:
-    """Build what was rendered; return how many packages do not."""
+    """Build the rendered packages; return the number of failures."""
     import tempfile
 
     from scaffold.smoke.only_build import only_build
@@ -185,7 +185,7 @@ def _build(tried: Sequence[Tried]) -> int:
 
 
 def _rounds(tried: Sequence[Tried]) -> list[dict[str, tuple[Example, Draft]]]:
-    """Return the packages by name; colcon cannot build two of one name together."""
+    """Split the packages into rounds, as colcon cannot build two of one name together."""
     rounds: list[dict[str, tuple[Example, Draft]]] = []
     for item in tried:
         if item.made is None:

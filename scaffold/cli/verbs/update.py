@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distribution] | None) -> int:
-    """Update a package, and move it to other distributions if there are some to move it to."""
+    """Update a package, and move it to other distributions if requested."""
     from scaffold.cli import settings, writing
     from scaffold.cli.exit_codes import CLEAN, FINDINGS
     from scaffold.configuration import content
@@ -97,7 +97,7 @@ def _run(options: argparse.Namespace, directory: str, moved: Sequence[Distributi
 def _summary(
     options: argparse.Namespace, updated: Updated, plan: WritePlan, above: WritePlan | None
 ) -> str:
-    """Return a line for each file that changes, and what to do about conflicts."""
+    """Return a line for each changed file, and instructions for conflicts."""
     from scaffold.generate.repository import MARK
     from scaffold.writing.planned_file import State
 
@@ -121,7 +121,7 @@ def _summary(
 
 
 def _next(directory: str, moved: Sequence[Distribution]) -> str:
-    """Return what is left to do for other distributions: the user's own code."""
+    """Return the remaining steps for new distributions, about the user's own code."""
     from shlex import quote
 
     from scaffold import distributions

@@ -14,7 +14,7 @@ from scaffold.doctor.machine import Machine
 
 
 def run(machine: Machine) -> Iterator[tuple[str, Finding]]:
-    """Yield what all checks find, with the names of the checks."""
+    """Yield the findings of all checks, with the names of the checks."""
     for module in sorted(iter_modules(__path__), key=lambda item: item.name):
         check = import_module(f"{__name__}.{module.name}").check
         for finding in check(machine):

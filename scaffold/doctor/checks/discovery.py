@@ -12,7 +12,7 @@ from scaffold.doctor.machine import Machine
 RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 _OLD = "ROS_LOCALHOST_ONLY"
-"""The variable of distributions that do not know the range."""
+"""The variable used before the discovery range."""
 _TRUE = "1"
 
 

@@ -10,7 +10,7 @@ from scaffold.doctor.machine import Machine
 
 LAST = 232
 LAST_SAFE = 101
-"""The ports of the domains above are among those that Linux gives to outgoing connections."""
+"""The last domain with ports below those that Linux uses for outgoing connections."""
 
 
 def check(machine: Machine) -> Iterator[Finding]:

@@ -18,7 +18,7 @@ _VARIABLES = (
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield findings for the variables, and for what the workspace was built on."""
+    """Yield findings for the variables, and for the underlays of the workspace."""
     places: dict[str, list[str]] = {}
     for variable in _VARIABLES:
         for path in machine.paths(variable):

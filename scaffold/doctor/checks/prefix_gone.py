@@ -13,7 +13,7 @@ from scaffold.doctor.shell import START_FILES
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield a finding for the directories that are gone."""
+    """Yield a finding for directories that no longer exist."""
     gone = [path for path in machine.prefixes if not os.path.isdir(path)]
     if not gone:
         return

@@ -10,7 +10,7 @@ from scaffold.doctor.machine import Machine, python_in
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield a finding if extension modules such as rclpy's will not be found."""
+    """Yield a finding if extension modules such as those of rclpy will not be found."""
     running = machine.python_version
     if running is None:
         return

@@ -17,11 +17,11 @@ KNOWN = frozenset(
         "rmw_zenoh_cpp",
     }
 )
-"""Those that have packages."""
+"""The middlewares with packages."""
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield a finding if RMW_IMPLEMENTATION names one that is not there."""
+    """Yield a finding if RMW_IMPLEMENTATION names a missing middleware."""
     wanted = machine.variables.get("RMW_IMPLEMENTATION")
     if not wanted or not machine.prefixes:
         return

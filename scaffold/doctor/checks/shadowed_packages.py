@@ -1,4 +1,4 @@
-"""A package is sourced from two places: the first one hides the other."""
+"""A package is sourced from two places: the first one shadows the other."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scaffold.doctor.machine import Machine, packages_in
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield a finding for each package that hides another."""
+    """Yield a finding for each package that shadows another."""
     places: dict[str, list[str]] = {}
     for prefix in dict.fromkeys(machine.prefixes):
         for name in packages_in(prefix):

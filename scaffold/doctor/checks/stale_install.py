@@ -13,7 +13,7 @@ from scaffold.doctor.workspace import Workspace
 
 
 def check(machine: Machine) -> Iterator[Finding]:
-    """Yield findings for packages that have gone, changed, or were never built."""
+    """Yield findings for packages that were removed, changed, or never built."""
     workspace = machine.workspace
     if workspace is None:
         return
