@@ -69,7 +69,8 @@ def by_cause(result: Result, *, everything: bool = False) -> list[Entry]:
     """Return the findings of a package as entries.
 
     Findings have one cause if their rules say so, or if their messages are equal. A manifest
-    without dependencies and a file without imports are one cause as well, unless everything is shown.
+    without dependencies and a file without imports are one cause as well, unless everything is
+    shown.
     """
     bare: set[str] = set() if everything else _without_imports(result.diagnostics)
     causes: dict[tuple[str, ...], list[Place]] = {}
